@@ -6,12 +6,15 @@ The tests run a few of these leagues; `python tests/simulated_levels.py 200` run
 import sys
 
 import numpy as np
+from scipy.special import betaincinv, logit
 
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.levels import Levels
 from evenbreak.ratings.stretches import stretch_losses
 
 SPREAD, TEAMS = 0.4, 6
+IMPLIED = logit(betaincinv(6, np.arange(6, 1, -1), 0.5))
+"""The differences at which the races 6:6, 6:5, ... 6:2 are even."""
 
 
 def league(rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_day=18):
@@ -26,7 +29,7 @@ def league(rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_da
     joins = np.where(late, rng.integers(days // 10, days - days // 6, players), 0)
     stated = np.zeros(players)
     if races is not None:
-        stated = rng.normal(0.0, 0.6, players)
+        stated = rng.normal(0.0, 0.35, players)
     skill = levels[team] + rng.normal(0.0, SPREAD, players) - below * (joins > 0)
     skill += (races or 0.0) * stated
     rows = []
@@ -51,7 +54,7 @@ def league(rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_da
 
 def _race(difference):
     """Return the race that is nearest to even at a stated difference, the longer to 6."""
-    give = min(4, int(abs(difference) / 0.25 + 0.5))
+    give = int(np.abs(IMPLIED - abs(difference)).argmin())
     return (6, 6 - give) if difference >= 0 else (6 - give, 6)
 
 

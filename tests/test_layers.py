@@ -33,6 +33,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "handicaps.ladders",
         "handicaps",
         "league",
+        "tournaments",
         "files",
         "answers",
         "plots",

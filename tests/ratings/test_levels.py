@@ -102,7 +102,7 @@ def test_estimated_levels_cover_the_truth():
 
 
 def test_the_real_part_of_stated_races_is_covered():
-    found = [race_covered(seed, 1.0) for seed in range(3)]
+    found = [race_covered(seed, 1.0) for seed in range(2)]
     known = [one for one in found if one is not None]
     assert sum(known) >= len(known) - 1
     assert known

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Show, Table
-from evenbreak.answers.wording import count_of, decimals, listed, percent
+from evenbreak.answers.wording import count_of, decimals, percent
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
@@ -52,8 +52,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]
         if groups:
-            ends = groups[:1] if len(groups) == 1 else [groups[0], groups[-1]]
-            yield f"{kind.capitalize()}s differ: {listed([_group_words(one) for one in ends])}."
+            ends = [groups[0], groups[-1]]
+            yield f"{kind.capitalize()}s differ: {', and '.join(map(_group_words, ends))}."
 
 
 def _group_words(group: Group) -> str:

@@ -90,7 +90,8 @@ def how_rated(sheet: Sheet) -> str:
     """
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
-    text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
+    who = "Apart from what is known beforehand, every player" if ratings.levels else "Every player"
+    text = f"{who} starts at {ratings.anchor:g}, give or take {prior:.4g}"
     if sheet.choice is not None and sheet.choice.learnt:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "

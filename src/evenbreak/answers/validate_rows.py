@@ -54,9 +54,9 @@ def _prior(found: Validation) -> Iterator[tuple[Any, ...]]:
     head = ("game", "plug-in", choice.predicted, None)
     yield ("prior_range", *head, found.prior_sd, choice.low, choice.high, None)
     yield ("log_loss_as_it_went", *head, choice.as_it_went, None, None, None)
-    for found in choice.evidence:
-        if found.of != "half_life":
-            yield ("level", "game", found.of, choice.predicted, 0.0, *found.gain, None)
+    for one in choice.evidence:
+        if one.of != "half_life":
+            yield ("level", "game", one.of, choice.predicted, 0.0, *one.gain, None)
 
 
 def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:

@@ -19,6 +19,9 @@ SECTIONS = {
         "breaks": Entry("match.breaks", "What each break format is worth, and fair stakes."),
         "straight": Entry("match.straight", "Straight pool: who wins, and which spot is fair."),
     },
+    "Run a tournament": {
+        "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
+    },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
         "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),

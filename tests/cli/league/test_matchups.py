@@ -11,7 +11,7 @@ from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
 from evenbreak.handicaps import audit_levels
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings
-from evenbreak.matches import PACES, Turnover
+from evenbreak.matches import Turnover
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -403,8 +403,7 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
     assert "'A Stranger'" in result.stderr
 
 
-def test_the_help_knows_the_paces_and_the_usual_turnover(run):
-    assert tuple(PACES) == module.DISCIPLINES
+def test_the_help_knows_the_usual_turnover(run):
     assert f"[default: {Turnover().mean:g}]" in " ".join(run("matchups", "--help").stdout.split())
 
 

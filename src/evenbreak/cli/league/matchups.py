@@ -19,16 +19,17 @@ from evenbreak.cli.kit.options import (
     scale_option,
     seed_option,
 )
+from evenbreak.cli.kit.paces import TURNOVER, pace_options, stated_pace
+from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
-from evenbreak.cli.kit.values import Number, Whole, refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.answers.round import AnyChart
-    from evenbreak.matches.pace import Pace
 
 
 MOST_PAIRS = 1_000_000
@@ -39,13 +40,6 @@ MOST_SHOWN = 20_000
 
 MOST_MATCHES = 1_000
 """The most matches of one evening."""
-
-POINTS = Number(-1e6, 1e6, " is not a number of rating points; give one such as 80")
-SPREAD = Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30")
-MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
-TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
-
-DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 EXAMPLES = """\b
 Examples:
@@ -67,29 +61,8 @@ Examples:
     "chart's own races put them",
     fixed=False,
 )
-@click.option(
-    "--starter",
-    metavar="RATING",
-    type=POINTS,
-    help="The rating of a new player.  [default: the middle of the scale]",
-)
-@click.option(
-    "--starter-sd",
-    metavar="POINTS",
-    type=SPREAD,
-    help="How far off that may be (standard deviation).  [default: what doubles the odds]",
-)
-@click.option(
-    "--discipline",
-    type=click.Choice(DISCIPLINES),
-    help="Give the lengths in minutes, at the usual pace of this game.",
-)
-@click.option(
-    "--minutes-per-game",
-    metavar="MINUTES",
-    type=MINUTES,
-    help="Give the lengths in minutes, at this pace on average.",
-)
+@starter_options
+@pace_options
 @click.option(
     "--tables", type=Whole(1, 1000), metavar="T", help="Say when the round ends on T tables."
 )
@@ -139,7 +112,8 @@ def command(
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
         refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
-    pace = _pace(discipline, minutes_per_game)
+    stated = stated_pace(discipline, minutes_per_game)
+    pace = matches.pace_of(stated) if isinstance(stated, str) else stated
     if tables is not None and pace is None:
         refuse(
             "--tables needs to know how long games take; add --discipline, such as 9-ball, or "
@@ -154,7 +128,7 @@ def command(
     if players_file is not None:
         file = files.roster_of_entrants(file, files.read_entrants(players_file))
     points, levels = _scale_of_list(file, scale, of_league)
-    players = _with_starters(file.roster, points, starter, starter_sd)
+    players = with_starters(file.roster, points, starter, starter_sd)
     check_roster(file, players, of_league, points)
     if scale is None and file.scale is not None:
         warnings += _other_chart(file.scale, of_league)
@@ -185,14 +159,6 @@ def command(
         shown = replace(tonight, file=replace(file, warnings=about_file))
         write_file(html, sheets.round_html(shown, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
-
-
-def _pace(discipline: str | None, minutes_per_game: float | None) -> Pace | None:
-    if discipline is not None and minutes_per_game is not None:
-        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
-    if minutes_per_game is not None:
-        return matches.own_pace(minutes_per_game)
-    return None if discipline is None else matches.pace_of(discipline)
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
@@ -246,27 +212,6 @@ def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
         f"the ratings are {scale_words(stated)}, but {chart.name} is made for ratings "
         f"{scale_words(made_for)}"
     ]
-
-
-def _with_starters(
-    roster: ratings.Roster, scale: Scale, starter: float | None, sd: float | None
-) -> ratings.Roster:
-    """Return the roster with new players filled in."""
-    import numpy as np
-
-    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
-
-    unrated = np.isnan(roster.rating)
-    if unrated.any() and starter is None and scale.name not in SCALES:
-        name = roster.players[int(unrated.argmax())]
-        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
-    spread = scale.points_per_doubling if sd is None else sd
-    most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
-    if spread > most:
-        refuse(
-            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
-        )
-    return roster.with_starters(scale.centre if starter is None else starter, spread)
 
 
 def _pairs(

@@ -1,0 +1,201 @@
+"""Who wins tonight's tournament: each player's chance of the title and of each other place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.tournament import Tournament
+from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.tournaments.brackets.bracket import Place
+from evenbreak.tournaments.odds.races import chances_given
+from evenbreak.tournaments.odds.rematches import expected_rematches
+from evenbreak.tournaments.odds.title import TitleOdds, title_odds
+from evenbreak.tournaments.odds.uncertain import over_ratings
+
+_NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
+_SHOWN = 3  # places that everybody sees; the others are details
+
+
+def tournament_odds_answer(
+    tournament: Tournament,
+    *,
+    sure: bool = False,
+    walkovers: float = 0.0,
+    prizes: Sequence[float] = (),
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return each player's chance of each place.
+
+    Parameters
+    ----------
+    tournament
+        who plays what.
+    sure
+        whether to take the ratings as right; otherwise the odds are averaged over how far those
+        with a standard error may be off.
+    walkovers
+        the chance that a match is a walkover.
+    prizes
+        the money for each place, for each player's average prize.
+    seed
+        of what has to be sampled.
+    warnings
+        about the question.
+
+    >>> from evenbreak.files.roster import RosterFile
+    >>> from evenbreak.ratings import SCALES, Roster
+    >>> from evenbreak.tournaments import Races, double_elimination
+    >>> club = Roster(["Ann", "Bo", "Cy", "Di"], [640, 600, 560, 520])
+    >>> file = RosterFile(club, np.arange(2, 6), "club.csv", (), "")
+    >>> asked = double_elimination(club.players), Races(5), SCALES["fargo"], "as listed"
+    >>> print(tournament_odds_answer(Tournament(file, club, *asked)).sentences[0])
+    The favourite is Ann, who wins the tournament 72% of the time; next are Bo (22%) and Cy (4.9%).
+    An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
+    who have met before; a second final is needed 41% of the time.
+    """
+    plug_in, odds = _odds(tournament, sure=sure, walkovers=walkovers, seed=seed)
+    rng = np.random.default_rng(seed)
+    rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng)
+    quantities = Quantities(
+        [
+            Quantity("p_second_final", odds.p_second_final),
+            Quantity("matches_mean", odds.matches_mean),
+            Quantity("rematches_mean", rematches.mean),
+            Quantity("exact", plug_in.exact and odds is plug_in),
+            Quantity("ratings_averaged", odds is not plug_in),
+        ]
+    )
+    table = _table(tournament, plug_in, odds, prizes)
+    parts: list[Part] = [_in_words(tournament, odds, rematches.mean), quantities, table]
+    parts += filter(None, [tournament.byes, _how(plug_in, odds, walkovers)])
+    return Answer(
+        tournament.heading,
+        parts,
+        warnings=[*tournament.file.warnings, *warnings],
+        csv=table,
+    )
+
+
+def _odds(
+    tournament: Tournament, *, sure: bool, walkovers: float, seed: int
+) -> tuple[TitleOdds, TitleOdds]:
+    """Return the odds if the ratings are right, and averaged over their errors if they have any."""
+    asked: Any = {"walkovers": walkovers, "rng": np.random.default_rng(seed)}
+    errors = np.nan_to_num(tournament.roster.standard_error)
+    if sure or not errors.any():
+        odds = title_odds(tournament.bracket, tournament.laws, **asked)
+        return odds, odds
+    win_of = chances_given(
+        tournament.bracket, tournament.ratings, tournament.races, scale=tournament.scale
+    )
+    both = over_ratings(tournament.bracket, win_of, tournament.ratings, errors, **asked)
+    return both.as_if_sure, both.averaged
+
+
+def _table(
+    tournament: Tournament, plug_in: TitleOdds, odds: TitleOdds, prizes: Sequence[float]
+) -> Table:
+    places = odds.bracket.places
+    columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
+    columns += [
+        Column(place_key(place), place_words(place), _share, detail=k >= _SHOWN)
+        for k, place in enumerate(places)
+    ]
+    seats = range(len(odds.title))
+    rows: list[list[Any]] = [
+        [k + 1, odds.bracket.players[k], float(tournament.ratings[k]), *odds.p_place[k].tolist()]
+        for k in seats
+    ]
+    if odds is not plug_in:
+        columns.append(Column("p_title_if_sure", "title, if the\nratings are right", _share))
+        for k in seats:
+            rows[k].append(float(plug_in.title[k]))
+    if not odds.exact:
+        first = places.index(Place(1, 1))
+        columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
+        for k in seats:
+            rows[k].append(float(odds.error[k, first]))
+    if prizes:
+        columns.append(Column("prize_mean", "prize,\naverage", decimals(2)))
+        for k, prize in enumerate(odds.expected_prize(prizes).tolist()):
+            rows[k].append(prize)
+    order = sorted(seats, key=lambda k: -odds.title[k])
+    return Table("players", columns, [rows[k] for k in order])
+
+
+def _share(p: float) -> str:
+    """Return a chance to four places, without the digits of the hopeless."""
+    return "<.0001" if 0.0 < p < 5e-5 else chance(p)
+
+
+def place_key(place: Place) -> str:
+    """Return the key of P(place) in files.
+
+    >>> [place_key(place) for place in (Place(1, 1), Place(5, 6), Place(1, 1, "consolation"))]
+    ['p_title', 'p_5_6', 'p_consolation_1']
+    """
+    if place.first == place.last and not place.event:
+        return f"p_{_NAMED.get(place.first, place.first)}"
+    return f"p_{place}".replace("-", "_").replace(" ", "_")
+
+
+def place_words(place: Place) -> str:
+    """Return a place as the heading of a column.
+
+    >>> place_words(Place(2, 2)), place_words(Place(5, 6))
+    ('second', '5-6')
+    """
+    if place.first == place.last and not place.event:
+        return _NAMED.get(place.first, str(place))
+    return str(place)
+
+
+def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
+    players, title = odds.bracket.players, odds.title
+    best, *others = np.argsort(-title, kind="stable")[:3].tolist()
+    following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+    text = (
+        f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
+        f"time; next {'are' if len(others) > 1 else 'is'} {following}.\n"
+        f"An equal share would be {percent(1.0 / len(players))}. "
+    )
+    matches = odds.matches_mean
+    if abs(matches - round(matches)) < 1e-9:
+        text += f"{count_of(round(matches), 'match is', 'matches are')} played"
+    else:
+        text += f"On average {matches:.1f} matches are played"
+    if rematches > 0.0:
+        text += f", {rematches:.1f} of them between players who have met before"
+    if "F2" in tournament.bracket.by_name:
+        text += f"; a second final is needed {percent(odds.p_second_final)} of the time"
+    return f"{text}."
+
+
+def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
+    """Return how exact the odds are, and what they assume."""
+    lines = []
+    if odds is not plug_in:
+        lines.append(
+            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
+            f"by their standard errors; chance moves them by {_off(odds)} at most."
+        )
+    elif not odds.exact:
+        lines.append(
+            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
+            f"exactly; chance moves the odds by {_off(odds)} at most."
+        )
+    else:
+        lines.append("The odds are exact, if the ratings are right.")
+    if walkovers:
+        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
+    return " ".join(lines)
+
+
+def _off(odds: TitleOdds) -> str:
+    return percent(2.0 * float(odds.error.max()))

@@ -1,0 +1,90 @@
+"""`evenbreak tournament odds`: each player's odds of winning tonight's tournament."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.values import Number, numbers, refuse
+from evenbreak.cli.tournament.options import MOST_PLAYERS, tournament_options
+
+if TYPE_CHECKING:
+    from evenbreak.answers.tournament import Tournament
+
+WALKOVERS = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1, such as 0.047")
+
+EXAMPLES = """\b
+Examples:
+  evenbreak tournament odds entrants.csv --race 7 --losers-race 5 --scale fargo
+  evenbreak tournament odds entrants.csv --format single --chart npl_10
+  evenbreak tournament odds entrants.csv --race-to 5 --seeding rating --prizes 500,300,150
+"""
+
+
+@click.command("odds", epilog=EXAMPLES)
+@tournament_options
+@click.option(
+    "--sure",
+    is_flag=True,
+    help="Take the ratings as right, even if the file states their standard errors.",
+)
+@click.option(
+    "--walkovers",
+    metavar="P",
+    type=WALKOVERS,
+    default="0",
+    help="The chance that a match is a walkover; in real double eliminations it is 0.047.",
+)
+@click.option(
+    "--prizes",
+    metavar="MONEY,...",
+    help="The money for first place, second, ..., such as 500,300,150: adds each player's average "
+    "prize.",
+)
+@faces()
+def command(
+    *,
+    tournament: Tournament,
+    warnings: list[str],
+    sure: bool,
+    walkovers: float,
+    prizes: str | None,
+    seed: int,
+) -> Answer:
+    """Find each player's odds of winning the tournament, and of each other place.
+
+    ENTRANTS.csv has a row for each entrant, with the columns player and rating and, if you
+    have them, standard_error and games. Where standard errors are given, the odds are averaged over
+    how far the ratings may be off; new players are taken as very uncertain.
+    """
+    import numpy as np
+
+    from evenbreak.answers.tournament_odds import tournament_odds_answer
+
+    if np.isnan(tournament.file.roster.rating).all():
+        refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")
+    return tournament_odds_answer(
+        tournament,
+        sure=sure,
+        walkovers=walkovers,
+        prizes=_prizes(prizes, len(tournament.roster)),
+        seed=seed,
+        warnings=warnings,
+    )
+
+
+def _prizes(text: str | None, players: int) -> tuple[float, ...]:
+    if text is None:
+        return ()
+    wanted = "give an amount for each paid place, such as 500,300,150"
+    read: Any = numbers(",", range(1, MOST_PLAYERS + 1), 0.0, 1e12, wanted)
+    try:
+        found: tuple[float, ...] = read(text)
+    except click.BadParameter as error:
+        refuse(f"--prizes is {error.message}")
+    if len(found) > players:
+        refuse(f"--prizes has {len(found)} places for {players} players; give fewer")
+    return found

@@ -1,0 +1,248 @@
+"""What the commands of `evenbreak tournament` share: the entrants, the format, the races."""
+
+from __future__ import annotations
+
+import re
+from functools import update_wrapper
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak import files, ratings, tournaments
+from evenbreak.cli.kit.options import (
+    Command,
+    chart_option,
+    scale_option,
+    seed_option,
+    with_options,
+)
+from evenbreak.cli.kit.starters import starter_options, with_starters
+from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
+from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+
+if TYPE_CHECKING:
+    from evenbreak.answers.tournament import Tournament
+    from evenbreak.ratings.scale import Scale
+
+FORMATS = ("double", "single", "consolation", "round-robin", "king-of-the-hill")
+DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
+SEEDINGS = ("listed", "rating", "blind", "drawn")
+MOST_PLAYERS = 256
+BYE = re.compile(r"bye[\s\d]*", re.IGNORECASE)
+
+
+def _race_option(name: str, what: str) -> Any:
+    return click.option(name, type=Whole(1, LONGEST), metavar="N", help=what)
+
+
+def tournament_options(command: Command) -> Command:
+    """Add the options about the tournament, which the command gets as `tournament`.
+
+    It also gets the `warnings` about them, and `seed`.
+    """
+
+    def run(
+        *,
+        entrants: str,
+        form: str,
+        final: str,
+        qualifiers: int | None,
+        drops: str,
+        third_place: bool,
+        seeding: str,
+        race: int | None,
+        race_to: int | None,
+        chart: str | None,
+        losers_race: int | None,
+        final_race: int | None,
+        scale: Scale | None,
+        starter: float | None,
+        starter_sd: float | None,
+        seed: int,
+        **rest: Any,
+    ) -> Any:
+        races = _races(race, race_to, chart, losers_race, final_race)
+        _refuse_of_other_formats(form, final, qualifiers, drops, third_place=third_place)
+        file = files.read_entrants(entrants)
+        points, warnings = _scale(file, scale, starter)
+        roster = with_starters(file.roster, points, starter, starter_sd)
+        if not 2 <= len(roster) <= MOST_PLAYERS:
+            refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")
+        roster, seeded, lines = _seeded(roster, seeding, seed)
+        bracket = _bracket(roster.players, form, final, qualifiers, drops, third_place, lines)
+        from evenbreak.answers.tournament import Tournament
+
+        tournament: Tournament = Tournament(file, roster, bracket, races, points, seeded)
+        return command(tournament=tournament, warnings=warnings, seed=seed, **rest)
+
+    wrapped: Any = update_wrapper(run, command)
+    wrapped = seed_option("The seed of the draw, and of what is simulated.", default=0)(wrapped)
+    wrapped = starter_options(wrapped)
+    return with_options(  # type: ignore[no-any-return]
+        wrapped,
+        scale_option("the one that the file states, else npl", fixed=False),
+        chart_option("Races by this chart, instead of --race."),
+        _race_option("--final-race", "Races of the final.  [default: as --race or --race-to]"),
+        _race_option(
+            "--losers-race", "Races on the losers' side.  [default: as --race or --race-to]"
+        ),
+        _race_option(
+            "--race-to",
+            "Handicapped races, instead of --race: the stronger player needs N games, the weaker "
+            "as many as is fairest.",
+        ),
+        _race_option("--race", "Even races to N games."),
+        click.option(
+            "--seeding",
+            type=click.Choice(SEEDINGS),
+            default="listed",
+            help="The order of the seeds: as the file lists them, by rating, or drawn at random "
+            "(blind). Or no seeds (drawn): the first two rows of the file meet, and so on, with "
+            "rows named bye 1, bye 2 ... for byes.",
+        ),
+        click.option(
+            "--third-place", is_flag=True, help="Single elimination with a match for third place."
+        ),
+        click.option(
+            "--drops",
+            type=click.Choice(list(DROPS)),
+            default="fewest-rematches",
+            help="Where the losers of the winners' side of a double elimination drop to.",
+        ),
+        click.option(
+            "--qualifiers",
+            type=Whole(2, MOST_PLAYERS),
+            metavar="M",
+            help="Double elimination down to M players, half from each side, then single.",
+        ),
+        click.option(
+            "--final",
+            type=click.Choice(["true", "single"]),
+            default="true",
+            help="The final of a double elimination: must the undefeated player lose twice "
+            "(true), or once (single)?",
+        ),
+        click.option(
+            "--format",
+            "form",
+            type=click.Choice(FORMATS),
+            default="double",
+            help="The kind of tournament.",
+        ),
+        click.argument("entrants", metavar="ENTRANTS.csv"),
+    )
+
+
+def _races(
+    race: int | None,
+    race_to: int | None,
+    chart: str | None,
+    losers_race: int | None,
+    final_race: int | None,
+) -> tournaments.Races:
+    given = [value for value in (race, race_to, chart) if value is not None]
+    if len(given) != 1:
+        wanted = "give one of --race N, --race-to N and --chart NAME"
+        refuse(f"{'the races are missing' if not given else 'the races are given twice'}; {wanted}")
+    if chart is not None:
+        if losers_race is not None or final_race is not None:
+            refuse("--chart sets all races; leave out --losers-race and --final-race")
+        return tournaments.Races(chart_by_difference("--chart", chart))
+    usual, losers, last = (
+        n if n is None or race_to is None else tournaments.Fairest(n)
+        for n in (race or race_to, losers_race, final_race)
+    )
+    return tournaments.Races(usual or 1, losers, last)
+
+
+def _refuse_of_other_formats(
+    form: str, final: str, qualifiers: int | None, drops: str, *, third_place: bool
+) -> None:
+    if form != "double" and (final != "true" or qualifiers or drops != "fewest-rematches"):
+        refuse(f"--final, --qualifiers and --drops are for --format double, not {form}")
+    if qualifiers is not None and final != "true":
+        refuse("--qualifiers leads to one final; leave out --final")
+    if form != "single" and third_place:
+        refuse(f"--third-place is for --format single, not {form}")
+
+
+def _scale(
+    file: files.RosterFile, stated: Scale | None, starter: float | None
+) -> tuple[Scale, list[str]]:
+    """Return the scale of the ratings, and what is doubtful about it."""
+    from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
+
+    if stated is not None:
+        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+    else:
+        refuse_levels(file, "say with --scale how many levels double the odds")
+    scale = stated or file.scale or ratings.SCALES["npl"]
+    warnings = []
+    if file.scale is None:
+        remedy = "if they are on another scale, name it with --scale"
+        warnings += league_doubts(scale, file.roster.rating, remedy)
+    if starter is None:
+        warnings += starter_doubts(scale, file.roster.rating)
+    return scale, warnings
+
+
+def _seeded(
+    roster: ratings.Roster, seeding: str, seed: int
+) -> tuple[ratings.Roster, str, list[int | None] | None]:
+    """Return the players in seed order, in words where it comes from, and the lines if drawn."""
+    import numpy as np
+
+    places = list(range(len(roster)))
+    lines: list[int | None] | None = None
+    if seeding == "listed":
+        return roster, "seeded in that order", None
+    if seeding == "drawn":
+        order = [k for k in places if not BYE.fullmatch(roster.players[k])]
+        lines = [order.index(k) if k in order else None for k in places]
+        if len(lines) & (len(lines) - 1):
+            refuse(
+                f"--seeding drawn takes 2, 4, 8, 16 ... rows, and the file has {len(lines)}; add "
+                "rows named bye 1, bye 2 ... where the byes are"
+            )
+        words = "drawn in that order"
+    elif seeding == "rating":
+        order, words = tournaments.by_rating(places, roster.rating.tolist()), "seeded by rating"
+    else:
+        order = tournaments.blind_draw(places, np.random.default_rng(seed))
+        words = f"drawn blind (seed {seed})"
+    return (
+        ratings.Roster(
+            [roster.players[k] for k in order],
+            roster.rating[order],
+            roster.standard_error[order],
+            roster.games[order],
+        ),
+        words,
+        lines,
+    )
+
+
+def _bracket(
+    players: tuple[str, ...],
+    form: str,
+    final: Any,
+    qualifiers: int | None,
+    drops: str,
+    third_place: bool,
+    lines: list[int | None] | None,
+) -> tournaments.Bracket:
+    if lines is not None and form not in ("double", "single", "consolation"):
+        refuse(f"--seeding drawn is for eliminations, not {form}")
+    match form:
+        case "double":
+            pattern: Any = DROPS[drops]
+            return tournaments.double_elimination(
+                players, final=final, qualifiers=qualifiers, drops=pattern, lines=lines
+            )
+        case "single":
+            return tournaments.single_elimination(players, third_place=third_place, lines=lines)
+        case "consolation":
+            return tournaments.consolation(players, lines=lines)
+        case "round-robin":
+            return tournaments.round_robin(players)
+    return tournaments.king_of_the_hill(players)

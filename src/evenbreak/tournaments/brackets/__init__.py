@@ -1,0 +1,1 @@
+"""Brackets: who plays whom, and where winners and losers go."""

@@ -1,0 +1,224 @@
+"""A bracket: matches with two slots each, and where winners and losers go next.
+
+A slot holds a player from the start, or is filled from an earlier match or group. A player
+with no next match has finished and takes a place. Byes are resolved when a bracket is built,
+so every match in it has two players.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+class Place(NamedTuple):
+    """A finishing place, or several that are not played off: 5-6 is `Place(5, 6)`.
+
+    >>> str(Place(1, 1)), str(Place(5, 6)), str(Place(1, 1, "consolation"))
+    ('1', '5-6', 'consolation 1')
+    """
+
+    first: int
+    last: int
+    event: str = ""
+
+    def __str__(self) -> str:
+        span = f"{self.first}" if self.first == self.last else f"{self.first}-{self.last}"
+        return f"{self.event} {span}".lstrip()
+
+
+class Source(NamedTuple):
+    """Where the player of a slot comes from.
+
+    Parameters
+    ----------
+    match
+        the earlier match or group.
+    outcome
+        'winner' or 'loser' of that match, or the rank in that group, 1 for its winner.
+    via
+        1 or 2: the player comes only if they were in that slot of the earlier match, and the
+        slot stays empty otherwise. None: either slot.
+    """
+
+    match: str
+    outcome: str | int
+    via: int | None = None
+
+
+Slot: TypeAlias = int | Source
+"""A player, by position in the bracket's list from 0 on, or the source of a later player."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """A match of a bracket.
+
+    Parameters
+    ----------
+    name
+        the match's name: 'W1.1' is the first match of round 1 on the winners' side.
+    side
+        the part of the bracket: 'winners', 'losers', 'final', 'group A'.
+    round
+        the round on that side, from 1 on.
+    slots
+        the two slots.
+    winner_place, loser_place
+        the place of a winner or loser with no next match; None if there always is one.
+    """
+
+    name: str
+    side: str
+    round: int
+    slots: tuple[Slot, Slot]
+    winner_place: Place | None = None
+    loser_place: Place | None = None
+
+
+@dataclass(frozen=True)
+class Group:
+    """A group in which everybody plays everybody.
+
+    Players are ranked by matches won. Ties are broken by matches won among the tied players,
+    again among those who are still tied, and finally by lot.
+
+    Parameters
+    ----------
+    name
+        the group's name.
+    members
+        its players, by position.
+    matches
+        the names of its matches.
+    pairs
+        the two players of each match, by position.
+    places
+        the place of each rank, best first; None for a rank that qualifies.
+    """
+
+    name: str
+    members: tuple[int, ...]
+    matches: tuple[str, ...]
+    pairs: tuple[tuple[int, int], ...]
+    places: tuple[Place | None, ...]
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """A tournament: its matches, and where winners and losers go.
+
+    Parameters
+    ----------
+    format
+        the kind of tournament, in words.
+    players
+        the names, in seed order.
+    matches
+        the matches; each comes after the matches that feed it.
+    groups
+        the groups, if there are any.
+    byes
+        (match, player) for each first match that is a bye, for the printed sheet.
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> bracket = single_elimination(["Ann", "Bo", "Cy"])
+    >>> bracket.match("F").slots
+    (0, Source(match='W1.2', outcome='winner', via=None))
+    >>> bracket.byes, [str(place) for place in bracket.places]
+    ((('W1.1', 0),), ['1', '2', '3'])
+    >>> list(bracket.graph.edges(data=True))
+    [('W1.2', 'F', {'winner': 2})]
+    """
+
+    format: str
+    players: tuple[str, ...]
+    matches: tuple[Match, ...]
+    groups: tuple[Group, ...] = ()
+    byes: tuple[tuple[str, int], ...] = field(default=(), compare=False)
+
+    @cached_property
+    def places(self) -> tuple[Place, ...]:
+        """All finishing places, best first; those of a consolation event come last."""
+        found = {match.winner_place for match in self.matches}
+        found |= {match.loser_place for match in self.matches}
+        found |= {place for group in self.groups for place in group.places}
+        return tuple(
+            sorted((place for place in found if place), key=lambda p: (p.event, p.first, p.last))
+        )
+
+    @cached_property
+    def graph(self) -> nx.DiGraph[str]:
+        """The matches as a frozen directed graph.
+
+        A node is a match (with `side`, `round` and `slots`) or a group. An arc gives the slot
+        that the winner or the loser goes to (`winner=2`, `loser=1`), or the slot for each rank
+        of a group (`ranks={1: 2}`).
+        """
+        import networkx as nx
+
+        graph: nx.DiGraph[str] = nx.DiGraph()
+        for group in self.groups:
+            graph.add_node(group.name, side="group", round=0, slots=group.members)
+        for match in self.matches:
+            graph.add_node(match.name, side=match.side, round=match.round, slots=match.slots)
+        for group in self.groups:
+            graph.add_edges_from((name, group.name) for name in group.matches)
+        for match in self.matches:
+            for number, slot in enumerate(match.slots, 1):
+                if isinstance(slot, int):
+                    continue
+                graph.add_edge(slot.match, match.name)
+                arc = graph.edges[slot.match, match.name]
+                if isinstance(slot.outcome, str):
+                    arc[slot.outcome] = number
+                else:
+                    arc.setdefault("ranks", {})[slot.outcome] = number
+        frozen: nx.DiGraph[str] = nx.freeze(graph)
+        return frozen
+
+    @cached_property
+    def by_name(self) -> dict[str, Match]:
+        """The matches by name."""
+        return {match.name: match for match in self.matches}
+
+    def match(self, name: str) -> Match:
+        """Return a match by name.
+
+        Raises
+        ------
+        InputError
+            if the bracket has no match of this name.
+        """
+        if name not in self.by_name:
+            raise InputError(f"match is {name!r}; give one of {some_of(list(self.by_name))}")
+        return self.by_name[name]
+
+    def player(self, name: str) -> int:
+        """Return the position of a player.
+
+        Raises
+        ------
+        InputError
+            if nobody in the bracket has this name.
+        """
+        if name not in self.players:
+            raise InputError(f"player is {name!r}; give one of {some_of(self.players)}")
+        return self.players.index(name)
+
+
+def some_of(names: list[str] | tuple[str, ...]) -> str:
+    """Return names for an error message, shortened if there are many.
+
+    >>> some_of([str(n) for n in range(100)])
+    '0, 1, 2, 3, 4, 5, ... 99'
+    """
+    if len(names) <= 20:
+        return ", ".join(names)
+    return ", ".join([*names[:6], f"... {names[-1]}"])

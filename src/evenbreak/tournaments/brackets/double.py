@@ -1,0 +1,216 @@
+"""Double elimination: in full, down to a number of qualifiers, or in pods.
+
+The losers' side plays two rounds for each round of the winners' side: first its survivors
+play each other, then they meet the players who drop from the winners' side. The order of
+the drops decides how many rematches there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Source
+from evenbreak.tournaments.brackets.drafts import (
+    Draft,
+    DraftSlot,
+    Rank,
+    bracket_of,
+    checked_players,
+    loser,
+    winner,
+)
+from evenbreak.tournaments.brackets.drops import DROPS, Drops, drop_orders
+from evenbreak.tournaments.brackets.knockout import checked_lines, knockout
+
+Final = Literal["true", "single"]
+Placement = Literal["half shift", "redraw"]
+
+
+def double_elimination(
+    players: Sequence[str] | int,
+    *,
+    final: Final = "true",
+    qualifiers: int | None = None,
+    drops: Drops | Sequence[Sequence[int]] = DROPS[0],
+    placement: Placement = "half shift",
+    rng: np.random.Generator | None = None,
+    lines: Sequence[int | None] | None = None,
+) -> Bracket:
+    """Return a double-elimination bracket: two losses and you are out.
+
+    Parameters
+    ----------
+    players
+        2 to 256 names in seed order, or the number of players.
+    final
+        'true': the winner of the losers' side must beat the winner of the winners' side twice;
+        'single': once.
+    qualifiers
+        play double elimination until this many are left, half on each side, then single
+        elimination; a power of 2. None: double elimination to the end.
+    drops
+        where losers drop to: 'fewest rematches', 'usual' or 'straight' (see `drop_orders`), or
+        one list for each round of drops: for each match of the losers' side, the match of the
+        winners' side, from 1 on, whose loser drops into it.
+    placement
+        how qualifiers from the losers' side are paired with those from the winners' side:
+        'half shift' crosses the halves of the bracket, 'redraw' pairs them at random.
+    rng
+        the random numbers of a redraw.
+    lines
+        as in `single_elimination`.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> bracket = double_elimination(8)
+    >>> bracket.match("L2.1").slots[0], bracket.match("F").slots[1].match
+    (Source(match='W2.2', outcome='loser', via=None), 'L4.1')
+    >>> [str(place) for place in bracket.places]
+    ['1', '2', '3', '4', '5-6', '7-8']
+    >>> len(double_elimination(32, qualifiers=8).matches)
+    59
+    """
+    names = checked_players(players)
+    entrants = checked_lines(lines, len(names))
+    one_of(final, "final", ("true", "single"))
+    one_of(placement, "placement", ("half shift", "redraw"))
+    if qualifiers is None:
+        drafts, ranks = _to_the_end(list(entrants), drops, true_final=final == "true")
+        return bracket_of(f"double elimination, {final} final", names, drafts, ranks)
+    last = _checked_qualifiers(qualifiers, len(entrants))
+    drafts, winning, losing, ranks = double_down(list(entrants), last, drops)
+    shift = _half_shift(losing) if placement == "half shift" else _redrawn(losing, rng)
+    field = [slot for pair in zip(winning, shift, strict=True) for slot in pair]
+    knocked, top = knockout(list(field), "K", "knock-out")
+    form = f"double elimination to {last}, then single"
+    return bracket_of(form, names, [*drafts, *knocked], [*top, *ranks])
+
+
+def pods(
+    players: Sequence[str] | int,
+    *,
+    size: int = 8,
+    qualifiers: Literal[1, 2] = 1,
+    drops: Drops = DROPS[0],
+    lines: Sequence[int | None] | None = None,
+) -> Bracket:
+    """Return modified single elimination: double elimination in pods, then single elimination.
+
+    Parameters
+    ----------
+    players, lines
+        as in `single_elimination`; each pod takes the next `size` lines.
+    size
+        the lines of a pod: 4, 8 or 16.
+    qualifiers
+        how many qualify from each pod. 1: the winners of its two sides play one deciding
+        match (P1, P2, ...). 2: both qualify, into different halves of the knock-out.
+    drops
+        as in `double_elimination`, within each pod.
+
+    >>> bracket = pods(32)
+    >>> bracket.match("F").slots, len(bracket.matches)
+    ((Source(match='K1.1', outcome='winner', via=None),
+      Source(match='K1.2', outcome='winner', via=None)), 59)
+    """
+    names = checked_players(players)
+    size = one_of(size, "size", (4, 8, 16))
+    one_of(qualifiers, "qualifiers", (1, 2))
+    entrants = checked_lines(lines, len(names))
+    if len(entrants) < 2 * size:
+        raise InputError(f"players has {len(names)} names; give more than {size}, or smaller pods")
+    orders = drop_orders(len(entrants), drops, pod=size)
+    last = 2 * len(entrants) // size
+    drafts, winning, losing, ranks = double_down(list(entrants), last, orders)
+    field: list[DraftSlot]
+    if qualifiers == 2:
+        shift = _half_shift(losing)
+        field = [slot for pair in zip(winning, shift, strict=True) for slot in pair]
+    else:
+        finals = [
+            Draft(f"P{i}", "pod final", 1, (one, other))
+            for i, (one, other) in enumerate(zip(winning, losing, strict=True), 1)
+        ]
+        drafts += finals
+        field = [winner(draft.name) for draft in finals]
+        ranks = [Rank(tuple(loser(draft.name) for draft in finals)), *ranks]
+    knocked, top = knockout(field, "K", "knock-out")
+    return bracket_of(f"pods of {size}", names, [*drafts, *knocked], [*top, *ranks])
+
+
+def double_down(
+    entrants: list[DraftSlot], last: int, drops: Drops | Sequence[Sequence[int]]
+) -> tuple[list[Draft], list[DraftSlot], list[DraftSlot], list[Rank]]:
+    """Return both sides down to `last` players: matches, survivors of each side, and places.
+
+    >>> drafts, winning, losing, ranks = double_down([0, 3, 1, 2], 2, "straight")
+    >>> [draft.name for draft in drafts], winning[0].match, losing[0].match
+    (['W1.1', 'W1.2', 'L1.1', 'W2.1', 'L2.1'], 'W2.1', 'L2.1')
+    """
+    drafts: list[Draft] = []
+    ranks: list[Rank] = []
+
+    def play(letter: str, number: int, slots: list[DraftSlot]) -> list[str]:
+        names = [f"{letter}{number}.{i}" for i in range(1, len(slots) // 2 + 1)]
+        side = "winners" if letter == "W" else "losers"
+        pairs = zip(names, slots[::2], slots[1::2], strict=True)
+        drafts.extend(Draft(name, side, number, (one, other)) for name, one, other in pairs)
+        if letter == "L":
+            ranks.insert(0, Rank(tuple(loser(name) for name in names)))
+        return names
+
+    won = play("W", 1, entrants)
+    winning: list[DraftSlot] = [winner(name) for name in won]
+    losing: list[DraftSlot] = [loser(name) for name in won]
+    orders = drop_orders(len(entrants), drops)
+    while len(winning) > last // 2:
+        number = won[0][1:].split(".")[0]
+        losing = [winner(name) for name in play("L", 2 * int(number) - 1, losing)]
+        won = play("W", int(number) + 1, winning)
+        winning = [winner(name) for name in won]
+        falls = [loser(won[k - 1]) for k in orders[int(number) - 1]]
+        met = [slot for pair in zip(falls, losing, strict=True) for slot in pair]
+        losing = [winner(name) for name in play("L", 2 * int(number), list(met))]
+    return drafts, winning, losing, ranks
+
+
+def _to_the_end(
+    entrants: list[DraftSlot], drops: Drops | Sequence[Sequence[int]], *, true_final: bool
+) -> tuple[list[Draft], list[Rank]]:
+    drafts, (best,), (other,), ranks = double_down(entrants, 2, drops)
+    drafts.append(Draft("F", "final", 1, (best, other)))
+    finals = ["F"]
+    if true_final:
+        again = (Source("F", "loser", via=1), Source("F", "winner", via=2))
+        drafts.append(Draft("F2", "second final", 2, again))
+        finals.append("F2")
+    first, second = (tuple(map(outcome, finals)) for outcome in (winner, loser))
+    return drafts, [Rank(first, 1), Rank(second, 1), *ranks]
+
+
+def _checked_qualifiers(qualifiers: int, size: int) -> int:
+    last = whole(qualifiers, "qualifiers", at_least=2)
+    if last & (last - 1) or last > size:
+        raise InputError(
+            f"qualifiers is {qualifiers!r}; give a power of 2, at most {size} for this bracket"
+        )
+    return last
+
+
+def _half_shift(slots: list[DraftSlot]) -> list[DraftSlot]:
+    half = len(slots) // 2
+    return slots[half:] + slots[:half]
+
+
+def _redrawn(slots: list[DraftSlot], rng: np.random.Generator | None) -> list[DraftSlot]:
+    if rng is None:
+        raise InputError("rng is missing; give numpy.random.default_rng(seed) for a redraw")
+    return [slots[i] for i in rng.permutation(len(slots))]

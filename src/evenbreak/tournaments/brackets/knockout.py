@@ -1,0 +1,183 @@
+"""Single elimination, single elimination with a consolation event, king of the hill."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Source
+from evenbreak.tournaments.brackets.drafts import (
+    Draft,
+    DraftSlot,
+    Rank,
+    bracket_of,
+    checked_players,
+    loser,
+    winner,
+)
+from evenbreak.tournaments.brackets.seeding import bracket_size, seeded_lines
+
+
+def single_elimination(
+    players: Sequence[str] | int,
+    *,
+    third_place: bool = False,
+    lines: Sequence[int | None] | None = None,
+) -> Bracket:
+    """Return a single-elimination bracket: one loss and you are out.
+
+    Parameters
+    ----------
+    players
+        2 to 256 names in seed order, or the number of players.
+    third_place
+        whether the losing semifinalists play for third place.
+    lines
+        the player on each first-round line, by position from 0 on, with None for a bye; the
+        number of lines is a power of 2. None: standard seeding, byes to the top seeds.
+
+    Raises
+    ------
+    InputError
+        if the players or the lines cannot be used.
+
+    >>> [str(place) for place in single_elimination(8).places]
+    ['1', '2', '3-4', '5-8']
+    >>> len(single_elimination(8, third_place=True).matches)
+    8
+    """
+    names = checked_players(players)
+    entrants = checked_lines(lines, len(names))
+    drafts, ranks = knockout(list(entrants), "W", "winners", third_place=third_place)
+    return bracket_of("single elimination", names, drafts, ranks)
+
+
+def consolation(
+    players: Sequence[str] | int, *, lines: Sequence[int | None] | None = None
+) -> Bracket:
+    """Return a single-elimination bracket with a consolation event.
+
+    Players who lose their first match go to the consolation event, a single elimination of
+    its own. After a bye, the first match is the one in the second round.
+
+    Parameters
+    ----------
+    players, lines
+        as in `single_elimination`; 4 players or more.
+
+    >>> bracket = consolation(8)
+    >>> [str(place) for place in bracket.places]
+    ['1', '2', '3-4', '5-8', 'consolation 1', 'consolation 2', 'consolation 3-4']
+    >>> bracket.match("C1.1").slots[0]
+    Source(match='W1.1', outcome='loser', via=None)
+    """
+    names = checked_players(players, fewest=4)
+    entrants = checked_lines(lines, len(names))
+    drafts, ranks = knockout(list(entrants), "W", "winners")
+    losers: list[DraftSlot] = []
+    for draft in drafts:
+        if draft.round == 1:
+            losers += [loser(draft.name)] if None not in draft.slots else []
+        elif draft.round == 2:
+            byes = [slot for slot in (1, 2) if _had_bye(drafts, draft, slot)]
+            losers += [Source(draft.name, "loser", via=slot) for slot in byes]
+    extra, extra_ranks = knockout(_with_byes(losers), "C", "consolation", last="CF")
+    return bracket_of("consolation", names, [*drafts, *extra], ranks, consolation=extra_ranks)
+
+
+def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
+    """Return a ladder: the first two play, the winner meets the third, and so on.
+
+    Parameters
+    ----------
+    players
+        the names in the order in which they come to the table, or the number of players.
+
+    >>> [match.slots for match in king_of_the_hill(["Ann", "Bo", "Cy"]).matches]
+    [(0, 1), (Source(match='W1.1', outcome='winner', via=None), 2)]
+    """
+    names = checked_players(players)
+    count = len(names) - 1
+    ladder = [f"W{k}.1" for k in range(1, count)] + ["F"]
+    drafts = [
+        Draft(
+            name,
+            "final" if name == "F" else "winners",
+            k + 1,
+            (winner(ladder[k - 1]) if k else 0, k + 1),
+        )
+        for k, name in enumerate(ladder)
+    ]
+    ranks = [Rank((winner("F"),)), *(Rank((loser(name),)) for name in reversed(ladder))]
+    return bracket_of("king of the hill", names, drafts, ranks)
+
+
+def knockout(
+    entrants: list[DraftSlot],
+    letter: str,
+    side: str,
+    *,
+    last: str = "F",
+    third_place: bool = False,
+) -> tuple[list[Draft], list[Rank]]:
+    """Return the matches of a knock-out, and who leaves it at which point, best first.
+
+    Parameters
+    ----------
+    entrants
+        who is on each line; their number is a power of 2.
+    letter, side
+        the letter of the match names ('W' for W1.1, W1.2, ...) and the side of the matches.
+    last
+        the name of the final.
+    third_place
+        whether the losing semifinalists play for third place.
+    """
+    drafts: list[Draft] = []
+    rounds: list[list[str]] = []
+    slots = entrants
+    while len(slots) > 1:
+        number = len(rounds) + 1
+        final = len(slots) == 2
+        names = [f"{letter}{number}.{i}" for i in range(1, len(slots) // 2 + 1)]
+        names = [last] if final else names
+        drafts += [
+            Draft(name, "final" if final and last == "F" else side, number, (one, other))
+            for name, one, other in zip(names, slots[::2], slots[1::2], strict=True)
+        ]
+        rounds.append(names)
+        slots = [winner(name) for name in names]
+    ranks = [Rank((winner(last),))]
+    ranks += [Rank(tuple(loser(name) for name in names)) for names in reversed(rounds)]
+    if third_place and len(rounds) > 1:
+        one, other = rounds[-2]
+        drafts.append(Draft("T", "third place", 1, (loser(one), loser(other))))
+        ranks[2:3] = [Rank((winner("T"),)), Rank((loser("T"),))]
+    return drafts, ranks
+
+
+def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int | None]:
+    """Return the given first-round lines if they are valid, or those of standard seeding."""
+    if lines is None:
+        return seeded_lines(players)
+    listed = list(lines)
+    seated = [player for player in listed if player is not None]
+    if sorted(seated) != list(range(players)):
+        raise InputError(f"lines is {lines!r}; give each position from 0 to {players - 1} once")
+    if len(listed) != bracket_size(len(listed)):
+        raise InputError(f"lines has {len(listed)} entries; give 2, 4, 8, 16, ... of them")
+    return listed
+
+
+def _had_bye(drafts: list[Draft], match: Draft, slot: int) -> bool:
+    source = match.slots[slot - 1]
+    return isinstance(source, Source) and any(
+        None in draft.slots for draft in drafts if draft.name == source.match
+    )
+
+
+def _with_byes(entrants: list[DraftSlot]) -> list[DraftSlot]:
+    """Return the entrants on the lines of a bracket, with byes for the first of them."""
+    if len(entrants) == bracket_size(len(entrants)):
+        return entrants
+    return [None if k is None else entrants[k] for k in seeded_lines(len(entrants))]

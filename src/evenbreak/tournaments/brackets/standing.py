@@ -1,0 +1,179 @@
+"""A tournament in progress: results so far, who is in which match, what can be played now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Slot, Source, some_of
+from evenbreak.tournaments.brackets.group_ranks import ranked
+
+NOBODY = -1
+"""The player of a slot that stays empty, as in a second final that is not needed."""
+
+Results: TypeAlias = Mapping[str, str | Sequence[str]]
+"""The winner of each decided match, by match name.
+
+For a group whose ties were broken by lot, also its players in final order, by group name.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """A bracket at one moment of the tournament.
+
+    Parameters
+    ----------
+    bracket
+        the whole bracket.
+    winners
+        the winner of each decided match, by position; NOBODY for a match that is not needed.
+    seats
+        the players in each match's two slots: a position, NOBODY, or None if not known yet.
+    sent
+        the players who came out of decided matches and groups.
+    assumed
+        what-if results: those of matches whose players are not known yet.
+    """
+
+    bracket: Bracket
+    winners: Mapping[str, int]
+    seats: Mapping[str, tuple[int | None, int | None]]
+    sent: Mapping[Source, int]
+    assumed: Mapping[str, int]
+
+    @property
+    def to_play(self) -> tuple[str, ...]:
+        """The matches that can be played now, because both players are known."""
+        return tuple(
+            name
+            for name, seats in self.seats.items()
+            if name not in self.winners and None not in seats
+        )
+
+    @property
+    def remaining(self) -> Bracket:
+        """The undecided matches, with the players who are known already in their slots."""
+        matches = tuple(
+            replace(match, slots=(self._slot(match.slots[0]), self._slot(match.slots[1])))
+            for match in self.bracket.matches
+            if match.name not in self.winners or self._open_group(match.name)
+        )
+        groups = tuple(group for group in self.bracket.groups if not self._settled(group))
+        return replace(self.bracket, matches=matches, groups=groups, byes=())
+
+    def _slot(self, slot: Slot) -> Slot:
+        if isinstance(slot, int):
+            return slot
+        return self.sent.get(slot, slot)
+
+    def _settled(self, group: Group) -> bool:
+        return Source(group.name, 1) in self.sent
+
+    def _open_group(self, name: str) -> bool:
+        return any(
+            name in group.matches and not self._settled(group) for group in self.bracket.groups
+        )
+
+
+def standing(bracket: Bracket, results: Results | None = None) -> Standing:
+    """Return the state of a bracket after the results so far.
+
+    Raises
+    ------
+    InputError
+        if a match or a player is unknown, or a winner is not in the match.
+
+    >>> from evenbreak.tournaments import double_elimination
+    >>> now = standing(double_elimination(["Ann", "Bo", "Cy", "Di"]), {"W1.1": "Di"})
+    >>> now.to_play, now.seats["L1.1"], now.seats["W2.1"]
+    (('W1.2',), (0, None), (3, None))
+    """
+    given = dict(results or {})
+    _check_names(bracket, given)
+    group_of = {name: group for group in bracket.groups for name in group.matches}
+    winners: dict[str, int] = {}
+    seats: dict[str, tuple[int | None, int | None]] = {}
+    sent: dict[Source, int] = {}
+    assumed: dict[str, int] = {}
+    for match in bracket.matches:
+        one, other = (slot if isinstance(slot, int) else sent.get(slot) for slot in match.slots)
+        seats[match.name] = one, other
+        won = _winner(bracket, match, (one, other), given.get(match.name))
+        if won is None:
+            continue
+        if one is None or other is None:
+            assumed[match.name] = won
+            continue
+        winners[match.name] = won
+        if match.name in group_of:
+            sent |= _settled_ranks(bracket, group_of[match.name], winners, given)
+        else:
+            sent |= _outcomes(match.name, (one, other), won)
+    return Standing(bracket, winners, seats, sent, assumed)
+
+
+def _check_names(bracket: Bracket, results: dict[str, str | Sequence[str]]) -> None:
+    known = {*bracket.by_name, *(group.name for group in bracket.groups)}
+    for name in results:
+        if name not in known:
+            listed = some_of(list(bracket.by_name))
+            raise InputError(f"results has match {name!r}; give one of {listed}")
+
+
+def _winner(
+    bracket: Bracket,
+    match: Match,
+    seats: tuple[int | None, int | None],
+    given: str | Sequence[str] | None,
+) -> int | None:
+    one, other = seats
+    if given is None:
+        if NOBODY in seats and None not in seats:
+            return one if other == NOBODY else other
+        return None
+    player = bracket.player(str(given))
+    if None not in seats and player not in seats:
+        names = " and ".join(bracket.players[k] for k in seats if k is not None and k >= 0)
+        raise InputError(
+            f"results has {given!r} as winner of {match.name}, which is between {names or 'nobody'}"
+        )
+    return player
+
+
+def _outcomes(name: str, seats: tuple[int, int], won: int) -> dict[Source, int]:
+    slot = 1 if won == seats[0] else 2
+    there = {"winner": won, "loser": seats[2 - slot]}
+    sent: dict[Source, int] = {}
+    for outcome, player in there.items():
+        sat = slot if outcome == "winner" else 3 - slot
+        sent[Source(name, outcome)] = player
+        sent[Source(name, outcome, sat)] = player
+        sent[Source(name, outcome, 3 - sat)] = NOBODY
+    return sent
+
+
+def _settled_ranks(
+    bracket: Bracket,
+    group: Group,
+    winners: dict[str, int],
+    given: dict[str, str | Sequence[str]],
+) -> dict[Source, int]:
+    """Return the final ranking of a group, or nothing while it is open."""
+    if not all(name in winners for name in group.matches):
+        return {}
+    if group.name in given:
+        order = [bracket.player(name) for name in given[group.name]]
+        if sorted(order) != sorted(group.members):
+            raise InputError(
+                f"results has {given[group.name]!r} for group {group.name}; give its players "
+                "in the order of their ranks"
+            )
+    else:
+        places = ranked(group.members, group.pairs, [winners[name] for name in group.matches])
+        if len(set(places)) < len(places):
+            return {}
+        order = [player for _, player in sorted(zip(places, group.members, strict=True))]
+    return {Source(group.name, rank): player for rank, player in enumerate(order, 1)}

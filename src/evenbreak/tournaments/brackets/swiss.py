@@ -1,0 +1,199 @@
+"""Swiss tournaments: nobody is knocked out; each round pairs players with equal scores.
+
+A round can be paired only when the one before it is over, so a Swiss is not a bracket.
+Pairings come from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.drafts import checked_players
+
+System: TypeAlias = Literal["dutch", "casual"]
+
+
+class Pairing(NamedTuple):
+    """Two players who meet; `second` is None for a bye, `winner` is None until it is played."""
+
+    first: str
+    second: str | None
+    winner: str | None = None
+
+
+class SwissRank(NamedTuple):
+    """A player's place in the standings.
+
+    Parameters
+    ----------
+    player
+        the name.
+    score
+        matches won; a bye counts as one.
+    buchholz
+        the sum of the opponents' scores, the usual tie-break.
+    """
+
+    player: str
+    score: int
+    buchholz: int
+
+
+@dataclass(frozen=True)
+class Swiss:
+    """A Swiss tournament.
+
+    Parameters
+    ----------
+    players
+        the names in seed order.
+    rounds
+        the number of rounds.
+    system
+        the pairing system: 'dutch' follows the rules of chess (FIDE C.04.3); 'casual' is
+        simpler and a hundred times as fast, but may pair two players twice.
+    """
+
+    players: tuple[str, ...]
+    rounds: int
+    system: System = "dutch"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "players", checked_players(self.players))
+        object.__setattr__(self, "rounds", whole(self.rounds, "rounds", at_least=1))
+        one_of(self.system, "system", ("dutch", "casual"))
+        most = len(self.players) - 1 + len(self.players) % 2
+        if self.rounds > most:
+            raise InputError(
+                f"rounds is {self.rounds} for {len(self.players)} players; give {most} at most, "
+                "so that nobody has to play the same opponent twice"
+            )
+
+
+def swiss(players: Sequence[str] | int, rounds: int, *, system: System = "dutch") -> Swiss:
+    """Return a Swiss tournament.
+
+    Parameters
+    ----------
+    players
+        the names in seed order, or the number of players.
+    rounds, system
+        as in `Swiss`.
+
+    >>> swiss(["Ann", "Bo", "Cy", "Di"], 3).rounds
+    3
+    """
+    return Swiss(checked_players(players), rounds, system)
+
+
+def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[Pairing]:
+    """Return the pairings of the next round.
+
+    Parameters
+    ----------
+    event
+        the tournament.
+    played
+        the rounds so far, complete with winners.
+
+    Raises
+    ------
+    InputError
+        if a round is not complete, all rounds are over, or the extra is not installed.
+    """
+    check_rounds(event, played)
+    if len(played) == event.rounds:
+        raise InputError(f"all {event.rounds} rounds have been played")
+    try:
+        engine: Any = import_module("caissify_pairings")
+    except ImportError:
+        raise InputError(
+            "pairing a Swiss needs caissify-pairings; pip install 'evenbreak[swiss]'"
+        ) from None
+    met = {
+        (event.players.index(p.first) + 1, event.players.index(p.second) + 1)
+        for pairings in played
+        for p in pairings
+        if p.second is not None
+    }
+    found = engine.generate_pairings(
+        event.system, _histories(event, played), met, len(played) + 1, event.rounds
+    )
+    name = dict(enumerate(event.players, 1))
+    return [Pairing(name[row["white_id"]], name.get(row["black_id"])) for row in found]
+
+
+def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[SwissRank]:
+    """Return the standings: by score, then by the sum of the opponents' scores, then by seed.
+
+    >>> event = swiss(["Ann", "Bo", "Cy"], 2)
+    >>> first = [Pairing("Ann", "Bo", "Bo"), Pairing("Cy", None)]
+    >>> swiss_standings(event, [first])[0]
+    SwissRank(player='Bo', score=1, buchholz=0)
+    """
+    check_rounds(event, played)
+    score = dict.fromkeys(event.players, 0)
+    met: dict[str, list[str]] = {player: [] for player in event.players}
+    for pairings in played:
+        for first, second, winner in pairings:
+            score[winner or first] += 1
+            if second is not None:
+                met[first].append(second)
+                met[second].append(first)
+    rows = [
+        SwissRank(player, score[player], sum(score[other] for other in met[player]))
+        for player in event.players
+    ]
+    return sorted(rows, key=lambda row: (-row.score, -row.buchholz))
+
+
+def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
+    """Raise an error if a round is incomplete or has a player twice."""
+    if len(played) > event.rounds:
+        raise InputError(f"played has {len(played)} rounds, the event has {event.rounds}")
+    for number, pairings in enumerate(played, 1):
+        seats = [player for p in pairings for player in (p.first, p.second) if player is not None]
+        if sorted(seats) != sorted(event.players):
+            raise InputError(f"round {number} does not have every player once")
+        for first, second, winner in pairings:
+            if second is not None and winner not in (first, second):
+                raise InputError(
+                    f"round {number}: {first} against {second} was won by {winner!r}; name one "
+                    "of the two"
+                )
+
+
+def _histories(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[dict[str, Any]]:
+    """Return each player's history as the pairing engine wants it; the first player is white."""
+    rows: dict[str, dict[str, Any]] = {
+        player: {
+            "id": number,
+            "name": player,
+            "score": 0.0,
+            "rating": len(event.players) - number,
+            "starting_number": number,
+            "color_hist": [],
+            "float_history": [],
+            "bye_count": 0,
+        }
+        for number, player in enumerate(event.players, 1)
+    }
+    for pairings in played:
+        before = {player: row["score"] for player, row in rows.items()}
+        for first, second, winner in pairings:
+            rows[winner or first]["score"] += 1.0
+            if second is None:
+                rows[first]["bye_count"] += 1
+                rows[first]["color_hist"].append("none")
+                rows[first]["float_history"].append("down")
+                continue
+            for player, other, seat in ((first, second, "white"), (second, first, "black")):
+                floated = (before[player] > before[other]) - (before[player] < before[other])
+                rows[player]["color_hist"].append(seat)
+                rows[player]["float_history"].append(("none", "down", "up")[floated])
+    return list(rows.values())

@@ -1,0 +1,1 @@
+"""Chip tournaments: lose a rack, lose a chip; out without chips."""

@@ -1,0 +1,120 @@
+"""Chip charts: how many chips a player starts with, by rating."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.checks import floats, whole
+from evenbreak.errors import InputError
+
+
+class ChipRow(NamedTuple):
+    """The chips of players rated `rating_from` or more; -inf for the weakest players' row."""
+
+    rating_from: float
+    chips: int
+
+
+@dataclass(frozen=True)
+class ChipChart:
+    """How many chips a player starts with.
+
+    Parameters
+    ----------
+    name
+        what the chart is called.
+    rows
+        the rows in the order of the ratings, the first for the weakest players.
+    source
+        where it is from.
+
+    Raises
+    ------
+    InputError
+        if the rows are not in order, or stronger players have more chips.
+
+    >>> CHIP_CHARTS["hoboken"].chips([650, 500, 349])
+    array([4, 6, 8])
+    """
+
+    name: str
+    rows: Sequence[ChipRow]
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        rows = tuple(ChipRow(float(start), whole(c, "chips", at_least=1)) for start, c in self.rows)
+        object.__setattr__(self, "rows", rows)
+        if not rows:
+            raise InputError("rows is empty; give a rating and chips for each")
+        for weaker, stronger in pairwise(rows):
+            if not stronger.rating_from > weaker.rating_from:
+                raise InputError(f"row {stronger} does not begin above row {weaker}")
+            if stronger.chips > weaker.chips:
+                raise InputError(f"row {stronger} has more chips than the weaker players' {weaker}")
+
+    def chips(self, ratings: ArrayLike) -> NDArray[np.int64]:
+        """Return the chips of each rating.
+
+        Raises
+        ------
+        InputError
+            if a rating is not a number, or below the first row.
+        """
+        rated = floats(ratings, "ratings")
+        starts = [row.rating_from for row in self.rows]
+        place = np.searchsorted(starts, rated, side="right") - 1
+        if (place < 0).any():
+            raise InputError(f"ratings has one below {starts[0]:g}, where {self.name} begins")
+        return np.array([row.chips for row in self.rows])[place]
+
+
+CHIP_CHARTS: dict[str, ChipChart] = {
+    "hoboken": ChipChart(
+        "hoboken",
+        [
+            ChipRow(-math.inf, 8),
+            ChipRow(351, 7),
+            ChipRow(451, 6),
+            ChipRow(501, 5),
+            ChipRow(601, 4),
+        ],
+        "the chip tournaments of a club in Hoboken, Fargo ratings, as published",
+    ),
+    "pharaohs": ChipChart(
+        "pharaohs",
+        [
+            ChipRow(-math.inf, 9),
+            ChipRow(250, 8),
+            ChipRow(350, 7),
+            ChipRow(450, 6),
+            ChipRow(500, 5),
+            ChipRow(550, 4),
+            ChipRow(650, 3),
+            ChipRow(700, 2),
+        ],
+        "the chip tournaments at Pharaohs, Fargo ratings, as published",
+    ),
+}
+"""The chip charts that come with the package, by name."""
+
+
+def chip_chart(name: str | ChipChart) -> ChipChart:
+    """Return a chart by its name.
+
+    Raises
+    ------
+    InputError
+        if no chart has this name.
+    """
+    if isinstance(name, ChipChart):
+        return name
+    if name not in CHIP_CHARTS:
+        raise InputError(f"chip chart is {name!r}; give one of {', '.join(CHIP_CHARTS)}")
+    return CHIP_CHARTS[name]

@@ -1,0 +1,191 @@
+"""How fair a chip chart is, and the chips that make it fairer.
+
+A fair chart gives each of n players the chance 1/n. The simulations that compare charts share
+their luck, so that differences of a few parts in a thousand are real.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import column, whole
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.chips.chip_charts import ChipChart, chip_chart
+from evenbreak.tournaments.chips.play import ChipOdds, play_chips
+from evenbreak.tournaments.chips.racks import rack_chances
+
+_SEARCH_RUNS = 3_000
+_MOST_STEPS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class ChipFairness:
+    """The title odds of a field with given chips.
+
+    Parameters
+    ----------
+    ratings, chips
+        each player's rating and chips.
+    odds
+        who finishes where.
+    """
+
+    ratings: Floats
+    chips: Ints
+    odds: ChipOdds
+
+    @property
+    def edge(self) -> Floats:
+        """How many times an equal share each player's title odds are, less 1: 0 is fair."""
+        edge: Floats = len(self.chips) * self.odds.title - 1.0
+        return edge
+
+    @property
+    def edge_error(self) -> Floats:
+        """The standard errors of `edge`."""
+        error: Floats = len(self.chips) * self.odds.error[:, 0]
+        return error
+
+    @property
+    def spread(self) -> float:
+        """The root mean square of the edges: 0 is fair to everybody."""
+        return float(np.sqrt(np.mean(self.edge**2)))
+
+
+def chip_fairness(
+    ratings: ArrayLike,
+    chips: ChipChart | str | Sequence[int],
+    *,
+    scale: Scale | str | float = "fargo",
+    break_advantage: float = 0.0,
+    tables: int = 1,
+    runs: int = 10_000,
+    seed: int = 0,
+) -> ChipFairness:
+    """Return how fair a chip chart is to a field of players.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating.
+    chips
+        the chart, its name, or each player's chips.
+    scale, break_advantage
+        as in `rack_chances`.
+    tables, runs
+        as in `play_chips`.
+    seed
+        the seed of the simulation; the same seed gives two charts the same luck.
+
+    >>> found = chip_fairness([650, 500, 400, 350], "hoboken")
+    >>> found.chips, found.edge.round(1)
+    (array([4, 6, 7, 8]), array([ 1.5, -0.3, -0.7, -0.5]))
+    """
+    rated = column(ratings, "ratings", np.size(ratings), "players")
+    given = chip_chart(chips).chips(rated) if isinstance(chips, str | ChipChart) else chips
+    counts = column(given, "chips", len(rated), "players", dtype=np.int64)
+    racks = rack_chances(rated, scale=scale, break_advantage=break_advantage)
+    rng = np.random.default_rng(seed)
+    odds = play_chips(counts, racks, tables=tables, runs=runs, rng=rng)
+    return ChipFairness(rated, counts, odds)
+
+
+def fairest_chips(
+    ratings: ArrayLike,
+    *,
+    bands: Sequence[float] | None = None,
+    fewest: int = 2,
+    most: int = 10,
+    scale: Scale | str | float = "fargo",
+    break_advantage: float = 0.0,
+    tables: int = 1,
+    runs: int = 10_000,
+    seed: int = 0,
+) -> ChipFairness:
+    """Return the chips that make the title odds of a field as equal as a search can.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating.
+    bands
+        the ratings at which a row of the chart begins, for one more row than there are of
+        these; players of one row have the same chips. None: a row for each rating.
+    fewest, most
+        the fewest and the most chips of a player. More chips make a longer and fairer event.
+    scale, break_advantage, tables, runs, seed
+        as in `chip_fairness`.
+
+    Notes
+    -----
+    It starts with chips in the middle and moves one chip at a time, up for the row that is
+    worst off or down for the one that is best off, as long as the spread of the title odds
+    gets smaller. Stronger players never have more chips than weaker ones.
+
+    >>> found = fairest_chips([650, 500, 400, 350], most=8, runs=4000)
+    >>> bool(found.spread < chip_fairness([650, 500, 400, 350], "hoboken").spread)
+    True
+    """
+    rated = column(ratings, "ratings", np.size(ratings), "players")
+    low, high = whole(fewest, "fewest", at_least=1), whole(most, "most", at_least=1)
+    if low > high or len(rated) < 2:
+        raise InputError(f"fewest is {fewest!r} and most {most!r}; give fewer first, two players")
+    row = _rows_of(rated, bands)
+    counts = np.full(row.max() + 1, (low + high) // 2)
+
+    def tried(chips: Ints, runs: int) -> ChipFairness:
+        return chip_fairness(
+            rated,
+            chips[row].tolist(),
+            scale=scale,
+            break_advantage=break_advantage,
+            tables=tables,
+            runs=runs,
+            seed=seed,
+        )
+
+    best = tried(counts, _SEARCH_RUNS)
+    for _ in range(_MOST_STEPS):
+        for chips in _steps(counts, row, best.edge, low, high):
+            found = tried(chips, _SEARCH_RUNS)
+            if found.spread < best.spread:
+                best, counts = found, chips
+                break
+        else:
+            break
+    return tried(counts, runs)
+
+
+def _rows_of(ratings: Floats, bands: Sequence[float] | None) -> Ints:
+    """Return the row of each player, 0 for the weakest."""
+    if bands is None:
+        _, row = np.unique(ratings, return_inverse=True)
+        return row.astype(np.int64)
+    starts = np.sort(np.asarray(bands, dtype=float))
+    place = np.searchsorted(starts, ratings, side="right")
+    _, row = np.unique(place, return_inverse=True)  # rows without players are left out
+    return row.astype(np.int64)
+
+
+def _steps(counts: Ints, row: Ints, edge: Floats, low: int, high: int) -> list[Ints]:
+    """Return the charts one chip away, the most promising first."""
+    of_row = np.bincount(row, edge) / np.bincount(row)
+    found = []
+    for k in np.argsort(-np.abs(of_row)).tolist():
+        step = -1 if of_row[k] > 0.0 else 1
+        chips = counts.copy()
+        chips[k] += step
+        # Rows beyond it move along where they would stand against their rating.
+        if step < 0:
+            chips[k:] = np.minimum(chips[k:], chips[k])
+        else:
+            chips[: k + 1] = np.maximum(chips[: k + 1], chips[k])
+        if low <= chips.min() and chips.max() <= high:
+            found.append(chips)
+    return found

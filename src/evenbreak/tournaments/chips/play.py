@@ -1,0 +1,211 @@
+"""Chip tournaments played out, many at once.
+
+At each table the winner stays; the loser pays a chip and goes to the end of the line, and
+whoever is first in it comes to the table. Tables finish their racks in random order. There
+are never more tables in use than leave somebody to wait; the last four are at one table.
+Where it does not matter who breaks, the last two are not played out: their chances are
+those of a race.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+from evenbreak.matches.win import race_win_probability
+from evenbreak.tournaments.chips.racks import break_matters, checked_racks
+
+
+@dataclass(frozen=True, eq=False)
+class ChipOdds:
+    """Who wins a chip tournament, by simulation.
+
+    Parameters
+    ----------
+    p_place
+        p_place[i, k] = P(player i finishes in place k + 1).
+    error
+        the standard errors of `p_place`.
+    racks_mean
+        the mean number of racks, before the last two players.
+    runs
+        how many tournaments were played.
+    """
+
+    p_place: Floats
+    error: Floats
+    racks_mean: float
+    runs: int
+
+    @property
+    def title(self) -> Floats:
+        """P(each player wins the tournament)."""
+        return self.p_place[:, 0]
+
+
+def play_chips(
+    chips: Sequence[int] | ArrayLike,
+    racks: ArrayLike,
+    *,
+    tables: int = 1,
+    line: Sequence[int] | None = None,
+    runs: int = 10_000,
+    rng: np.random.Generator | None = None,
+) -> ChipOdds:
+    """Return who finishes where in a chip tournament, by simulation.
+
+    Parameters
+    ----------
+    chips
+        each player's chips at the start.
+    racks
+        racks[i, j] = P(i, who stays at the table, beats the challenger j).
+    tables
+        how many tables there are.
+    line
+        the order in which players come to the tables; None: drawn anew for each run.
+    runs
+        how many tournaments.
+    rng
+        where pseudo-random numbers come from; None: a generator with the seed 0.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> odds = play_chips([3, 3, 3, 3], np.full((4, 4), 0.5))
+    >>> odds.title.round(2), odds.p_place.sum(axis=0).round(9)
+    (array([0.25, 0.25, 0.25, 0.25]), array([1., 1., 1., 1.]))
+    """
+    counts = np.array([whole(count, "chips", at_least=1) for count in np.asarray(chips).tolist()])
+    if len(counts) < 2:
+        raise InputError(f"chips is {chips!r}; give two players or more")
+    table = checked_racks(racks, len(counts))
+    order = None if line is None else np.array(line)
+    if order is not None and sorted(order.tolist()) != list(range(len(counts))):
+        raise InputError(f"line is {line!r}; give each of {len(counts)} players once")
+    rng = rng or np.random.default_rng(0)
+    room = _Room(counts, table, whole(tables, "tables", at_least=1), order, runs, rng)
+    while room.running.size:
+        room.rack()
+    return ChipOdds(*room.places(), float(room.racks) / runs, runs)
+
+
+class _Room:
+    """All runs at once; a row each."""
+
+    def __init__(
+        self,
+        chips: Ints,
+        table: Floats,
+        tables: int,
+        order: Ints | None,
+        runs: int,
+        rng: np.random.Generator,
+    ) -> None:
+        count = len(chips)
+        self.table, self.rng, self.runs = table, rng, runs
+        self.chips = np.tile(chips, (runs, 1))
+        seats = np.tile(np.arange(count), (runs, 1))
+        line = rng.permuted(seats, axis=1) if order is None else np.tile(order, (runs, 1))
+        self.most = tables
+        in_use = int(self._tables(np.array(count), tables))
+        self.stays = line[:, 0 : 2 * in_use : 2].copy()
+        self.challenges = line[:, 1 : 2 * in_use : 2].copy()
+        self.open = np.full(runs, in_use)  # tables in use: the first so many
+        waiting = line[:, 2 * in_use :]
+        self.line = np.zeros((runs, count), dtype=np.int64)  # a ring: from head, so many
+        self.line[:, : waiting.shape[1]] = waiting
+        self.head = np.zeros(runs, dtype=np.int64)
+        self.length = np.full(runs, waiting.shape[1])
+        self.left = np.full(runs, count)
+        self.place = np.zeros((runs, count), dtype=np.int64)  # 0: still in
+        self.to_the_end = break_matters(table)
+        last = 1 if self.to_the_end else 2
+        self.last = last
+        self.running = np.flatnonzero(self.left > last)
+        self.racks = 0
+
+    @staticmethod
+    def _tables(left: Ints, tables: int) -> Ints:
+        """Return how many tables are in use: somebody waits, except heads-up."""
+        in_use: Ints = np.clip((left - 1) // 2, 1, tables)
+        return in_use
+
+    def rack(self) -> None:
+        """Play one rack in each run."""
+        run = self.running
+        at = (self.rng.random(len(run)) * self.open[run]).astype(np.int64)
+        one, other = self.stays[run, at], self.challenges[run, at]
+        won = self.rng.random(len(run)) < self.table[one, other]
+        winner, loser = np.where(won, one, other), np.where(won, other, one)
+        self.racks += len(run)
+        self.chips[run, loser] -= 1
+        out = self.chips[run, loser] == 0
+        self.place[run[out], loser[out]] = self.left[run[out]]
+        self.left[run] -= out
+        self._wait(run[~out], loser[~out])
+        close = self._tables(self.left[run], self.most) < self.open[run]
+        stay = ~close & (self.left[run] > 1)
+        goes_on = run[stay]
+        self.stays[goes_on, at[stay]] = winner[stay]
+        self.challenges[goes_on, at[stay]] = self._next(goes_on)
+        if close.any():
+            self._close(run[close], at[close], winner[close])
+        if out.any():
+            self.running = run[self.left[run] > self.last]
+
+    def places(self) -> tuple[Floats, Floats]:
+        """Return P(each player has each place), and the standard errors."""
+        count = self.chips.shape[1]
+        law = np.zeros((count, count))
+        squares = np.zeros((count, count))
+        for place in range(self.last + 1, count + 1):
+            law[:, place - 1] = squares[:, place - 1] = (self.place == place).sum(axis=0)
+        if self.to_the_end:
+            law[:, 0] = squares[:, 0] = (self.place == 0).sum(axis=0)
+        else:
+            self._heads_up(law, squares)
+        law, squares = law / self.runs, squares / self.runs
+        error = np.sqrt(np.maximum(squares - law**2, 0.0) / self.runs)
+        return law, error
+
+    def _heads_up(self, law: Floats, squares: Floats) -> None:
+        rows = np.arange(self.runs)
+        last = np.argsort(self.place, axis=1, kind="stable")[:, :2]  # the two without a place
+        one, other = last[:, 0], last[:, 1]
+        p = race_win_probability(
+            self.table[one, other], self.chips[rows, other], self.chips[rows, one]
+        )
+        for player, chance in ((one, p), (other, 1.0 - p)):
+            for place, share in ((0, chance), (1, 1.0 - chance)):
+                law[:, place] += np.bincount(player, share, len(law))
+                squares[:, place] += np.bincount(player, share**2, len(law))
+
+    def _wait(self, run: Ints, player: Ints) -> None:
+        """Send players to the end of the line."""
+        size = self.line.shape[1]
+        self.line[run, (self.head[run] + self.length[run]) % size] = player
+        self.length[run] += 1
+
+    def _next(self, run: Ints) -> Ints:
+        """Take the first of the line."""
+        player: Ints = self.line[run, self.head[run]]
+        self.head[run] = (self.head[run] + 1) % self.line.shape[1]
+        self.length[run] -= 1
+        return player
+
+    def _close(self, run: Ints, at: Ints, winner: Ints) -> None:
+        """Close a table: its winner waits, and the last table takes its number."""
+        self._wait(run, winner)
+        last = self.open[run] - 1
+        self.stays[run, at] = self.stays[run, last]
+        self.challenges[run, at] = self.challenges[run, last]
+        self.open[run] = last

@@ -1,0 +1,1 @@
+"""The clock: how long matches take, when the evening ends, which match to call next."""

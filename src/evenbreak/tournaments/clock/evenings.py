@@ -1,0 +1,191 @@
+"""Evenings played out: who wins, in how many games, in how many minutes, in each run.
+
+All luck comes from the seed in a fixed order, so that two evenings with the same seed differ
+only by what was changed: a race, a pace, a number of tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr, ndtri
+
+from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.brackets.standing import NOBODY, Standing
+from evenbreak.tournaments.clock.event_pace import lognormal, turnovers
+from evenbreak.tournaments.odds.chances import Chances
+from evenbreak.tournaments.odds.play import play_out, stratified_uniforms
+from evenbreak.tournaments.odds.races import PairOdds
+
+
+class InPlay(NamedTuple):
+    """A match under way.
+
+    Parameters
+    ----------
+    match
+        its name.
+    started
+        when it began, in minutes since the first start of the event.
+    """
+
+    match: str
+    started: float
+
+
+@dataclass(frozen=True, eq=False)
+class Evenings:
+    """Many evenings: rows are runs, columns the matches still to be played.
+
+    Parameters
+    ----------
+    names
+        the matches.
+    needed
+        whether each is played: a second final may not be.
+    minutes
+        how long it takes; of a match under way, from now on.
+    turnover
+        how long its table needs after it.
+    first, second
+        who plays, by position.
+    """
+
+    names: tuple[str, ...]
+    needed: Bools
+    minutes: Floats
+    turnover: Floats
+    first: NDArray[np.int16]
+    second: NDArray[np.int16]
+
+
+def play_evenings(
+    now: Standing,
+    laws: Mapping[str, PairOdds],
+    pace: Pace,
+    turnover: Turnover | None,
+    *,
+    playing: Sequence[InPlay] = (),
+    clock: float = 0.0,
+    runs: int = 2000,
+    seed: int = 0,
+) -> Evenings:
+    """Return many evenings from where the tournament stands.
+
+    Parameters
+    ----------
+    now
+        where it stands.
+    laws
+        who wins each match still to be played and in how many games.
+    pace, turnover
+        how long matches take, and the time between two on a table (see `turnovers`).
+    playing
+        the matches under way.
+    clock
+        what time it is, in minutes since the first start.
+    runs, seed
+        how many evenings, and the seed of their luck.
+    """
+    remaining = now.remaining
+    names = tuple(match.name for match in remaining.matches if match.name not in now.winners)
+    for name in names:
+        if name not in laws:
+            raise InputError(
+                f"laws has no match {name!r}; give the odds of every match (`pair_odds`)"
+            )
+    rng = np.random.default_rng(seed)
+    evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
+    chances = Chances({m.name: _padded(laws[m.name].win) for m in remaining.matches})
+    under_way = {}
+    for match in playing:
+        under_way[match.match] = _under_way(now, laws, pace, evening, match, clock, rng)
+    luck = np.random.default_rng([seed, 1])
+    given = {name: won for name, (won, _) in under_way.items()} | _decided(now, runs)
+    played = play_out(remaining, chances, luck, runs, given=given)
+    nobody = len(now.bracket.players)
+    shape = runs, len(names)
+    needed, minutes, between = np.ones(shape, dtype=bool), np.zeros(shape), np.zeros(shape)
+    first, second = (np.zeros(shape, dtype=np.int16) for _ in range(2))
+    for k, name in enumerate(names):
+        one, other = played.first[name], played.second[name]
+        needed[:, k] = (one < nobody) & (other < nobody)
+        first[:, k], second[:, k] = one, other
+        games_luck, match_luck, between_luck = (stratified_uniforms(luck, runs) for _ in range(3))
+        between[:, k] = turnovers(turnover, between_luck)
+        if name in under_way:
+            minutes[:, k] = under_way[name][1]
+            continue
+        winner = np.where(played.first_won[name], one, other)
+        loser = np.where(played.first_won[name], other, one)
+        games = _games(laws[name], winner, loser, needed[:, k], games_luck)
+        noise = lognormal(ndtri(match_luck), pace.match_sd)
+        minutes[:, k] = evening * noise * pace.mean_minutes(games)
+    return Evenings(names, needed, minutes, between, first, second)
+
+
+def _padded(win: Floats) -> Floats:
+    count = len(win)
+    padded = np.ones((count + 1, count + 1))
+    padded[:count, :count] = win
+    padded[count, :count] = 0.0
+    return padded
+
+
+def _decided(now: Standing, runs: int) -> dict[str, Bools]:
+    """Return the results of the matches of groups that are not settled."""
+    found = {}
+    for name, won in now.winners.items():
+        first = now.seats[name][0]
+        found[name] = np.full(runs, won == first)
+    return found
+
+
+def _games(law: PairOdds, winner: Ints, loser: Ints, needed: Bools, luck: Floats) -> Ints:
+    """Return how many games a match takes, given who wins."""
+    games = np.zeros(len(winner), dtype=np.int64)
+    ends = law.ends[winner[needed], loser[needed]]
+    reached = np.cumsum(ends, axis=1)
+    games[needed] = (reached < (luck[needed] * reached[:, -1])[:, None]).sum(axis=1)
+    return games
+
+
+def _under_way(
+    now: Standing,
+    laws: Mapping[str, PairOdds],
+    pace: Pace,
+    evening: Floats,
+    match: InPlay,
+    clock: float,
+    rng: np.random.Generator,
+) -> tuple[Bools, Floats]:
+    """Return who wins a match under way, and the minutes it still takes.
+
+    Given the minutes it has taken so far, longer lengths are the likelier.
+    """
+    one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
+    if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
+        raise InputError(f"playing has {match.match!r}; give matches whose players are known")
+    elapsed = clock - match.started
+    if elapsed < 0.0:
+        raise InputError(f"{match.match} started at {match.started:g}; it is {clock:g} now")
+    ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
+    games = np.tile(np.arange(len(ends) // 2), 2)
+    usual = np.maximum(pace.mean_minutes(games), 1e-9)
+    median = evening[:, None] * usual * lognormal(0.0, pace.match_sd)
+    with np.errstate(divide="ignore"):
+        passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)
+    lasts = ndtr(-passed)  # P(it takes longer than it has)
+    reached = np.cumsum(ends * lasts, axis=1)
+    luck = stratified_uniforms(rng, len(evening)) * reached[:, -1]
+    kind = np.minimum((reached < luck[:, None]).sum(axis=1), len(ends) - 1)
+    row = np.arange(len(evening))
+    tail = np.maximum(lasts[row, kind] * (1.0 - stratified_uniforms(rng, len(evening))), 1e-300)
+    total = median[row, kind] * np.exp(-pace.match_sd * ndtri(tail))
+    return kind < len(ends) // 2, np.maximum(total - elapsed, 0.0)

@@ -1,0 +1,288 @@
+"""When a tournament ends, when each match begins, and which match to call next."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.checks import floats, number, whole
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.standing import Results, Standing, standing
+from evenbreak.tournaments.clock.evenings import Evenings, InPlay, play_evenings
+from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
+from evenbreak.tournaments.clock.matches_of import Waiting, waiting
+from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
+from evenbreak.tournaments.odds.races import PairOdds
+
+QUANTILES = (0.1, 0.5, 0.9)
+
+
+class Start(NamedTuple):
+    """When a match begins, in minutes: in 10, 50 and 90 of 100 evenings it has begun by then.
+
+    Parameters
+    ----------
+    p10, p50, p90
+        the times, given that the match is played.
+    p_played
+        the chance that it is.
+    """
+
+    p10: float
+    p50: float
+    p90: float
+    p_played: float
+
+
+class Call(NamedTuple):
+    """A match that could be called next.
+
+    Parameters
+    ----------
+    match
+        its name.
+    finish_mean
+        when the evening ends on average, if it is called next.
+    later
+        by how many minutes that is later than with the best call, on average.
+    error
+        the standard error of `later`.
+    """
+
+    match: str
+    finish_mean: float
+    later: float
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Finish:
+    """When a tournament ends; times are minutes since its first start.
+
+    Parameters
+    ----------
+    finishes
+        when each of the evenings that were played out ends.
+    starts
+        when each match begins in each evening, a column a match; NaN where it is not needed.
+    names
+        the matches still to be played, as in the columns of `starts`.
+    pace
+        how long matches take this evening.
+    standing
+        where the tournament stands.
+    """
+
+    finishes: Floats
+    starts: Floats
+    names: tuple[str, ...]
+    pace: Pace
+    standing: Standing
+    _room: _Room
+
+    def finish(self, q: float) -> float:
+        """Return the time by which the tournament has ended with chance q."""
+        return float(np.quantile(self.finishes, number(q, "q", low=0.0, high=1.0)))
+
+    @property
+    def bands(self) -> tuple[float, float, float]:
+        """The times by which it has ended in 10, 50 and 90 of 100 evenings."""
+        one, two, three = np.quantile(self.finishes, QUANTILES)
+        return float(one), float(two), float(three)
+
+    def start(self, match: str) -> Start:
+        """Return when a match begins."""
+        if match not in self.names:
+            raise InputError(f"match is {match!r}; give one that is still to be begun")
+        times = self.starts[:, self.names.index(match)]
+        return _start(times[~np.isnan(times)], times.size)
+
+    def next_start(self, player: str) -> Start:
+        """Return when a player's next match begins, whichever it is."""
+        seat = self.standing.bracket.player(player)
+        evenings = self._room.evenings
+        mine = evenings.needed & ((evenings.first == seat) | (evenings.second == seat))
+        mine[:, [k for k, name in enumerate(self.names) if name in self._room.on_tables]] = False
+        times = np.where(mine, self.starts, np.inf).min(axis=1, initial=np.inf)
+        return _start(times[np.isfinite(times)], times.size)
+
+    def calls(self) -> list[Call]:
+        """Return the matches that can be called next, the one with the soonest finish first.
+
+        All are tried on the same evenings, so that small differences are real.
+        """
+        room = self._room
+        ready = [name for name in self.standing.to_play if name not in room.on_tables]
+        ends = {name: room.ends(room.planned(self.names.index(name))) for name in ready}
+        if not ends:
+            return []
+        best = min(ends, key=lambda name: float(ends[name].mean()))
+        calls = []
+        for name, end in ends.items():
+            later = end - ends[best]
+            error = float(later.std() / np.sqrt(len(later)))
+            calls.append(Call(name, float(end.mean()), float(later.mean()), error))
+        return sorted(calls, key=lambda call: call.later)
+
+
+@dataclass(frozen=True, eq=False)
+class _Room:
+    """The tables, what is on them, and the evenings that are played on them."""
+
+    evenings: Evenings
+    waits: Waiting
+    tables: Floats
+    now: float
+    playing: tuple[InPlay, ...]
+
+    @property
+    def on_tables(self) -> tuple[str, ...]:
+        """The matches under way."""
+        return tuple(match.match for match in self.playing)
+
+    def planned(self, first: int | None = None) -> Schedule:
+        """Return the schedule, with one match called first if it is given."""
+        evenings = self.evenings
+        runs = len(evenings.minutes)
+        return schedule(
+            self.waits,
+            evenings.minutes,
+            evenings.needed,
+            evenings.turnover,
+            np.tile(self.tables, (runs, 1)),
+            now=self.now,
+            first=first,
+            under_way=[evenings.names.index(name) for name in self.on_tables],
+        )
+
+    def ends(self, planned: Schedule) -> Floats:
+        """Return when each evening ends."""
+        end: Floats = np.where(self.evenings.needed, planned.end, self.now).max(
+            axis=1, initial=self.now
+        )
+        return end
+
+
+def finish(
+    bracket: Bracket,
+    laws: Mapping[str, PairOdds],
+    *,
+    tables: int | Sequence[float],
+    pace: Pace | str = "9-ball",
+    turnover: Turnover | None = None,
+    wait_for_rounds: bool = True,
+    results: Results | None = None,
+    played: Sequence[Timed] = (),
+    playing: Sequence[InPlay] = (),
+    now: float = 0.0,
+    runs: int = 2000,
+    seed: int = 0,
+) -> Finish:
+    """Return when a tournament ends and when each match begins.
+
+    Whenever a table is free, the match with the longest way to the end begins on it.
+
+    Parameters
+    ----------
+    bracket
+        the tournament.
+    laws
+        who wins each match and in how many games, as `pair_odds` gives it.
+    tables
+        how many tables there are, or from when on each of them is free, in minutes since the
+        first start. The tables of matches under way are among them.
+    pace
+        how long matches take: a discipline, calibrated to whole events, or a `Pace`.
+    turnover
+        the time between two matches on a table with both players free; None: none in 62 of 100
+        cases, as in real events, and otherwise the usual one.
+    wait_for_rounds
+        whether a round begins only when the rounds that feed it are over, as it does on most
+        evenings; the pace of a discipline is calibrated for that.
+    results
+        the results so far.
+    played
+        the games and minutes of the matches played so far: they say how fast this evening is.
+    playing
+        the matches under way.
+    now
+        what time it is, in minutes since the first start.
+    runs, seed
+        how many evenings are played out, and the seed of their luck: the same seed gives a
+        changed evening the same luck.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> from evenbreak.tournaments import double_elimination, pair_odds
+    >>> bracket = double_elimination(8)
+    >>> laws = pair_odds(bracket, [500] * 8, 5)
+    >>> four, two = (finish(bracket, laws, tables=tables).bands for tables in (4, 2))
+    >>> four[0] < four[1] < four[2] < two[1]
+    True
+    """
+    where = standing(bracket, results)
+    if where.assumed:
+        name = next(iter(where.assumed))
+        raise InputError(f"results has {name!r}; give results of matches whose players are known")
+    clock = number(now, "now", low=0.0)
+    speed = learned_pace(pace, played)
+    evenings = play_evenings(
+        where,
+        laws,
+        speed,
+        turnover,
+        playing=playing,
+        clock=clock,
+        runs=whole(runs, "runs", at_least=10),
+        seed=seed,
+    )
+    waits = waiting(bracket, evenings.names, for_rounds=wait_for_rounds)
+    room = _Room(evenings, waits, _tables(tables, clock, len(playing)), clock, tuple(playing))
+    planned = room.planned()
+    starts = np.where(evenings.needed, planned.start, np.nan)
+    for match in playing:
+        starts[:, evenings.names.index(match.match)] = match.started
+    return Finish(room.ends(planned), starts, evenings.names, speed, where, room)
+
+
+def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
+    """Return by how many minutes one evening ends later than the other, and its standard error.
+
+    Both must come from the same seed and runs: then they share their luck.
+
+    Raises
+    ------
+    InputError
+        if they were played out different numbers of times.
+    """
+    if one.finishes.shape != other.finishes.shape:
+        raise InputError("the two were played out different numbers of times; give the same runs")
+    later = one.finishes - other.finishes
+    return float(later.mean()), float(later.std() / np.sqrt(len(later)))
+
+
+def _start(times: Floats, runs: int) -> Start:
+    if not times.size:
+        return Start(np.nan, np.nan, np.nan, 0.0)
+    early, middle, late = np.quantile(times, QUANTILES).tolist()
+    return Start(early, middle, late, times.size / runs)
+
+
+def _tables(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
+    """Return from when on each table is free, those of the matches under way first."""
+    if isinstance(tables, Sequence):
+        free = np.sort(floats(tables, "tables", low=0.0))
+    else:
+        free = np.zeros(whole(tables, "tables", at_least=1))
+    if len(free) < max(busy, 1):
+        raise InputError(f"tables is {tables!r}, with {busy} matches under way; give more tables")
+    return np.maximum(free, clock)

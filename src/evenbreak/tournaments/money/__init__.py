@@ -1,0 +1,1 @@
+"""Money: payouts by number of entrants, and the Calcutta."""

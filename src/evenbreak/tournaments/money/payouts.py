@@ -1,0 +1,145 @@
+"""Payouts: which share of the prize money each place gets, by number of entrants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.checks import number, whole
+from evenbreak.errors import InputError
+
+
+class PayoutRow(NamedTuple):
+    """The shares of the places, for some numbers of entrants.
+
+    Parameters
+    ----------
+    entrants_from, entrants_to
+        the numbers of entrants; None for no upper limit.
+    shares
+        the part of the prize money for first place, second, ...; they sum to 1 at most, and
+        what is left is the house's.
+    """
+
+    entrants_from: int
+    entrants_to: int | None
+    shares: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Payouts:
+    """A payout table.
+
+    Parameters
+    ----------
+    name
+        what it is called.
+    rows
+        the rows, by ascending number of entrants.
+    source
+        where it is from.
+
+    Raises
+    ------
+    InputError
+        if rows overlap, or shares are negative or sum to more than 1.
+
+    >>> two = Payouts("70/30", (PayoutRow(2, None, (0.7, 0.3)),))
+    >>> two.amounts(12, 240)
+    [168.0, 72.0]
+    """
+
+    name: str
+    rows: tuple[PayoutRow, ...]
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        rows = tuple(PayoutRow(first, last, tuple(shares)) for first, last, shares in self.rows)
+        object.__setattr__(self, "rows", rows)
+        if not rows:
+            raise InputError("rows is empty; give shares for each number of entrants")
+        before = 0
+        for row in rows:
+            first = whole(row.entrants_from, "entrants_from", at_least=1)
+            last = float("inf") if row.entrants_to is None else row.entrants_to
+            if first <= before or last < first:
+                raise InputError(f"row {row} overlaps another or ends before it begins")
+            before = int(min(last, 10**9))
+            total = sum(number(share, "share", low=0.0) for share in row.shares)
+            if not row.shares or total > 1.0 + 1e-9:
+                raise InputError(f"shares are {row.shares}; give one or more, 1 at most together")
+
+    def shares(self, entrants: int) -> tuple[float, ...]:
+        """Return the shares of the places for a number of entrants.
+
+        Raises
+        ------
+        InputError
+            if the table has no row for it.
+        """
+        count = whole(entrants, "entrants", at_least=1)
+        for row in self.rows:
+            if row.entrants_from <= count and (row.entrants_to is None or count <= row.entrants_to):
+                return row.shares
+        spans = ", ".join(
+            f"{row.entrants_from} or more"
+            if row.entrants_to is None
+            else f"{row.entrants_from} to {row.entrants_to}"
+            for row in self.rows
+        )
+        raise InputError(f"{self.name} pays {spans} entrants, not {count}; give your own shares")
+
+    def amounts(self, entrants: int, pot: float) -> list[float]:
+        """Return the money for first place, second, ..."""
+        money = number(pot, "pot", low=0.0)
+        return [share * money for share in self.shares(entrants)]
+
+
+PAYOUTS: dict[str, Payouts] = {
+    "hoboken": Payouts(
+        "hoboken",
+        (
+            PayoutRow(2, 9, (1.0,)),
+            PayoutRow(20, 24, (0.50, 0.25, 0.15, 0.10)),
+            PayoutRow(25, 32, (0.50, 0.20, 0.15, 0.08, 0.07)),
+            PayoutRow(33, 49, (0.40, 0.18, 0.14, 0.07, 0.06, 0.05, 0.05, 0.05)),
+            PayoutRow(50, 80, (0.35, 0.15, 0.12, 0.07, 0.06, 0.05, 0.05, 0.05, 0.05, 0.05)),
+        ),
+        "the chip tournaments of a club in Hoboken, as published",
+    ),
+    "40/30/20/10": Payouts(
+        "40/30/20/10", (PayoutRow(4, None, (0.4, 0.3, 0.2, 0.1)),), "a common split"
+    ),
+    "40/30/15": Payouts(
+        "40/30/15", (PayoutRow(3, None, (0.4, 0.3, 0.15)),), "a common split, the rest the house's"
+    ),
+    "70/30": Payouts("70/30", (PayoutRow(2, None, (0.7, 0.3)),), "a common split"),
+}
+"""The payout tables that come with the package, by name."""
+
+
+def payout_table(name_or_shares: str | Sequence[float] | Payouts) -> Payouts:
+    """Return a table by its name, or the one that always pays the same shares.
+
+    Raises
+    ------
+    InputError
+        if no table has this name, or the shares cannot be used.
+
+    >>> payout_table("40/30/20/10").shares(16)
+    (0.4, 0.3, 0.2, 0.1)
+    >>> payout_table([0.6, 0.4]).amounts(8, 100)
+    [60.0, 40.0]
+    """
+    if isinstance(name_or_shares, Payouts):
+        return name_or_shares
+    if isinstance(name_or_shares, str):
+        if name_or_shares not in PAYOUTS:
+            listed = ", ".join(PAYOUTS)
+            raise InputError(f"payouts is {name_or_shares!r}; give {listed}, or shares")
+        return PAYOUTS[name_or_shares]
+    shares = tuple(float(share) for share in np.asarray(name_or_shares, dtype=float).ravel())
+    return Payouts("own shares", (PayoutRow(1, None, shares),))

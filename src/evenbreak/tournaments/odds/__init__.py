@@ -1,0 +1,1 @@
+"""Title odds: who finishes where, exactly, from the chances of each match."""

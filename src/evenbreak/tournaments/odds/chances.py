@@ -1,0 +1,181 @@
+"""The chances of each match, as tables: P(i beats j) for every two players."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.arrays import Floats
+from evenbreak.checks import floats, number_probability
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.standing import Standing
+
+
+@runtime_checkable
+class HasWin(Protocol):
+    """Anything with a table `win`: win[i, j] = P(i beats j)."""
+
+    @property
+    def win(self) -> Floats:
+        """The chance of each player against each other player."""
+        ...
+
+
+Win: TypeAlias = ArrayLike | Callable[[str, str], float] | HasWin
+"""P(i beats j) for every two players: a table, or a function of two names."""
+
+Wins: TypeAlias = Win | Mapping[str, Win]
+"""One for all matches, or one for each match, by match name."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chances:
+    """P(slot 1's player wins) for each match and every two players.
+
+    Tables have one extra row and column for an empty slot, against which everybody wins. A
+    third axis, if there is one, runs over samples.
+    """
+
+    tables: Mapping[str, Floats]
+
+    def of(self, match: str) -> Floats:
+        """Return the table of a match."""
+        return self.tables[match]
+
+    def each(self, match: str, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
+        """Return the chance of slot 1's player in each sample, given who plays in it.
+
+        The samples are the last axis of `first` and `second`.
+        """
+        return of_samples(self.of(match), first, second)
+
+
+def of_samples(table: Floats, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
+    """Return the entries of a table; of one with a third axis, those of each sample."""
+    if table.ndim == 2:
+        found: Floats = table[first, second]
+    else:
+        found = table[first, second, np.arange(table.shape[2])]
+    return found
+
+
+def chances_of(
+    now: Standing,
+    win: Wins,
+    *,
+    live: Mapping[str, float] | None = None,
+    walkovers: float | Mapping[str, float] = 0.0,
+) -> Chances:
+    """Return the tables of all undecided matches.
+
+    Parameters
+    ----------
+    now
+        the state of the tournament.
+    win
+        P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
+        a function of two names; or a mapping with one of these for each match.
+    live
+        P(the player in slot 1 wins) for matches in play.
+    walkovers
+        the chance that a match is a walkover, either way with equal chance: one number, or a
+        mapping by match name.
+
+    Raises
+    ------
+    InputError
+        if a chance is not a probability, the two chances of a pair do not add up to 1, or a
+        match is unknown or has no table.
+    """
+    bracket, count = now.bracket, len(now.bracket.players)
+    known: dict[int, Floats] = {}
+    tables: dict[str, Floats] = {}
+    keep: list[Any] = []  # so that no id is used twice
+    for match in now.remaining.matches:
+        given = _given(win, match.name)
+        if id(given) not in known:
+            keep.append(given)
+            known[id(given)] = _with_nobody(_table(given, bracket))
+        tables[match.name] = known[id(given)]
+    _walk_over(bracket, tables, walkovers)
+    for name, chance in (live or {}).items():
+        p = number_probability(chance, f"live chance of {name}")
+        seats = now.seats.get(bracket.match(name).name, (None, None))
+        if name in now.winners or None in seats:
+            raise InputError(f"live has match {name!r}; give matches whose players are known")
+        one, other = seats
+        table = tables[name].copy()
+        table[one, other], table[other, one] = p, 1.0 - p
+        tables[name] = table
+    for name, won in now.winners.items():
+        if name in tables:  # of a group that is not settled
+            tables[name] = _decided(won, count)
+    return Chances(tables)
+
+
+def _given(win: Wins, name: str) -> Any:
+    if not isinstance(win, Mapping):
+        return win
+    if name not in win:
+        raise InputError(f"win has no chances for match {name!r}; give them for every match")
+    return win[name]
+
+
+def _table(given: Any, bracket: Bracket) -> Floats:
+    players = bracket.players
+    if isinstance(given, HasWin):
+        given = given.win
+    if callable(given):
+        given = [[0.5 if i == j else given(i, j) for j in players] for i in players]
+    table = floats(given, "win", low=0.0, high=1.0).copy()
+    if table.shape[:2] != (len(players), len(players)) or table.ndim > 3:
+        raise InputError(
+            f"win has shape {table.shape}; give a row and a column for each of "
+            f"{len(players)} players"
+        )
+    off = np.abs(table + table.swapaxes(0, 1) - 1.0)
+    off[np.arange(len(players)), np.arange(len(players))] = 0.0
+    if off.max() > 1e-9:
+        i, j, *_ = np.unravel_index(off.argmax(), off.shape)
+        raise InputError(
+            f"win[{players[i]}, {players[j]}] and win[{players[j]}, {players[i]}] do not add up "
+            "to 1; give the chances of both players of one match"
+        )
+    return table
+
+
+def _with_nobody(table: Floats) -> Floats:
+    count = len(table)
+    padded = np.ones((count + 1, count + 1, *table.shape[2:]))
+    padded[:count, :count] = table
+    padded[count, :count] = 0.0
+    return padded
+
+
+def _walk_over(
+    bracket: Bracket, tables: dict[str, Floats], walkovers: float | Mapping[str, float]
+) -> None:
+    made: dict[tuple[int, float], Floats] = {}
+    if isinstance(walkovers, Mapping):
+        for name in walkovers:
+            bracket.match(name)
+    for name, table in tables.items():
+        share = walkovers.get(name, 0.0) if isinstance(walkovers, Mapping) else walkovers
+        if share:
+            chance = number_probability(share, "walkovers")
+            if (id(table), chance) not in made:
+                mixed = table.copy()
+                mixed[:-1, :-1] = 0.5 * chance + (1.0 - chance) * table[:-1, :-1]
+                made[id(table), chance] = mixed
+            tables[name] = made[id(table), chance]
+
+
+def _decided(won: int, count: int) -> Floats:
+    table = np.full((count + 1, count + 1), 0.5)
+    table[won, :], table[:, won] = 1.0, 0.0
+    return table

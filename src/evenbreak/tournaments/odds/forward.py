@@ -1,0 +1,160 @@
+"""The forward pass: the joint distribution of open slots, from match to match.
+
+With m(s) the probability of state s before a match and p(s) the chance that slot 1's player
+wins it in that state, the probabilities after the match are
+
+    m'(t) = sum of m(s) p(s) over the s that a win of slot 1 turns into t
+          + sum of m(s) (1 - p(s)) over the s that a win of slot 2 turns into t.
+
+The sum of m over the states in which two players meet is the chance that they do. All other
+answers follow from these chances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.tournaments.odds.chances import Chances
+from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
+from evenbreak.tournaments.odds.plan import (
+    Branch,
+    GroupStep,
+    Index,
+    MatchStep,
+    Plan,
+    adding_up,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class ForwardPass:
+    """The result of a forward pass; arrays have a last axis for samples, if there are any.
+
+    Parameters
+    ----------
+    meet
+        for each match, the chance of each pair of its step.
+    first_wins
+        for each match, P(slot 1's player wins) in each pair.
+    ranks
+        for each group, ranks[i, k] = P(member i has rank k, from 0 on).
+    total
+        the probability of the what-if results; 1 if there are none.
+    after
+        the probabilities of the states after each step, by its number, if they were kept.
+    """
+
+    meet: Mapping[str, Floats]
+    first_wins: Mapping[str, Floats]
+    ranks: Mapping[str, Floats]
+    total: Floats
+    after: Mapping[int, Floats]
+
+
+def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> ForwardPass:
+    """Return the chance of every pair in every match of a plan.
+
+    Parameters
+    ----------
+    plan
+        the steps.
+    chances
+        the chances of the matches, for one sample or many.
+    keep
+        whether to keep the probabilities of all states.
+    """
+    masses: dict[int, Floats] = {}
+    meet: dict[str, Floats] = {}
+    first_wins: dict[str, Floats] = {}
+    ranks: dict[str, Floats] = {}
+    after: dict[int, Floats] = {}
+    total = np.ones(())
+    for number, step in enumerate(plan.steps):
+        if isinstance(step, GroupStep):
+            masses[number], ranks[step.name] = group_odds(step, chances)
+        else:
+            mass = joined([masses.pop(k) for k in step.joins])
+            p = chances.of(step.name)[step.first, step.second]
+            meet[step.name], first_wins[step.name] = _pairs(step, mass), p
+            masses[number] = passed_on(step, mass, p)
+        if keep:
+            after[number] = masses[number]
+        if not step.slots:
+            total = total * masses.pop(number).sum(axis=0)
+    return ForwardPass(meet, first_wins, ranks, total, after)
+
+
+def joined(parts: list[Floats]) -> Floats:
+    """Return the joint distribution of up to two independent parts."""
+    if not parts:
+        return np.ones(1)
+    if len(parts) == 1:
+        return parts[0]
+    one, other = parts
+    product = one[:, None] * other[None, :]
+    return product.reshape(len(one) * len(other), *product.shape[2:])
+
+
+def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
+    """Return the probabilities of the states after a match."""
+    won, lost = split(step, mass, p)
+    return gathered(step, 0, won) + gathered(step, 1, lost)
+
+
+def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
+    """Return the probability of each state and a win of slot 1, and of slot 2."""
+    of_state = p if step.pair is None else p[step.pair]
+    won = mass[..., None] * of_state if of_state.ndim > mass.ndim else mass * of_state
+    whole = mass[..., None] if of_state.ndim > mass.ndim else mass
+    return won, whole - won
+
+
+def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
+    """Return what one branch adds to the probabilities of the states after a match."""
+    branch: Branch = step.branches[side]
+    moved = mass if branch.rows is None else mass[branch.rows]
+    if mass.ndim == 1:
+        return np.bincount(branch.to, moved, step.size).astype(float, copy=False)
+    arrived: Floats = step.scatter[side] @ moved
+    return arrived
+
+
+def _pairs(step: MatchStep, mass: Floats) -> Floats:
+    if step.pair is None or step.meeting is None:
+        return mass
+    if mass.ndim == 1:
+        return np.bincount(step.pair, mass, len(step.first)).astype(float, copy=False)
+    met: Floats = step.meeting @ mass
+    return met
+
+
+def group_odds(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
+    """Return the probabilities of who qualifies from a group, and of who has which rank."""
+    matches = zip(step.group.matches, step.group.pairs, strict=True)
+    each = np.broadcast_arrays(*(chances.of(name)[pair] for name, pair in matches))
+    results = result_chances(each)
+    members = len(step.group.members)
+    final = rank_orders(members, step.pairs)
+    orders = summed(final.order_of, results, len(final.orders))
+    _, shares = rank_states(members, step.pairs, step.ranks)
+    ranks = np.zeros((members, members, *results.shape[1:]))
+    for member in range(members):
+        ahead = final.orders[:, member]
+        level = (final.orders == ahead[:, None]).sum(axis=1)
+        for lot in range(int(level.max())):
+            there = level > lot
+            share = orders[there] / level[there].reshape(-1, *[1] * (orders.ndim - 1))
+            ranks[member] += summed(ahead[there] + lot, share, members)
+    return shares @ orders, ranks
+
+
+def summed(index: Index, mass: Floats, size: int) -> Floats:
+    """Return the sums of the values with the same index."""
+    if mass.ndim == 1:
+        return np.bincount(index, mass, size).astype(float, copy=False)
+    sums: Floats = adding_up(index.astype(np.int32), size) @ mass
+    return sums

@@ -1,0 +1,147 @@
+"""Tournaments played out by pseudo-random numbers, many at once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import Floats
+from evenbreak.tournaments.brackets.bracket import Bracket, Group, Slot, Source
+from evenbreak.tournaments.brackets.group_ranks import players_ahead
+from evenbreak.tournaments.odds.chances import Chances
+from evenbreak.tournaments.odds.plan import Players
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedOut:
+    """Many runs of a tournament, or of its first matches.
+
+    Parameters
+    ----------
+    first, second
+        who sat in slot 1 and slot 2 of each match, in each run; the number of players stands
+        for nobody.
+    first_won
+        whether slot 1's player won.
+    sent
+        who came out of each match or group to each slot that waits for them.
+    order
+        for each group, the players in the order of their ranks, shape (runs, members).
+    """
+
+    first: Mapping[str, Players]
+    second: Mapping[str, Players]
+    first_won: Mapping[str, NDArray[np.bool_]]
+    sent: Mapping[Source, Players]
+    order: Mapping[str, Players]
+
+
+def play_out(
+    bracket: Bracket,
+    chances: Chances,
+    rng: np.random.Generator,
+    runs: int,
+    *,
+    only: Collection[str] | None = None,
+    given: Mapping[str, NDArray[np.bool_]] | None = None,
+) -> PlayedOut:
+    """Play a bracket out.
+
+    Each match's pseudo-random numbers are spread evenly over the runs (a Latin hypercube):
+    one in each of `runs` equal parts of 0 to 1. They are drawn match after match, so that the
+    same seed gives matches of the same name the same luck whatever the chances are.
+
+    Parameters
+    ----------
+    bracket
+        the matches still to be played, with the players who are known in their slots.
+    chances
+        their chances; with a third axis, those of each run.
+    rng
+        where pseudo-random numbers come from.
+    runs
+        how often.
+    only
+        play these matches and groups; they are all that feed them too. None: all.
+    given
+        for matches whose result is drawn elsewhere, whether slot 1's player wins in each run.
+
+    Notes
+    -----
+    M. D. McKay, R. J. Beckman, W. J. Conover (1979), "A comparison of three methods for
+    selecting values of input variables", Technometrics 21.
+    """
+    nobody = len(bracket.players)
+    first: dict[str, Players] = {}
+    second: dict[str, Players] = {}
+    first_won: dict[str, NDArray[np.bool_]] = {}
+    sent: dict[Source, Players] = {}
+    order: dict[str, Players] = {}
+    outlets: dict[str, list[Source]] = {}
+    for match in bracket.matches:
+        for slot in match.slots:
+            if isinstance(slot, Source):
+                outlets.setdefault(slot.match, []).append(slot)
+    last_of_group = {group.matches[-1]: group for group in bracket.groups}
+
+    def seated(slot: Slot) -> Players:
+        if isinstance(slot, Source):
+            return sent[slot]
+        return np.full(runs, slot if slot >= 0 else nobody, dtype=np.int16)
+
+    for match in bracket.matches:
+        luck = stratified_uniforms(rng, runs)
+        if only is not None and match.name not in only:
+            continue
+        one, other = seated(match.slots[0]), seated(match.slots[1])
+        if given is not None and match.name in given:
+            won = given[match.name]
+        else:
+            won = luck < chances.each(match.name, one, other)
+        first[match.name], second[match.name], first_won[match.name] = one, other, won
+        for slot in outlets.get(match.name, ()):
+            sent[slot] = _sent_on(slot, one, other, won, nobody)
+        if match.name in last_of_group:
+            group = last_of_group[match.name]
+            order[group.name] = _ordered(group, first_won, rng)
+            for slot in outlets.get(group.name, ()):
+                sent[slot] = order[group.name][:, int(slot.outcome) - 1]
+    return PlayedOut(first, second, first_won, sent, order)
+
+
+def _sent_on(
+    slot: Source, one: Players, other: Players, won: NDArray[np.bool_], nobody: int
+) -> Players:
+    """Return who comes from a match to a slot that waits for its winner or loser."""
+    from_1 = won if slot.outcome == "winner" else ~won
+    player = np.where(from_1, one, other)
+    if slot.via is not None:
+        player = np.where(from_1 == (slot.via == 1), player, nobody)
+    return player.astype(np.int16)
+
+
+def stratified_uniforms(rng: np.random.Generator, runs: int) -> Floats:
+    """Return pseudo-random numbers from 0 to 1, one in each of `runs` equal parts, shuffled."""
+    luck: Floats = (rng.permutation(runs) + rng.random(runs)) / runs
+    return luck
+
+
+def _ordered(
+    group: Group,
+    first_won: dict[str, NDArray[np.bool_]],
+    rng: np.random.Generator,
+) -> Players:
+    seat = {player: k for k, player in enumerate(group.members)}
+    runs = len(first_won[group.matches[0]])
+    beats = np.zeros((runs, len(seat), len(seat)), dtype=np.int16)
+    for name, pair in zip(group.matches, group.pairs, strict=True):
+        one, other = seat[pair[0]], seat[pair[1]]
+        beats[:, one, other] += first_won[name]
+        beats[:, other, one] += ~first_won[name]
+    lots = players_ahead(beats) + rng.random((runs, len(seat)))
+    members = np.array(group.members, dtype=np.int16)
+    ordered: Players = members[np.argsort(lots, axis=1)]
+    return ordered

@@ -1,0 +1,279 @@
+"""What is played in each match: races by round and side, by a chart or fairest of a length.
+
+For every two players the odds of a match say who wins and in how many games. The chances of winning
+go into the title odds, the games into the time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import betainc
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import column, number, whole
+from evenbreak.errors import InputError
+from evenbreak.games.breaks import BreakFormat, alternate_breaks
+from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.tournaments.brackets.bracket import Bracket, Match
+
+
+@dataclass(frozen=True)
+class Fairest:
+    """The race in which the stronger player needs `race_to` and the chances are nearest to 1/2.
+
+    The weaker player needs as many games at most, and at least one.
+    """
+
+    race_to: int
+
+    def __post_init__(self) -> None:
+        whole(self.race_to, "race_to", at_least=1)
+
+
+Race: TypeAlias = int | Chart | Fairest
+"""An even race to so many games, a chart of races, or the fairest race of a length."""
+
+
+@dataclass(frozen=True, eq=False)
+class PairOdds:
+    """Who wins a match and in how many games, for every two players.
+
+    Parameters
+    ----------
+    ends
+        ends[i, j, k] = P(i beats j, in k games); shape (n, n, games + 1).
+    """
+
+    ends: Floats
+
+    @cached_property
+    def win(self) -> Floats:
+        """P(i beats j)."""
+        won: Floats = self.ends.sum(axis=2)
+        np.fill_diagonal(won, 0.5)
+        return won
+
+    @cached_property
+    def mean_games(self) -> Floats:
+        """The mean number of games of i against j."""
+        both = self.ends + self.ends.transpose(1, 0, 2)
+        mean: Floats = both @ np.arange(both.shape[2])
+        return mean
+
+
+@dataclass(frozen=True)
+class Races:
+    """The races of a tournament.
+
+    Parameters
+    ----------
+    race
+        on the winners' side, and wherever nothing else is said.
+    losers
+        on the losers' side and in the consolation event; None: as on the winners' side.
+    final
+        in the final, the second final with it; None: as on the winners' side.
+    by_match
+        for single matches, by name.
+
+    >>> races = Races(7, losers=5, final=9)
+    >>> races.of(Match("L2.1", "losers", 2, (0, 1))), races.of(Match("F", "final", 1, (0, 1)))
+    (5, 9)
+    """
+
+    race: Race
+    losers: Race | None = None
+    final: Race | None = None
+    by_match: Mapping[str, Race] = field(default_factory=dict)
+
+    def of(self, match: Match) -> Race:
+        """Return the race of a match."""
+        if match.name in self.by_match:
+            return self.by_match[match.name]
+        special = None
+        if match.side in ("losers", "consolation"):
+            special = self.losers
+        elif match.side in ("final", "second final"):
+            special = self.final
+        return self.race if special is None else special
+
+
+def pair_odds(
+    bracket: Bracket,
+    ratings: ArrayLike,
+    races: Races | Race,
+    *,
+    scale: Scale | str | float = "fargo",
+    break_advantage: float = 0.0,
+    breaks: BreakFormat = alternate_breaks,
+) -> dict[str, PairOdds]:
+    """Return the odds of each match, given the ratings: what `title_odds` takes as `win`.
+
+    Parameters
+    ----------
+    bracket
+        the tournament.
+    ratings
+        each player's rating, in the bracket's order.
+    races
+        what is played in each match.
+    scale
+        the scale of the ratings: a name, or the points that double the odds.
+    break_advantage
+        by how many points the breaker of a game plays better.
+    breaks
+        who breaks next; either player may win the lag. It matters with a break advantage only.
+
+    Raises
+    ------
+    InputError
+        if a rating or a race cannot be used.
+
+    >>> from evenbreak.tournaments import double_elimination
+    >>> bracket = double_elimination(["Ann", "Bo"])
+    >>> laws = pair_odds(bracket, [600, 500], Races(3, final=5))
+    >>> laws["W1.1"].win[0, 1].round(4), laws["F"].win[0, 1].round(4)
+    (np.float64(0.7901), np.float64(0.8552))
+    """
+    plan, scale, rated, advantage = _checked(bracket, ratings, races, scale, break_advantage)
+    points = rated[:, None] - rated
+    made: dict[int | tuple[int, ...], PairOdds] = {}
+    laws: dict[str, PairOdds] = {}
+    for match in bracket.matches:
+        race = plan.of(match)
+        if _key(race) not in made:
+            needs = games_needed(points, race, scale)
+            made[_key(race)] = _ends(points, needs, scale, advantage, breaks)
+        laws[match.name] = made[_key(race)]
+    return laws
+
+
+def chances_given(
+    bracket: Bracket,
+    ratings: ArrayLike,
+    races: Races | Race,
+    *,
+    scale: Scale | str | float = "fargo",
+    break_advantage: float = 0.0,
+    breaks: BreakFormat = alternate_breaks,
+) -> Callable[[Floats], dict[str, Floats]]:
+    """Return a function from players' skills to the chances of each match, for `over_ratings`.
+
+    The races are those of the ratings, as printed on the chart; the skills say who wins them.
+
+    Parameters
+    ----------
+    bracket, ratings, races, scale, break_advantage, breaks
+        as in `pair_odds`.
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> chances = chances_given(single_elimination(2), [600, 500], 3)
+    >>> chances(np.array([500.0, 500.0]))["F"]
+    array([[0.5, 0.5],
+           [0.5, 0.5]])
+    """
+    plan, scale, rated, advantage = _checked(bracket, ratings, races, scale, break_advantage)
+    points = rated[:, None] - rated
+    race_of = {match.name: plan.of(match) for match in bracket.matches}
+    needs = {_key(race): games_needed(points, race, scale) for race in race_of.values()}
+
+    def chances(skills: Floats) -> dict[str, Floats]:
+        gaps = skills[:, None] - skills
+        if advantage:
+            tables = {k: _ends(gaps, n, scale, advantage, breaks).win for k, n in needs.items()}
+        else:
+            p = scale.win_probability(gaps)
+            tables = {k: np.asarray(betainc(m, n, p), dtype=float) for k, (m, n) in needs.items()}
+        return {name: tables[_key(race)] for name, race in race_of.items()}
+
+    return chances
+
+
+def _checked(
+    bracket: Bracket,
+    ratings: ArrayLike,
+    races: Races | Race,
+    scale: Scale | str | float,
+    break_advantage: float,
+) -> tuple[Races, Scale, Floats, float]:
+    rated = column(ratings, "ratings", len(bracket.players), "players")
+    if not np.isfinite(rated).all():
+        raise InputError("ratings holds a value that is not a finite number; give one each")
+    plan = races if isinstance(races, Races) else Races(races)
+    unknown = set(plan.by_match) - set(bracket.by_name)
+    if unknown:
+        raise InputError(f"by_match has match {min(unknown)!r}, which the bracket does not have")
+    return plan, scale_of(scale), rated, number(break_advantage, "break_advantage")
+
+
+def _key(race: Race) -> int | tuple[int, ...]:
+    return race if isinstance(race, int) else (id(race),)
+
+
+def games_needed(points: Floats, race: Race, scale: Scale) -> tuple[Ints, Ints]:
+    """Return the games that each of two players needs, for every two players.
+
+    Parameters
+    ----------
+    points
+        rating of player 1 minus rating of player 2.
+    race
+        the race.
+    scale
+        the scale of the ratings.
+
+    >>> games_needed(np.array([[0.0, 100.0]]), Fairest(7), scale_of("fargo"))
+    (array([[7, 7]]), array([[7, 4]]))
+    """
+    if isinstance(race, Chart):
+        return race.races(np.round(points))
+    if isinstance(race, Fairest):
+        return _fairest(points, race.race_to, scale)
+    games = np.full(points.shape, whole(race, "race", at_least=1))
+    return games, games
+
+
+def _fairest(points: Floats, race_to: int, scale: Scale) -> tuple[Ints, Ints]:
+    chance = scale.win_probability(np.abs(points))
+    weaker = np.arange(1, race_to + 1)
+    distance = np.abs(betainc(race_to, weaker, chance[..., None]) - 0.5)
+    # Of races alike the longer: it plays more.
+    best = race_to - distance[..., ::-1].argmin(axis=-1)
+    ahead = points >= 0.0
+    return np.where(ahead, race_to, best), np.where(ahead, best, race_to)
+
+
+def _ends(
+    points: Floats,
+    needs: tuple[Ints, Ints],
+    scale: Scale,
+    advantage: float,
+    breaks: BreakFormat,
+) -> PairOdds:
+    need_1, need_2 = needs
+    count = len(points)
+    ends = np.zeros((count, count, int((need_1 + need_2).max())))
+    pairs = np.triu(np.ones((count, count), dtype=bool), k=1)
+    for m, n in set(zip(need_1[pairs].tolist(), need_2[pairs].tolist(), strict=True)):
+        i, j = np.nonzero(pairs & (need_1 == m) & (need_2 == n))
+        for first, share in ((1, 0.5), (2, 0.5)) if advantage else ((1, 1.0),):
+            won, lost = race_endings(m, n, _rack(points[i, j], scale, advantage), breaks, first)
+            ends[i, j, : m + n] += share * won.T
+            ends[j, i, : m + n] += share * lost.T
+    return PairOdds(ends)
+
+
+def _rack(points: Floats, scale: Scale, advantage: float) -> Rack:
+    if not advantage:
+        return Rack(scale.win_probability(points))
+    one = scale.win_probability(points + advantage)
+    return Rack(one, scale.win_probability(advantage - points))

@@ -1,0 +1,205 @@
+"""Expected rematches: how often two players meet who have met before.
+
+Besides the chance of each joint state the chance is carried along that it holds *and* the
+players of two given open slots have met. Whoever has just played a match has met; winner
+and loser take their past meetings with them to their next slots.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
+from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
+from evenbreak.tournaments.odds.forward import gathered, group_odds, joined, split
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
+from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.play import play_out
+
+MOST_STATES = 1.5e6
+"""How many joint states one match may have for rematches to be exact."""
+
+_RUNS, _BATCHES = 40_000, 20
+
+_Met: TypeAlias = dict[frozenset[Slot], Floats]
+
+
+@dataclass(frozen=True, eq=False)
+class Rematches:
+    """How many rematches there will be.
+
+    Parameters
+    ----------
+    by_match
+        P(each match is between two players who have met before in this tournament). Left out
+        are decided matches, matches within groups, and the second final, which is a rematch of
+        the first by its nature.
+    error
+        the standard error of their sum; 0 where it is exact.
+    """
+
+    by_match: Mapping[str, float]
+    error: float
+
+    @property
+    def mean(self) -> float:
+        """The expected number of rematches still to come."""
+        return sum(self.by_match.values())
+
+
+def expected_rematches(
+    bracket: Bracket,
+    win: Wins | None = None,
+    *,
+    results: Results | None = None,
+    rng: np.random.Generator | None = None,
+) -> Rematches:
+    """Return how many rematches are to be expected.
+
+    Parameters
+    ----------
+    bracket
+        the tournament.
+    win
+        as in `title_odds`; None: all players are equal.
+    results
+        the results so far; results of matches whose players are not known are not used.
+    rng
+        where pseudo-random numbers come from if the bracket is too large to be exact; None: a
+        generator with the seed 0.
+
+    >>> from evenbreak.tournaments import double_elimination
+    >>> rematches = expected_rematches(double_elimination(8))
+    >>> rematches.mean, rematches.by_match["F"]
+    (1.3125, 0.6875)
+    """
+    now = standing(bracket, results)
+    equal = np.full((len(bracket.players), len(bracket.players)), 0.5)
+    chances = chances_of(now, equal if win is None else win)
+    remaining = now.remaining
+    plan = exact_plan(remaining, (), MOST_STATES)
+    if plan is None:
+        return _played_out(now, chances, rng or np.random.default_rng(0))
+    again = _met_again(plan, chances, _met_so_far(now))
+    return Rematches({name: p for name, p in again.items() if name != "F2"}, 0.0)
+
+
+def _met_so_far(now: Standing) -> Floats:
+    """Return 1 for the pairs who have met, with a row and a column for nobody.
+
+    Players of one group count: they will have met before anything else is played.
+    """
+    count = len(now.bracket.players)
+    met = np.zeros((count + 1, count + 1))
+    for group in now.bracket.groups:
+        met[np.ix_(group.members, group.members)] = 1.0
+    for name in now.winners:
+        one, other = now.seats[name]
+        if one is not None and other is not None and NOBODY not in (one, other):
+            met[one, other] = met[other, one] = 1.0
+    return met
+
+
+def _met_again(plan: Plan, chances: Chances, before: Floats) -> dict[str, float]:
+    masses: dict[int, Floats] = {}
+    pasts: dict[int, _Met] = {}
+    again: dict[str, float] = {}
+    for number, step in enumerate(plan.steps):
+        if isinstance(step, GroupStep):
+            masses[number], _ = group_odds(step, chances)
+            pasts[number] = {}
+            continue
+        mass, past = _joined_pasts(
+            [masses.pop(k) for k in step.joins], [pasts.pop(k) for k in step.joins]
+        )
+        again[step.name] = _share_met(plan, step, mass, past, before)
+        p = chances.of(step.name)[step.first, step.second]
+        won, lost = split(step, mass, p)
+        masses[number] = gathered(step, 0, won) + gathered(step, 1, lost)
+        pasts[number] = _past_after(plan, step, (won, lost), past, p)
+    return again
+
+
+def _joined_pasts(masses: list[Floats], pasts: list[_Met]) -> tuple[Floats, _Met]:
+    if len(masses) < 2:
+        return joined(masses), pasts[0] if pasts else {}
+    past = {pair: joined([share, masses[1]]) for pair, share in pasts[0].items()}
+    past |= {pair: joined([masses[0], share]) for pair, share in pasts[1].items()}
+    return joined(masses), past
+
+
+def _share_met(plan: Plan, step: MatchStep, mass: Floats, past: _Met, before: Floats) -> float:
+    """Return P(the two of a match have met before)."""
+    earlier = before[step.first, step.second]
+    long_ago = earlier if step.pair is None else earlier[step.pair]
+    lately = past.get(frozenset(plan.bracket.by_name[step.name].slots))
+    if lately is None:
+        return float(mass @ long_ago)
+    return float(mass @ long_ago + lately @ (1.0 - long_ago))
+
+
+def _past_after(
+    plan: Plan, step: MatchStep, parts: tuple[Floats, Floats], past: _Met, p: Floats
+) -> _Met:
+    """Return who has met after a match."""
+    slots = plan.bracket.by_name[step.name].slots
+    outlets: list[Source] = [slot for slot in step.slots if slot.match == step.name]
+    count = len(plan.bracket.players)
+    real = (step.first < count) & (step.second < count)
+    there = real if step.pair is None else real[step.pair]
+    after: _Met = {}
+
+    def add(one: Slot, other: Slot, side: int, mass: Floats) -> None:
+        pair = frozenset((one, other))
+        arrived = gathered(step, side, mass)
+        after[pair] = after[pair] + arrived if pair in after else arrived
+
+    for side in (0, 1):
+        went: dict[Slot, list[Slot]] = {slots[0]: [], slots[1]: []}
+        for outlet in outlets:
+            sat = side if outlet.outcome == "winner" else 1 - side
+            if outlet.via in (None, sat + 1):
+                went[slots[sat]].append(outlet)
+        for one in went[slots[0]]:
+            for other in went[slots[1]]:
+                add(one, other, side, parts[side] * there)
+        of_state = p if step.pair is None else p[step.pair]
+        share = of_state if side == 0 else 1.0 - of_state
+        for pair, mass in past.items():
+            one, other = pair
+            if one in went and other in went:
+                continue
+            for new_one in went.get(one, [one]):
+                for new_other in went.get(other, [other]):
+                    add(new_one, new_other, side, mass * share)
+    return after
+
+
+def _played_out(now: Standing, chances: Chances, rng: np.random.Generator) -> Rematches:
+    """Return rematches counted over tournaments played out."""
+    remaining = now.remaining
+    nobody = len(now.bracket.players)
+    runs = _RUNS // _BATCHES
+    grouped = {name for group in now.bracket.groups for name in group.matches} | {"F2"}
+    names = [match.name for match in remaining.matches if match.name not in grouped]
+    shares: list[Floats] = []
+    for _ in range(_BATCHES):
+        met = np.repeat(_met_so_far(now)[None].astype(bool), runs, axis=0)
+        played = play_out(remaining, chances, rng, runs)
+        row = np.arange(runs)
+        counts = []
+        for name in names:
+            first, second = played.first[name], played.second[name]
+            real = (first < nobody) & (second < nobody)
+            counts.append((met[row, first, second] & real).mean())
+            met[row, first, second] = met[row, second, first] = True
+        shares.append(np.array(counts))
+    mean = np.mean(shares, axis=0).tolist()
+    error = float(np.std(np.sum(shares, axis=1), ddof=1) / np.sqrt(_BATCHES))
+    return Rematches(dict(zip(names, mean, strict=True)), error)

@@ -1,0 +1,209 @@
+"""Title odds when the ratings are uncertain: averaged over what the ratings may be.
+
+Odds that take ratings for certain are too sure of themselves: a favourite by a rating of
+few games is a favourite in every match at once. Ratings are drawn from their joint distribution,
+each draw is solved, and the odds are averaged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats
+from evenbreak.checks import column, floats, whole
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.standing import Results, Standing, standing
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
+from evenbreak.tournaments.odds.forward import forward_pass
+from evenbreak.tournaments.odds.meetings import (
+    Meeting,
+    averaged,
+    group_meetings,
+    meetings_so_far,
+    place_odds,
+    plan_meetings,
+    settled_ranks,
+)
+from evenbreak.tournaments.odds.plan import Plan
+from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.sampled import places_of_samples
+from evenbreak.tournaments.odds.title import TitleOdds, odds_now
+
+_CELLS = 4_000_000
+_SAMPLES_EACH = 20  # of a bracket that is too large to be exact; the ratings vary more
+_MOST_STATES = 1e6
+_FEWEST, _MOST = 200, 2_000  # draws of the ratings
+
+
+@dataclass(frozen=True, eq=False)
+class UncertainOdds:
+    """Title odds, averaged over the ratings and as if they were sure.
+
+    Parameters
+    ----------
+    averaged
+        the odds averaged over samples of the ratings; its `error` is that of the average.
+    as_if_sure
+        the odds by the ratings as they are.
+    """
+
+    averaged: TitleOdds
+    as_if_sure: TitleOdds
+
+
+def over_ratings(
+    bracket: Bracket,
+    win_of: Callable[[Floats], Wins],
+    ratings: Sequence[float] | ArrayLike,
+    spread: ArrayLike,
+    *,
+    samples: int | None = None,
+    results: Results | None = None,
+    live: Mapping[str, float] | None = None,
+    walkovers: float | Mapping[str, float] = 0.0,
+    rng: np.random.Generator | None = None,
+) -> UncertainOdds:
+    """Return title odds averaged over what the ratings may be.
+
+    Parameters
+    ----------
+    bracket, results, live, walkovers
+        as in `title_odds`; results only of matches whose players are known.
+    win_of
+        the chances of the matches, given the ratings: what `title_odds` takes as `win`.
+    ratings
+        each player's rating.
+    spread
+        how uncertain they are: a standard deviation for each player, or the covariance
+        matrix of all of them. Errors are normal.
+    samples
+        how many draws of the ratings, in pairs on either side of them; None: 200 to 2,000,
+        fewer for larger brackets.
+    rng
+        where pseudo-random numbers come from; None: a generator with the seed 0.
+
+    Raises
+    ------
+    InputError
+        if a parameter has a value that it cannot have.
+
+    >>> from evenbreak.ratings.scale import scale_of
+    >>> from evenbreak.tournaments import single_elimination
+    >>> def by_fargo(ratings):
+    ...     return scale_of("fargo").win_probability(ratings[:, None] - ratings)
+    >>> found = over_ratings(single_elimination(4), by_fargo, [700, 500, 500, 500], [80] * 4)
+    >>> found.as_if_sure.title[0].round(2), found.averaged.title[0].round(2)
+    (np.float64(0.64), np.float64(0.59))
+    """
+    now = standing(bracket, results)
+    if now.assumed:
+        name = next(iter(now.assumed))
+        raise InputError(f"results has {name!r}; give results of matches whose players are known")
+    mean = column(ratings, "ratings", len(bracket.players), "players")
+    remaining = now.remaining
+    plan = exact_plan(remaining, (), _MOST_STATES)
+    if samples is None:
+        samples = _draws(plan, len(mean))
+    pairs = -(-whole(samples, "samples", at_least=4) // 2)
+    rng = rng or np.random.default_rng(0)
+    drawn = mean + _errors(spread, len(mean), pairs, rng)
+    tables = [
+        chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in (mean, *drawn)
+    ]
+    sure = odds_now(now, tables[0], rng=rng)
+    if plan is None:
+        certain = place_odds(bracket, meetings_so_far(now), settled_ranks(now))
+        every = _stacked(tables[1:])
+        laws = certain[:, :, None] + places_of_samples(now, every, 2 * pairs, _SAMPLES_EACH, rng)
+        meetings = sure.meetings
+    else:
+        laws, meetings = _exactly(now, plan, tables[1:])
+    of_pair = laws.reshape(*laws.shape[:2], 2, pairs).mean(axis=2)
+    error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
+    odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
+    return UncertainOdds(odds, sure)
+
+
+def _draws(plan: Plan | None, players: int) -> int:
+    """Return how many draws of the ratings take a second or two."""
+    if plan is None:
+        return _FEWEST
+    hundreds = min(4e5 / max(plan.states, 1), 5e4 / players**2) // 1
+    return int(np.clip(100 * hundreds, _FEWEST, _MOST))
+
+
+def _errors(spread: ArrayLike, players: int, pairs: int, rng: np.random.Generator) -> Floats:
+    """Return errors of the ratings, a row a draw; the second half mirrors the first."""
+    given = floats(spread, "spread")
+    if given.shape == (players,):
+        if (given < 0.0).any():
+            raise InputError("spread has a negative number; give a standard deviation each")
+        root = np.diag(given)
+    elif given.shape == (players, players):
+        values, vectors = np.linalg.eigh(0.5 * (given + given.T))
+        if values[0] < -1e-9 * max(values[-1], 1.0):
+            raise InputError("spread is no covariance matrix; give one without negative variances")
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+    else:
+        raise InputError(
+            f"spread has shape {given.shape}; give a standard deviation for each of {players} "
+            "players, or their covariance matrix"
+        )
+    errors = rng.standard_normal((pairs, players)) @ root.T
+    return np.concatenate([errors, -errors])
+
+
+def _exactly(now: Standing, plan: Plan, tables: list[Chances]) -> tuple[Floats, dict[str, Meeting]]:
+    """Return the places for each draw, and the meetings averaged over them."""
+    at_once = max(1, _CELLS // max((step.size for step in plan.steps), default=1))
+    laws: list[Floats] = []
+    sums: dict[str, Meeting] = {}
+    for start in range(0, len(tables), at_once):
+        part = tables[start : start + at_once]
+        chances = _stacked(part)
+        through = forward_pass(plan, chances)
+        meetings = plan_meetings(plan, through) | group_meetings(plan.bracket, chances)
+        certain = meetings_so_far(now)
+        ranks = {**settled_ranks(now), **through.ranks}
+        law = place_odds(now.bracket, {**certain, **meetings}, ranks)
+        shape = (*law.shape[:2], len(part))
+        laws.append(np.broadcast_to(law.reshape(*law.shape[:2], -1), shape))
+        _add(sums, averaged(meetings), len(part) / len(tables))
+    found = meetings_so_far(now) | {
+        name: part._replace(
+            first_wins=np.divide(
+                part.first_wins,
+                part.probability,
+                out=np.full_like(part.first_wins, 0.5),
+                where=part.probability > 0.0,
+            )
+        )
+        for name, part in sums.items()
+    }
+    return np.concatenate(laws, axis=2), {m.name: found[m.name] for m in now.bracket.matches}
+
+
+def _add(sums: dict[str, Meeting], part: dict[str, Meeting], weight: float) -> None:
+    """Add meetings to sums, in which `first_wins` is P(they meet and slot 1's player wins)."""
+    for name, (first, second, meet, p) in part.items():
+        before = sums.get(name, Meeting(first, second, np.zeros(len(p)), np.zeros(len(p))))
+        sums[name] = before._replace(
+            probability=before.probability + weight * meet,
+            first_wins=before.first_wins + weight * meet * p,
+        )
+
+
+def _stacked(tables: list[Chances]) -> Chances:
+    """Return the chances of many samples as one, the samples as last axis."""
+    made: dict[int, Floats] = {}
+    found: dict[str, Floats] = {}
+    for name, table in tables[0].tables.items():
+        if id(table) not in made:
+            made[id(table)] = np.stack([part.of(name) for part in tables], axis=-1)
+        found[name] = made[id(table)]
+    return Chances(found)

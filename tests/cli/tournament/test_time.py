@@ -1,0 +1,75 @@
+"""`evenbreak tournament time`: when tonight's tournament ends."""
+
+import csv
+import json
+
+import pytest
+
+NAMES = "Ann\nBo\nCy\nDi\nEd\nFlo\nGus\nHal\n"
+
+
+@pytest.fixture
+def entrants(tmp_path):
+    path = tmp_path / "entrants.txt"
+    path.write_text(NAMES)
+    return str(path)
+
+
+@pytest.fixture
+def times(run, entrants):
+    def ask(*words):
+        result = run("tournament", "time", entrants, "--race", "5", *words, "--json")
+        assert result.exit_code == 0, result.stderr
+        return json.loads(result.stdout)
+
+    return ask
+
+
+def test_the_finish_and_each_start(times):
+    answer = times("--tables", "4", "--discipline", "9-ball")
+    assert answer["finish_p10"] < answer["finish_p50"] < answer["finish_p90"]
+    starts = {match["match"]: match for match in answer["matches"]}
+    assert len(starts) == 15
+    assert starts["W1.1"]["start_p50"] == 0.0
+    assert starts["W1.1"]["player_1"] == "Ann"
+    assert starts["F"]["player_2"] == "winner of L4.1"
+    assert starts["F2"]["p_played"] == pytest.approx(0.5, abs=0.05)
+    assert starts["F"]["start_p90"] < answer["finish_p90"]
+
+
+def test_tables_races_and_pace_matter(times):
+    four = times("--tables", "4", "--discipline", "9-ball")
+    two = times("--tables", "2", "--discipline", "9-ball")
+    three = times("--tables", "3", "--discipline", "9-ball")
+    assert two["finish_p50"] > four["finish_p50"]
+    saved = two["minutes_saved_one_more_table"]
+    assert saved == pytest.approx(two["finish_p50"] - three["finish_p50"], abs=15.0)
+    assert four["minutes_saved_races_one_shorter"] > 10.0
+    slow = times("--tables", "4", "--minutes-per-game", "12")
+    idle = times("--tables", "4", "--discipline", "9-ball", "--turnover", "20")
+    assert slow["finish_p50"] > four["finish_p50"]
+    assert idle["finish_p50"] > four["finish_p50"] + 10.0
+
+
+def test_times_of_day_are_for_people_alone(run, entrants):
+    words = ("--race", "5", "--tables", "4", "--discipline", "9-ball", "--start", "18:30")
+    shown = run("tournament", "time", entrants, *words, "--text").stdout
+    assert "18:30" in shown
+    rows = list(csv.DictReader(run("tournament", "time", entrants, *words).stdout.splitlines()))
+    assert rows[0]["start_p50"] == "0.000000"
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("--tables", "4"), "--discipline"),
+        (("--discipline", "9-ball"), "--tables"),
+        (("--tables", "0", "--discipline", "9-ball"), "--tables"),
+        (("--tables", "4", "--discipline", "9-ball", "--start", "25:00"), "25:00"),
+        (("--tables", "4", "--discipline", "9-ball", "--minutes-per-game", "6"), "--discipline"),
+    ],
+)
+def test_wrong_options_are_refused(run, entrants, words, named):
+    result = run("tournament", "time", entrants, "--race", "5", *words)
+    assert result.exit_code == 2
+    assert named in result.stderr

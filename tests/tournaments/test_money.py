@@ -1,0 +1,104 @@
+"""Payouts and the Calcutta."""
+
+from __future__ import annotations
+
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments import (
+    PAYOUTS,
+    PayoutRow,
+    Payouts,
+    calcutta,
+    double_elimination,
+    fair_shares,
+    lot_worth,
+    payout_table,
+    title_odds,
+)
+from tournaments.fields import by_seed
+
+FAIR = {"Ann": 0.5, "Bo": 0.3, "Cy": 0.2}
+
+
+def test_tables_as_published() -> None:
+    hoboken = PAYOUTS["hoboken"]
+    assert hoboken.shares(8) == (1.0,)
+    assert hoboken.shares(22) == (0.50, 0.25, 0.15, 0.10)
+    assert hoboken.shares(32) == (0.50, 0.20, 0.15, 0.08, 0.07)
+    assert hoboken.shares(40)[5:] == (0.05, 0.05, 0.05)
+    assert len(hoboken.shares(60)) == 10
+    for row in hoboken.rows:
+        assert sum(row.shares) == pytest.approx(1.0)
+    with pytest.raises(InputError, match="15"):
+        hoboken.shares(15)
+    assert payout_table("40/30/15").amounts(16, 1000) == [400.0, 300.0, 150.0]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        (),
+        (PayoutRow(2, None, (0.7, 0.4)),),
+        (PayoutRow(2, 10, (1.0,)), PayoutRow(8, None, (1.0,))),
+        (PayoutRow(2, None, (-0.5, 1.0)),),
+        (PayoutRow(2, None, ()),),
+    ],
+)
+def test_tables_that_cannot_be_paid_are_refused(rows) -> None:
+    with pytest.raises(InputError):
+        Payouts("own", rows)
+
+
+def test_fair_shares() -> None:
+    odds = title_odds(double_elimination(8), by_seed(8))
+    shares = fair_shares(odds, payout_table("40/30/20/10").shares(8))
+    assert sum(shares.values()) == pytest.approx(1.0)
+    assert max(shares, key=shares.__getitem__) == "1"
+
+
+def test_break_even_bids_win_back_what_they_cost() -> None:
+    """Whatever the order, if all that follow go for what they are worth, nobody loses."""
+    for order in (["Cy", "Bo", "Ann"], ["Ann", "Cy", "Bo"]):
+        sold = {order[0]: 42.0}
+        for player in order[1:]:
+            sold[player] = next(
+                lot.break_even for lot in calcutta(FAIR, sold) if lot.player == player
+            )
+        pot = sum(sold.values())
+        for player in order[1:]:
+            assert sold[player] == pytest.approx(FAIR[player] * pot)
+
+
+def test_the_house_takes_its_part() -> None:
+    (lot,) = calcutta(FAIR, {"Bo": 30.0, "Cy": 20.0}, paid_out=0.9)
+    assert lot.break_even == pytest.approx(0.9 * 0.5 * (50.0 + lot.break_even))
+    assert lot.fair_share == 0.5
+
+
+def test_before_the_first_lot_nobody_knows() -> None:
+    assert [lot.break_even for lot in calcutta(FAIR)] == [None, None, None]
+
+
+def test_what_a_lot_is_worth_at_a_bid() -> None:
+    sold = {"Cy": 30.0}
+    lots = {lot.player: lot for lot in calcutta(FAIR, sold)}
+    even = lots["Bo"].break_even
+    assert lot_worth(FAIR, sold, "Bo", even) == pytest.approx(even)
+    assert lot_worth(FAIR, sold, "Bo", even + 20) < even + 20
+    assert lot_worth(FAIR, sold, "Bo", even - 20) > even - 20
+
+
+@pytest.mark.parametrize(
+    ("asked", "named"),
+    [
+        (lambda: calcutta({"Ann": 0.5}), "sum to 0.5"),
+        (lambda: calcutta(FAIR, {"Ed": 5}), "Ed"),
+        (lambda: calcutta(FAIR, {"Ann": -5}), "Ann"),
+        (lambda: lot_worth(FAIR, {"Ann": 5}, "Ann", 5), "Ann"),
+        (lambda: payout_table("none"), "none"),
+    ],
+)
+def test_what_cannot_be_sold_is_refused(asked, named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        asked()
