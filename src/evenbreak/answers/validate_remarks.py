@@ -101,6 +101,8 @@ def _form(found: Validation, scale: Scale) -> str:
     if form is None or not form.established:
         return ""
     deciders, sweeps, _ = form.shapes
+    if not (deciders.nearer and sweeps.nearer):
+        return ""  # scores vary for another reason, such as handicaps that the ratings do not know
     points = form.sd * scale.points_per_log_odds
     shares = [
         f"{percent(shape.seen.value)} {words} ({percent(shape.said)} expected without this, "

@@ -101,8 +101,8 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
         figures = (row.matches, row.expected, row.share)
         rows.append(("spot", "match", spot, *figures, row.low, row.high, None))
     for one in found.experience:
-        games = f"{one.fewest}-{'' if one.most is None else one.most}"
-        rows.append(("experience", "game", games, one.games, 0.0, *one.stronger, None))
+        before = f"{one.fewest}-{'' if one.most is None else one.most}"
+        rows.append(("experience", "game", before, one.games, 0.0, *one.stronger, None))
     for half in found.lengths:
         figures = (half.matches, half.predicted, half.share)
         ends = f"{half.shortest}-{half.longest}"
