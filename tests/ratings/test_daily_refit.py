@@ -18,6 +18,7 @@ def refitted(until, times=1):
     for start in range(0, until, 10):
         rows = slice(start, start + 10)
         league.learn(rows, times * WON[rows], times * LOST[rows])
+        league.begin_day()
     return league
 
 
@@ -45,4 +46,5 @@ def test_before_any_game_the_prior_alone_is_known():
 def test_faded_games_count_for_part_of_themselves():
     faded = refitted(MATCHES, times=2)
     faded.fade(0.5)
+    faded.begin_day()
     np.testing.assert_allclose(faded.skill, refitted(MATCHES).skill, atol=1e-6)

@@ -1,8 +1,9 @@
 """What a validated season shows besides the verdict, each in a sentence or two."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from evenbreak.answers.rate import too_few_for_prior_words
+from evenbreak.answers.prior_words import level_words, too_few_for_prior_words
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     any_winner_breaks,
@@ -26,7 +27,10 @@ WIDE = 0.4
 
 def remarks(found: Validation, scale: Scale) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
-    said = [_handicaps(found), _spread(found), _half_life(found), _first_column(found)]
+    levels = level_words(replace(found.ratings, scale=scale), found.choice)
+    said = [
+        *(_handicaps(found), _spread(found), *levels, _half_life(found), _first_column(found)),
+    ]
     return [text for text in (*said, _prior(found, scale)) if text]
 
 
@@ -116,6 +120,12 @@ def _way(half: RaceLengths) -> int:
 
 def _half_life(found: Validation) -> str:
     """Return which half-life to use, '' where none clearly helps."""
+    used = found.forecasts.half_life
+    if found.half_lives and used is not None:
+        return (
+            f"Old games count less, because later ones are then predicted better: a match counts "
+            f"half after {used:g} days. rate and report find this by themselves."
+        )
     days = best_half_life(found)
     if days is None:
         return ""
@@ -162,8 +172,8 @@ def _prior(found: Validation, scale: Scale) -> str:
     if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
         return ""
     if found.prior_sd == PRIOR_SD:
-        return f"The default prior of {points_text(PRIOR_SD, scale)} points suits this league best."
+        return f"The usual prior of {points_text(PRIOR_SD, scale)} points suits this league best."
     return (
-        f"A --prior of {points_text(found.prior_sd, scale)} would suit this league best; the "
-        f"default of {points_text(PRIOR_SD, scale)} points will do too."
+        f"A prior of {points_text(found.prior_sd, scale)} points suits this league best, and rate "
+        f"and report use it; the usual one of {points_text(PRIOR_SD, scale)} points will do too."
     )

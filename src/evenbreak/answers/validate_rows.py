@@ -45,7 +45,7 @@ def findings_table(found: Validation) -> Table:
 
 
 def _prior(found: Validation) -> Iterator[tuple[Any, ...]]:
-    """Yield how the prior was chosen, nothing where it was given."""
+    """Yield how the prior was chosen, and what levels gain; nothing where it was given."""
     choice = found.choice
     if choice is None:
         return
@@ -54,6 +54,9 @@ def _prior(found: Validation) -> Iterator[tuple[Any, ...]]:
     head = ("game", "plug-in", choice.predicted, None)
     yield ("prior_range", *head, found.prior_sd, choice.low, choice.high, None)
     yield ("log_loss_as_it_went", *head, choice.as_it_went, None, None, None)
+    for one in choice.evidence:
+        if one.of != "half_life":
+            yield ("level", "game", one.of, choice.predicted, 0.0, *one.gain, None)
 
 
 def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:

@@ -127,7 +127,7 @@ def read_results(
     names = PlayerNames(table, NAMES, by_alias.means)
     results = results_rows(table, names, results_columns(table, names, dates))
     table.problems.raise_any()
-    groups = tuple(similar_names(results.players, _met(results)))
+    groups = tuple(similar_names(results.players, met_pairs(results)))
     warnings = [
         *by_alias.warnings,
         *table.warnings,
@@ -209,7 +209,7 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     )
 
 
-def _met(results: Results) -> list[tuple[str, str]]:
+def met_pairs(results: Results) -> list[tuple[str, str]]:
     """Return the names that played each other, each pair once for either order."""
     pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
     return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
