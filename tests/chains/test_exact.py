@@ -109,7 +109,9 @@ IN_FRACTIONS = [
 ]
 
 
-@pytest.mark.parametrize("game", IN_FRACTIONS, ids=str)
+@pytest.mark.parametrize(
+    "game", IN_FRACTIONS, ids=["one-ball", "race", "ahead", "sets", "race of one-ball"]
+)
 def test_a_game_keeps_the_fractions_that_it_is_given(game):
     limit = stochastic_limit(chain_of(game), exact=True)
     wins = sum(p for state, p in limit.items() if game.winner(state) == 1)
