@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak.arrays import Floats
-from evenbreak.ratings.fit import BREAK_SD, checked_prior, known_advantage, weights_of
+from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
@@ -47,7 +47,7 @@ class SeasonSoFar:
     def skills(
         self,
         *,
-        prior_sd: float,
+        prior_sd: float = PRIOR_SD,
         half_life: float | None = None,
         break_advantage: float | str | None = None,
         scale: Any = "npl",
