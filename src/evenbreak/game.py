@@ -112,6 +112,32 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
 def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
     import numpy as np
 
+    states, sources, targets, chances = moves_of(game, start, max_states)
+    return ArcArrays(
+        states,
+        np.array(sources, dtype=np.intp),
+        np.array(targets, dtype=np.intp),
+        np.array(chances, dtype=float),
+    )
+
+
+def moves_of(
+    game: Game, start: Any, max_states: int = 5_000_000
+) -> tuple[list[Any], list[int], list[int], list[Any]]:
+    """Return the states from `start` on, and the sources, targets and chances of the moves.
+
+    The states are found breadth-first. A chance is kept as the game gives it: any kind of number
+    that can be compared with 0 and 1.
+
+    Raises
+    ------
+    GameError
+        as `arcs_of` does.
+
+    >>> from evenbreak.games import OneBall
+    >>> moves_of(OneBall(0.5, 0.25), "S1")
+    (['S1', 'W', 'S2', 'L'], [0, 0, 2, 2], [1, 2, 3, 0], [0.5, 0.5, 0.25, 0.75])
+    """
     try:
         position = {start: 0}
     except TypeError:
@@ -119,10 +145,10 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
             f"the start is {start!r}; give a state that can be hashed, such as a tuple"
         ) from None
     states = [start]
-    arc_counts: list[int] = []
+    sources: list[int] = []
     targets: list[int] = []
-    chances: list[float] = []
-    for state in states:
+    chances: list[Any] = []
+    for j, state in enumerate(states):
         before = len(targets)
         moves = game.moves(state)
         if not hasattr(moves, "items"):
@@ -139,6 +165,7 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
                 i = position.setdefault(target, len(states))
                 if i == len(states):
                     states.append(target)
+                sources.append(j)
                 targets.append(i)
                 chances.append(chance)
             elif chance != 0.0:
@@ -148,15 +175,9 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
                 f"every move from {state!r} has probability 0; "
                 "give probabilities that sum to 1, or no moves if the game is over"
             )
-        arc_counts.append(len(targets) - before)
         if len(states) > max_states:
             raise _too_many(max_states)
-    return ArcArrays(
-        states,
-        np.repeat(np.arange(len(states)), arc_counts),
-        np.array(targets, dtype=np.intp),
-        np.array(chances, dtype=float),
-    )
+    return states, sources, targets, chances
 
 
 def _no_chance(state: Any, target: Any, chance: Any) -> GameError:

@@ -25,6 +25,13 @@ def test_the_favourite_comes_first(p, favourite):
     assert answer_of(Race(5, 5, Rack(p))).sentences[0].startswith(favourite)
 
 
+def test_a_winner_is_certain_only_if_the_other_cannot_win():
+    (sentence,) = answer_of(Race(9, 9, Rack(1.0))).sentences[:1]
+    assert "100%" in sentence
+    (sentence,) = answer_of(Race(9, 9, Rack(0.999))).sentences[:1]
+    assert "100%" not in sentence
+
+
 def test_exact_chances_are_there_if_asked_for():
     match = Race(2, 1, RACK)
     exact = odds_answer(TwoPlayers(RACK), match, exact=True)

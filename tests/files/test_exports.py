@@ -73,6 +73,13 @@ def test_a_match_of_cuescore(read):
     assert file.warnings == ()
 
 
+def test_a_time_of_cuescore_that_is_no_date_is_counted(read):
+    one = cue("Ann", "Bo", (7, 5), starttime="last Tuesday", stoptime=None)
+    file = read(cuescore(one, cue("Ann", "Bo", (7, 2), starttime="?")))
+    assert [str(date) for date in file.results.date] == ["NaT", "2024-09-03"]
+    assert any("1 match" in warning and "date" in warning for warning in file.warnings)
+
+
 @pytest.mark.parametrize(
     ("score", "starts", "left"),
     [

@@ -5,6 +5,8 @@ from .conditioned import conditioned as conditioned
 from .exact import ExactPassage as ExactPassage
 from .explore import chain_from_arrays as chain_from_arrays
 from .explore import chain_of as chain_of
+from .families import FamilyLimit as FamilyLimit
+from .families import limits_over as limits_over
 from .fit import FittedChain as FittedChain
 from .fit import fit_chain as fit_chain
 from .limit_matrix import limit_matrix as limit_matrix

@@ -98,7 +98,7 @@ class Elimination:
         """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
         x = list(b)
         for k, pivot, out, _ in self.steps:
-            if x[k]:
+            if not _is_nothing(x[k]):
                 share = x[k] / pivot
                 for i, chance in out.items():
                     x[i] += share * chance

@@ -13,6 +13,16 @@ from evenbreak.errors import InputError
 Choice = TypeVar("Choice")
 
 
+class ManyAsOne:
+    """Base of numbers that stand for many at once, and that games take like one float.
+
+    All of them answer a comparison alike, or the comparison raises an error of its own (see
+    `evenbreak.chains.family_numbers`).
+    """
+
+    __slots__ = ()
+
+
 def number(
     value: Any,
     name: str,
@@ -75,12 +85,12 @@ def number_probability(value: Any, name: str) -> float:
     ...
     evenbreak.errors.InputError: p1 is [0.4, 0.5]; give one number from 0 to 1
     """
-    found = _float(value)
+    found: Any = value if isinstance(value, ManyAsOne) else _float(value)
     if not 0.0 <= found <= 1.0:
         many = isinstance(value, list | tuple) or hasattr(value, "ndim")
         problem = "; give one" if many else ", not a probability; give a"
         raise InputError(f"{name} is {value!r}{problem} number from 0 to 1")
-    return found
+    return found  # type: ignore[no-any-return]
 
 
 def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:

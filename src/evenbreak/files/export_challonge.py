@@ -17,7 +17,7 @@ from evenbreak.files.exported_match import (
     Found,
     Match,
     Matches,
-    day_of,
+    dated,
     name_of,
     player_of,
     with_winner,
@@ -46,7 +46,12 @@ def matches(data: Any) -> Matches:
     event = tournament.get("name")
     for match in tournament["matches"]:
         inside = match.get("match", match)
-        yield partial(_match, inside, names, event if isinstance(event, str) else "")
+        yield partial(_dated, inside, names, event if isinstance(event, str) else "")
+
+
+def _dated(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> list[Found]:
+    times = match.get("completed_at"), match.get("started_at")
+    return dated(_match(match, names, event), *times)
 
 
 def _names(participants: list[Mapping[str, Any]]) -> dict[Any, str]:
@@ -70,7 +75,6 @@ def _match(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> li
     if None in numbers:
         return [BYE]
     a, b = (player_of(names, number) for number in numbers)
-    date = day_of(match.get("completed_at")) or day_of(match.get("started_at"))
     winner = (
         " ab"[1 + numbers.index(match.get("winner_id"))]
         if match.get("winner_id") in numbers
@@ -82,11 +86,11 @@ def _match(match: Mapping[str, Any], names: Mapping[Any, str], event: str) -> li
         raise ExportError(f"({a}, {b}) has the score {text!r}, which cannot be read")
     scores = [(int(one[1]), int(one[2])) for one in sets if one is not None]
     if match.get("forfeited") or any(min(score) < 0 for score in scores):
-        return [Match(a, b, date=date, event=event, forfeit=True, remarks=(FORFEIT,))]
+        return [Match(a, b, event=event, forfeit=True, remarks=(FORFEIT,))]
     played = [score for score in scores if any(score)]
     if not played:
         return [NO_SCORE]
     if len(played) > 1:  # each set is a race of its own
-        return [Match(a, b, *score, date=date, event=event, remarks=(SETS,)) for score in played]
+        return [Match(a, b, *score, event=event, remarks=(SETS,)) for score in played]
     (score,) = played
-    return [with_winner(Match(a, b, *score, date=date, event=event), winner)]
+    return [with_winner(Match(a, b, *score, event=event), winner)]

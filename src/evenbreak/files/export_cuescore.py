@@ -17,7 +17,7 @@ from evenbreak.files.exported_match import (
     Match,
     Matches,
     count_of,
-    day_of,
+    dated,
     fitting_race,
     name_of,
 )
@@ -35,7 +35,11 @@ def matches(data: Mapping[str, Any]) -> Matches:
     """Yield the matches, in the order of the file."""
     event = data.get("name") if isinstance(data.get("name"), str) else ""
     for match in data["matches"]:
-        yield partial(_match, match, str(event), data.get("defaultRaceTo"))
+        yield partial(_dated, match, str(event), data.get("defaultRaceTo"))
+
+
+def _dated(match: Mapping[str, Any], event: str, default: Any) -> list[Found]:
+    return dated(_match(match, event, default), match.get("starttime"), match.get("stoptime"))
 
 
 def _match(match: Mapping[str, Any], event: str, default: Any) -> list[Found]:
@@ -50,8 +54,7 @@ def _match(match: Mapping[str, Any], event: str, default: Any) -> list[Found]:
         return [NO_SCORE]
     start_a, start_b = (_head_start(match.get(f"handicap{side}"), side) for side in "AB")
     race = count_of(match.get("raceTo") or default, "raceTo") or 0
-    date = day_of(match.get("starttime")) or day_of(match.get("stoptime"))
-    found = Match(a, b, score_a - start_a, score_b - start_b, date=date, event=event)
+    found = Match(a, b, score_a - start_a, score_b - start_b, event=event)
     if race:
         found = found._replace(race_a=race - start_a, race_b=race - start_b)
     lost = min((score_a, start_a), (score_b, start_b))

@@ -26,7 +26,10 @@ FEWER_GAMES = (
     "match read without its winner, who won fewer games",
     "matches read without their winners, who won fewer games",
 )
+NO_DATE = "match whose time cannot be read as a date", "matches whose times cannot be read as dates"
 SETS = "set of a longer match counted as a match", "sets of longer matches counted as matches"
+
+_DAY = re.compile(r"\d{4}-\d{2}-\d{2}(?!\d)", re.ASCII)
 
 TITLES = (
     *("date", "event", "player_a", "player_b", "score_a", "score_b"),
@@ -124,11 +127,17 @@ def count_of(value: Any, what: str) -> int | None:
     raise ExportError(f"has {what} {value!r}, which is not a whole number, 0 or more")
 
 
-def day_of(value: Any) -> str:
-    """Return the day of a time such as 2024-09-03T19:30:00+02:00, '' where there is none."""
-    text = value if isinstance(value, str) else ""
-    found = re.match(r"\d{4}-\d{2}-\d{2}", text, re.ASCII)
-    return found[0] if found else ""
+def dated(found: list[Found], *times: Any) -> list[Found]:
+    """Return matches on the day of the first time such as 2024-09-03T19:30:00+02:00."""
+    stated = [str(time) for time in times if time]
+    days = [day[0] for time in stated if (day := _DAY.match(time))]
+    remarks = (NO_DATE,) if stated and not days else ()
+    return [
+        one._replace(date=days[0] if days else "", remarks=(*one.remarks, *remarks))
+        if isinstance(one, Match)
+        else one
+        for one in found
+    ]
 
 
 def fitting_race(match: Match) -> Match:

@@ -6,7 +6,7 @@ from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
-from evenbreak.checks import complement, one_of, probability, together
+from evenbreak.checks import ManyAsOne, complement, one_of, probability, together
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
@@ -132,6 +132,6 @@ class Rack(Generic[ChanceT]):
         evenbreak.errors.InputError: p1 is an array; give one number, or loop over them
         """
         for name, value in (("p1", self.p1), ("p2", self.p2)):
-            if value is not None and not isinstance(value, float):
+            if value is not None and not isinstance(value, float | ManyAsOne):
                 raise InputError(f"{name} is an array; give one number, or loop over them")
         return cast("Rack[float]", self)

@@ -111,17 +111,16 @@ def break_formats() -> Figure:
 
 def progressive_drill() -> Figure:
     """Fig. 5.8: where the progressive nine-ball drill spends its attempts, level by level."""
-    from evenbreak.chains import chain_of, stochastic_limit
+    from evenbreak.chains import limits_over
     from evenbreak.games import Drill
 
     levels = range(1, 10)
-    limits = [stochastic_limit(chain_of(Drill.progressive(p)), 1) for p in _P]
+    limit = limits_over(Drill.progressive, p=_P)
     figure, axes = new_axes(
         "$p$ = P(one shot is made)", "$v$ = share of the attempts at a level", size=(7.2, 5.4)
     )
     for level in levels:
-        share = np.array([limit.get(level, 0.0) for limit in limits])
-        axes.plot(_P, share, **LINES[level - 1]._asdict(), lw=1.4, label=f"$v_{level}$")
+        axes.plot(_P, limit[level], **LINES[level - 1]._asdict(), lw=1.4, label=f"$v_{level}$")
     unit_axis(axes, "x", "y")
     # Where the curves peak they lie too close to be named one by one.
     axes.legend(title="level", loc="upper center", ncols=3, frameon=False, handlelength=4.0)

@@ -1,0 +1,286 @@
+"""The limits of a family of games at once: one game, arrays of chances.
+
+The game is made once for a batch of chances, from `Numbers` that stand for all of them, and walked
+once. Where the chances of the batch lead to different graphs (a chance of 0 or 1, or a game that
+branches on a chance), the batch is split and each part is walked again. The limits are then
+calculated over arrays (see `family_elimination`).
+
+Nothing is taken on trust: at three members of each part the game is made again from plain floats
+and must have the same arcs. A part that fails this, or whose game needs plain floats, is calculated
+member by member.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from evenbreak.chains.arcs import arcs_of
+from evenbreak.chains.explore import chain_of
+from evenbreak.chains.family_elimination import family_limits
+from evenbreak.chains.family_numbers import Disagreement, Numbers
+from evenbreak.chains.limits import stochastic_limit
+from evenbreak.chains.structure import Structure, structure_of
+from evenbreak.checks import probability, together
+from evenbreak.errors import ChainError, InputError
+from evenbreak.game import Game, moves_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from evenbreak.arrays import Floats, Ints, Places
+
+_BATCH = 8192
+"""Members at a time: an array of them fits into the cache."""
+_FEW = 3
+"""So few members are calculated one by one; from a larger part so many are checked."""
+_SUM_TOLERANCE, _ROUNDING = 1e-9, 1e-15
+"""As for one chain: how far a sum of arcs may be from 1, and from where on they are scaled."""
+_SAME = 1e-14
+"""The relative difference up to which an arc is that of the game made from plain floats."""
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyLimit:
+    """The stochastic limits of a family of games; `limit[state]` is an array over the family.
+
+    Parameters
+    ----------
+    states
+        the n states that any member of the family can reach.
+    probability
+        the shape of the family, then n: the limit of each state, given the start of the game; 0
+        for a state that this member cannot reach.
+    period
+        the shape of the family: the period of each limit, see `Limit`. Above 1 the limit is a
+        long-run average only.
+    """
+
+    states: Sequence[Hashable]
+    probability: Floats
+    period: Ints
+
+    def __getitem__(self, state: Hashable) -> Floats:
+        try:
+            place = self.states.index(state)
+        except ValueError:
+            known = ", ".join(repr(known) for known in self.states[:5])
+            raise ChainError(
+                f"state {state!r} is in no game of the family; its states begin {known}"
+            ) from None
+        return np.asarray(self.probability[..., place])
+
+    def __repr__(self) -> str:
+        count, n = self.period.size, len(self.states)
+        return f"<FamilyLimit of {count} game{'s' * (count != 1)} over {n} state{'s' * (n != 1)}>"
+
+
+class _Part(NamedTuple):
+    """The limits of some members of the family."""
+
+    members: Places
+    states: list[Any]
+    limits: Floats
+    period: int
+
+
+def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> FamilyLimit:
+    """Return the stochastic limits of a game for arrays of its chances.
+
+    Each limit is conditional on the start of its game, and as accurate as that of
+    `stochastic_limit`, also where a chance is 0 or 1.
+
+    Parameters
+    ----------
+    game_of
+        makes the game: a class such as `OneBall`, or any function that takes the chances by name
+        and returns a game, such as `lambda p1, p2: Ahead(5, 3, Rack(p1, p2), breaks=...)`.
+    **chances
+        the chances, as numbers or arrays; they are broadcast together.
+
+    Raises
+    ------
+    AccuracyError
+        if a limit cannot be guaranteed, as for `stochastic_limit`.
+    ChainError, GameError
+        if the moves of a game are not probabilities that sum to 1.
+    InputError
+        if no chance is given, one is not a probability, an array is empty, or the shapes do not
+        broadcast; or `game_of` cannot be called.
+
+    Notes
+    -----
+    The function and the game should do arithmetic with the chances and compare them; numpy's
+    functions of single numbers work as well. The result is right for any game, but one that needs
+    plain floats (`math.exp(p)`, `round(p, 2)`, a chance in the name of a state) is calculated
+    member by member, in a loop over `stochastic_limit`; so is a game whose graph differs from
+    member to member. A limit that may have been touched by underflow is calculated again alone.
+
+    >>> from evenbreak.games import OneBall
+    >>> limit = limits_over(OneBall, p1=[[0.25], [0.5], [1.0]], p2=[0.0, 0.5])
+    >>> limit["W"].round(4)
+    array([[1.    , 0.4   ],
+           [1.    , 0.6667],
+           [1.    , 1.    ]])
+    >>> limit
+    <FamilyLimit of 6 games over 4 states>
+    """
+    if not callable(game_of):
+        raise InputError(f"game_of is {game_of!r}; give a class of games or a function")
+    if not chances:
+        raise InputError("there are no chances; give arrays of them by name, such as p1=[0.4, 0.6]")
+    given = {name: probability(value, name) for name, value in chances.items()}
+    shape = together(**given)
+    count = math.prod(shape)
+    if not count:
+        empty = next(name for name, value in given.items() if not np.size(value))
+        raise InputError(f"{empty} is empty; give one chance or more")
+    flat = {
+        name: value if isinstance(value, float) else np.broadcast_to(value, shape).ravel()
+        for name, value in given.items()
+    }
+    return _joined(list(_Family(game_of, flat).parts(count)), shape)
+
+
+def _joined(parts: list[_Part], shape: tuple[int, ...]) -> FamilyLimit:
+    row: dict[Any, int] = {}
+    for part in sorted(parts, key=lambda part: -len(part.states)):
+        for state in part.states:
+            row.setdefault(state, len(row))
+    count = math.prod(shape)
+    limits, period = np.zeros((len(row), count)), np.ones(count, dtype=np.int64)
+    for part in parts:
+        for state, limit in zip(part.states, part.limits, strict=True):
+            limits[row[state], part.members] = limit
+        period[part.members] = part.period
+    by_state = np.moveaxis(limits.reshape(len(row), *shape), 0, -1)
+    return FamilyLimit(tuple(row), by_state, period.reshape(shape))
+
+
+class _Family:
+    """A game and arrays of chances of shape (k,), or floats."""
+
+    def __init__(self, game_of: Callable[..., Game], chances: dict[str, Floats | float]) -> None:
+        self._game_of, self._chances = game_of, chances
+        self._structures: dict[Any, Structure] = {}
+
+    def parts(self, count: int) -> Iterator[_Part]:
+        """Yield the limits of all members, those with the same graph together."""
+        waiting = [np.arange(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH)]
+        while waiting:
+            members, true = waiting.pop(), None
+            if len(members) > _FEW:
+                try:
+                    found, doubtful = self._together(members)
+                except Disagreement as answer:
+                    true = answer.true
+                except Exception:
+                    true = None
+                else:
+                    yield found
+                    members = members[doubtful]
+            if true is None:
+                yield from map(self._alone, members.tolist())
+            else:
+                waiting += [members[true], members[~true]]
+
+    def _game(self, member: int) -> Game:
+        return self._game_of(
+            **{
+                name: value if isinstance(value, float) else float(value[member])
+                for name, value in self._chances.items()
+            }
+        )
+
+    def _alone(self, member: int) -> _Part:
+        limit = stochastic_limit(chain_of(self._game(member)))
+        return _Part(
+            np.array([member]), list(limit.states), limit.probability[:, None], limit.period
+        )
+
+    def _together(self, members: Places) -> tuple[_Part, Any]:
+        # Where a float would raise ZeroDivisionError, arrays must not go on either.
+        with np.errstate(divide="raise", invalid="raise"):
+            game = self._game_of(
+                **{
+                    name: value if isinstance(value, float) else Numbers(value[members])
+                    for name, value in self._chances.items()
+                }
+            )
+            states, sources, targets, numbers = moves_of(game, game.start)
+        chances = [p.values if isinstance(p, Numbers) else float(p) for p in numbers]
+        for k in (0, len(members) // 2, len(members) - 1):
+            self._check(int(members[k]), states, sources, targets, [_at(p, k) for p in chances])
+        sources, targets, chances = _completed(len(states), sources, targets, chances)
+        structure = self._structure(len(states), sources, targets)
+        limits, doubtful = family_limits(structure, sources, targets, chances, len(members))
+        period = math.lcm(*structure.periods[structure.closed].tolist())
+        return _Part(members, states, limits, period), doubtful
+
+    def _check(
+        self,
+        member: int,
+        states: list[Any],
+        sources: list[int],
+        targets: list[int],
+        chances: list[float],
+    ) -> None:
+        """Refuse arcs that are not those of the game made from plain floats."""
+        game = self._game(member)
+        *graph, exact = moves_of(game, game.start)
+        if graph != [states, sources, targets] or not np.allclose(
+            chances, np.array(exact, dtype=float), rtol=_SAME, atol=0.0
+        ):
+            raise Disagreement(None)
+
+    def _structure(self, size: int, sources: list[int], targets: list[int]) -> Structure:
+        key = size, tuple(sources), tuple(targets)
+        if key not in self._structures:
+            j, i = np.array(sources, dtype=np.intp), np.array(targets, dtype=np.intp)
+            matrix: csc_array = csc_array((np.ones(len(j)), (i, j)), shape=(size, size))
+            self._structures[key] = structure_of(arcs_of(matrix), matrix.diagonal() > 0.0)
+        return self._structures[key]
+
+
+def _at(chance: Floats | float, place: int) -> float:
+    return chance if isinstance(chance, float) else float(chance[place])
+
+
+def _completed(
+    size: int, sources: list[int], targets: list[int], chances: list[Any]
+) -> tuple[list[int], list[int], list[Any]]:
+    """Return the arcs with sums of 1, as `chain_of` completes those of one chain.
+
+    A self-loop becomes what the other arcs leave over, which must be nothing for all or for none.
+    Without a self-loop, arcs that miss 1 by more than a rounding error are scaled.
+    """
+    others: list[Any] = [0.0] * size
+    loops: list[Any] = [None] * size
+    for j, i, chance in zip(sources, targets, chances, strict=True):
+        if i == j:
+            loops[j] = chance
+        else:
+            others[j] = others[j] + chance
+    scales: list[Any] = [None] * size
+    for j in set(sources):
+        missed = np.abs(others[j] + (0.0 if loops[j] is None else loops[j]) - 1.0)
+        if not np.all(missed <= _SUM_TOLERANCE):
+            raise Disagreement(None)
+        if loops[j] is not None:
+            left = 1.0 - others[j]
+            loops[j] = left if Numbers(np.asarray(left > 0.0)) else None
+        elif np.any(missed > _ROUNDING):
+            scales[j] = np.where(missed > _ROUNDING, others[j], 1.0)
+    kept_sources, kept_targets, completed = [], [], []
+    for j, i, chance in zip(sources, targets, chances, strict=True):
+        found = loops[j] if i == j else chance if scales[j] is None else chance / scales[j]
+        if found is not None:
+            kept_sources.append(j)
+            kept_targets.append(i)
+            completed.append(found)
+    return kept_sources, kept_targets, completed
