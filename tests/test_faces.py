@@ -78,6 +78,9 @@ ASKED = {
     "oneball": "oneball 0.1 0.05 --or 0.5:0.8",
     "oneball_alone": "oneball 0.4 0.8",
     "oneball_later": "oneball 0.4 0.8 0.6 0.5 --or 0.3:0.3:0.2:0.4",
+    "graph": "graph one-ball --p1 0.4 --p2 0.8 --out OUT",
+    "graph_race": "graph 7:5 --p 0.6 --out OUT",
+    "graph_ladder": "graph npl_10 --out OUT",
     "chain": "chain data/safety_battle.csv",
     "chain_steps": "chain data/safety_battle.csv --steps 4",
     "chain_via": "chain data/safety_battle.csv --via eigen",
@@ -133,7 +136,7 @@ ASKED = {
 }
 """A question for each command, and for each kind of answer that it has."""
 
-NO_PAGE = ("report", "matchups", "reproduce")
+NO_PAGE = ("report", "matchups", "reproduce", "graph")
 """Commands without --html, or whose --html writes another page; theirs is made from the answer."""
 
 ASKS_THE_FACE = ("matchups",)

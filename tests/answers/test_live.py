@@ -39,3 +39,9 @@ def test_the_turning_point_is_the_game_that_moved_most():
 def test_a_match_that_is_over_names_the_winner(winners, name):
     answer = answer_of(Race(2, 2, RACK), winners)
     assert answer.sentences[0] == f"{name} has won the match."
+
+
+def test_nobody_is_certain_who_can_still_lose():
+    match = Race(9, 9, Rack(0.999))
+    text = live_answer(TwoPlayers(match.innermost_rack), match, live_odds(match, "")).sentences[0]
+    assert "100%" not in text

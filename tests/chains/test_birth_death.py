@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse import csc_array
 
 import oracle
-from evenbreak.chains import Chain, stochastic_limit
+from evenbreak.chains import Chain, chain_from_arrays, limit_matrix, stochastic_limit
 from evenbreak.chains.birth_death import birth_death_law, birth_death_of
 
 
@@ -41,6 +41,47 @@ def test_limit_from_every_state(seed):
         assert oracle.worst_relative_error(limit.probability, exact) < 2e-15
         reached = [c for c in oracle.closed_classes(columns) if any(exact[i] for i in c)]
         assert limit.period == max(oracle.period(chain, states) for states in reached)
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_limits_from_all_states_at_once(seed):
+    chain = random_line(random.Random(seed))
+    columns = oracle.columns_of(chain)
+    at_once, table = chain.birth_death.limits(), limit_matrix(chain).toarray()
+    spread_out = any(len(states) > 1 for states in oracle.closed_classes(columns))
+    assert (at_once is None) == spread_out
+    for start in range(len(chain)):
+        exact = oracle.limit(columns, {start: Fraction(1)})
+        assert oracle.worst_relative_error(table[:, start].tolist(), exact) < 2e-15
+
+
+def ruin(n, p):
+    """Return the walk from any stake to 0 or n, up with chance p."""
+    stake = np.arange(1, n)
+    sources, targets = np.tile(stake, 2), np.append(stake + 1, stake - 1)
+    return chain_from_arrays(range(n + 1), sources, targets, np.repeat([p, 1 - p], n - 1))
+
+
+@pytest.mark.parametrize("p", [0.5, 0.4921875, 0.1015625])  # p and 1 - p are exact floats
+def test_ruin_from_every_stake(p):
+    n = 1_000
+    chain = ruin(n, p)
+    table = limit_matrix(chain).tocsr()
+    r = (1 - Fraction(p)) / Fraction(p)
+    sums = [Fraction(s) if r == 1 else (1 - r**s) / (1 - r) for s in range(n + 1)]
+    exact = [part / sums[n] for part in sums]
+    ruined = [(sums[n] - part) / sums[n] for part in sums]
+    assert oracle.worst_relative_error(table[[n], :].toarray()[0].tolist(), exact) < 4e-16
+    assert oracle.worst_relative_error(table[[0], :].toarray()[0].tolist(), ruined) < 4e-16
+
+
+def test_a_line_beyond_the_range_of_long_doubles_is_eliminated():
+    n, p = 12_000, 0.1
+    chain = ruin(n, p)
+    assert chain.birth_death.limits() is None
+    table = limit_matrix(chain).tocsr()
+    assert table[n, n - 1] == pytest.approx(1 / 9, rel=1e-13)
+    assert table[0, n - 2] == pytest.approx(80 / 81, rel=1e-13)
 
 
 def test_full_storage_is_read_as_it_is_and_other_storage_alike():

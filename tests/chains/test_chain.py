@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from evenbreak.chains import Chain
-from evenbreak.errors import ChainError
+from evenbreak.chains import Chain, chain_of
+from evenbreak.errors import ChainError, InputError
 
 
 @pytest.fixture
@@ -94,3 +94,11 @@ def test_arcs_leave_out_loops_and_stored_zeros_and_sum_duplicates():
 def test_a_matrix_that_is_no_chain_is_refused(matrix, message):
     with pytest.raises(ChainError, match=message):
         Chain(["a", "b"], csc_array(np.array(matrix)))
+
+
+def test_a_seed_that_is_none_is_refused_by_its_name():
+    chain = chain_of([("a", "b", 1.0), ("b", "a", 1.0)], start="a")
+    for rng in ("x", 1.5, -1):
+        with pytest.raises(InputError, match="rng"):
+            chain.simulate(3, rng)
+    assert (chain.simulate(3, 1) == chain.simulate(3, np.random.default_rng(1))).all()

@@ -1,5 +1,7 @@
 """Reversible chains: every eigenvector, real and orthonormal, whatever decades the law spans."""
 
+from dataclasses import replace
+
 import mpmath
 import numpy as np
 import pytest
@@ -9,7 +11,8 @@ from evenbreak.chains.reversible import symmetric_form
 from evenbreak.chains.reversible_pairs import reversible_classes
 from evenbreak.errors import AccuracyError
 from evenbreak.games import Ahead, OneBall, Rack
-from evenbreak.handicaps import Ladder, chart
+from evenbreak.handicaps import Ladder, chart, system_of
+from evenbreak.ratings.scale import scale_of
 
 CHARTS = ("npl_8", "npl_10", "npl_12", "npl_20")
 
@@ -64,9 +67,12 @@ def eigenpairs_in_extended_precision(chain: Chain) -> tuple[mpmath.matrix, mpmat
         return mpmath.eigsy(S)
 
 
-@pytest.mark.parametrize("pull", [30.0, 2.0])
-def test_against_dense_eigenpairs_in_extended_precision(pull: float) -> None:
-    chain = walk(41, pull)
+@pytest.mark.parametrize(
+    "chain",
+    [walk(41, 30.0), walk(41, 2.0), *(chain_of(Ladder(chart(c), widest=15)) for c in CHARTS)],
+    ids=["gentle", "steep", *CHARTS],
+)
+def test_against_dense_eigenpairs_in_extended_precision(chain: Chain) -> None:
     found = spectrum(chain)
     values, vectors = eigenpairs_in_extended_precision(chain)
     exact = np.array([float(v) for v in values])
@@ -96,6 +102,31 @@ def test_the_national_pool_leagues_ladders(name: str) -> None:
     assert found.limit_error < 1e-14
     values, _ = np.linalg.eigh(chain.matrix.toarray() * np.sqrt(law) / np.sqrt(law)[:, None])
     np.testing.assert_allclose(np.sort(found.values), values, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "points", "widest"),
+    [*((name, 30, 60) for name in CHARTS), ("npl_8", 120, 960), ("npl_20", 120, 960)],
+)
+def test_chart_ladders_in_extended_precision(name: str, points: int, widest: int) -> None:
+    """Residuals r of n orthonormal vectors put each value within r of an eigenvalue of S."""
+    system = replace(system_of("npl"), scale=scale_of(str(points)))
+    chain = chain_of(Ladder(system, chart(name), widest=widest))
+    found = spectrum(chain)
+    n = len(chain)
+    assert n == 2 * widest + 1
+    assert found.values.shape == (n,)
+    assert found.values.dtype == float
+    Q, M = found.orthonormal, chain.matrix
+    np.testing.assert_allclose(Q.T @ Q, np.eye(n), rtol=0, atol=3e-14)
+    inside, up, down = (M.diagonal(k).astype(np.longdouble) for k in (0, -1, 1))
+    beside = np.sqrt(up) * np.sqrt(down)
+    residual = Q * (inside[:, None] - found.values)
+    residual[:-1] += beside[:, None] * Q[1:]
+    residual[1:] += beside[:, None] * Q[:-1]
+    assert np.sqrt((residual**2).sum(axis=0)).max() < 5e-14
+    law = stochastic_limit(chain).probability
+    np.testing.assert_allclose(found.limit(), law, rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("n", [511, 1023])

@@ -108,3 +108,20 @@ def test_only_the_classes_that_are_asked_for():
     assert law.sum() == 1.0
     assert law[chain.structure.label == 1].tolist() == [1.0]
     assert residual is None
+
+
+@pytest.mark.parametrize("depth", [30.0, 300.0])
+def test_a_cyclic_grid_of_hills_has_its_law_to_the_last_digits(depth):
+    """Up with 2^-climb, down with 1/8 at each side: the law is 2^-height, down to 1e-180."""
+    side = 40
+    turn = 2.0 * np.pi * np.arange(side) / side
+    height = np.round(depth * (np.sin(turn)[:, None] * np.cos(2.0 * turn) + 1.0)).ravel()
+    place = np.arange(side * side).reshape(side, side)
+    near = [np.roll(place, step, axis).ravel() for step in (1, -1) for axis in (0, 1)]
+    sources, targets = np.tile(place.ravel(), 4), np.concatenate(near)
+    chances = 2.0 ** np.minimum(height[sources] - height[targets], 0.0) / 8.0
+    chain = Chain(range(side**2), oracle.with_loops(csc_array((chances, (targets, sources)))), 0)
+    limit = stochastic_limit(chain)
+    exact = 2.0**-height
+    assert limit.residual is None
+    assert limit.probability == pytest.approx(exact / exact.sum(), rel=1e-13, abs=0.0)

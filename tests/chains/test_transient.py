@@ -11,14 +11,15 @@ import oracle
 from evenbreak.chains import (
     Chain,
     TransientPart,
-    banded,
+    dissection,
     factorisation,
+    front_elimination,
     stochastic_limit,
     transient,
 )
-from evenbreak.chains.banded import BandedElimination
 from evenbreak.chains.certified_lu import CertifiedSolve
 from evenbreak.chains.decimal_elimination import DecimalElimination, decimal_law
+from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
 
@@ -28,7 +29,7 @@ METHODS = {
     "one substitution": (0, 64, 4),
     "small classes up to 3": (0, 3, 0),
     "decimal numbers": (0, 1, 100),
-    "blocked": (0, 1, 0),
+    "fronts": (0, 1, 0),
 }
 
 
@@ -44,9 +45,9 @@ def use(monkeypatch, plain, small, narrow):
     monkeypatch.setattr(transient, "_FEW_ARCS", plain)
     monkeypatch.setattr(factorisation, "SMALL", small)
     monkeypatch.setattr(factorisation, "_NARROW", narrow)
-    # Panels and windows so small that a dozen states fill several.
-    monkeypatch.setattr(banded, "_PANEL", 2)
-    monkeypatch.setattr(banded, "_STEP", 3)
+    # Fronts and blocks so small that a dozen states fill several.
+    monkeypatch.setattr(dissection, "_LEAF", 3)
+    monkeypatch.setattr(front_elimination, "_ONE_BY_ONE", 2)
 
 
 def random_chain(draw, decades):
@@ -113,9 +114,9 @@ def test_each_method_is_what_it_says(monkeypatch):
     assert kinds == {
         "plain Python": transient._InPlainPython,
         "one substitution": TriangularSolve,
-        "small classes up to 3": BandedElimination,
+        "small classes up to 3": FrontElimination,
         "decimal numbers": DecimalElimination,
-        "blocked": BandedElimination,
+        "fronts": FrontElimination,
     }
     use(monkeypatch, 0, 1, 0)
     monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)

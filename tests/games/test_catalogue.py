@@ -1,6 +1,19 @@
+import pytest
+
 from evenbreak import games
+from evenbreak.errors import InputError
 from evenbreak.game import Game
-from evenbreak.games import CATALOGUE, Match
+from evenbreak.games import (
+    CATALOGUE,
+    Drill,
+    Match,
+    OneBall,
+    Race,
+    Rack,
+    Series,
+    game_of_catalogue,
+    loser_breaks,
+)
 
 
 def test_every_kind_of_game_is_in_the_catalogue():
@@ -11,3 +24,28 @@ def test_every_kind_of_game_is_in_the_catalogue():
 
 def test_all_of_them_are_games():
     assert all(isinstance(game, Game) for game in CATALOGUE.values())
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_each_name_means_its_game(name):
+    assert game_of_catalogue(name.upper()) == (name, CATALOGUE[name])
+
+
+@pytest.mark.parametrize(
+    ("words", "chances", "game"),
+    [
+        ("drill 8-ball", (0.5,), Drill.eight_ball(0.5)),
+        ("drill 9-ball", (0.5,), Drill.progressive(0.5)),
+        ("series loser", (0.9, 0.5), Series(Rack(0.9, 0.5), breaks=loser_breaks)),
+        ("race of one-ball", (0.3, 0.6), Race(3, 2, OneBall(0.3, 0.6))),
+        ("3:1 match", (0.6,), Race(3, 1, Race(3, 3, Rack(0.6)))),
+    ],
+)
+def test_other_chances(words, chances, game):
+    assert game_of_catalogue(words, *chances)[1] == game
+
+
+@pytest.mark.parametrize("words", ["", "drill", "winner breaks", "chess"])
+def test_names_of_none_or_of_several_are_refused(words):
+    with pytest.raises(InputError, match="give one of"):
+        game_of_catalogue(words)

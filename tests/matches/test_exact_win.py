@@ -27,6 +27,7 @@ MATCHES = [
     Ahead(4, 3, BY_BREAK, breaks=alternate_breaks),
     Race(3, 2, Race(3, 3, BY_BREAK, breaks=loser_breaks)),
     Race(2, 2, Race(2, 2, BY_BREAK, breaks=winner_breaks), breaks=alternate_breaks),
+    Race(3, 2, Ahead(2, 2, BY_BREAK, breaks=winner_breaks), breaks=loser_breaks, score=(1, 1)),
 ]
 
 

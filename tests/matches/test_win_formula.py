@@ -5,7 +5,15 @@ from fractions import Fraction
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.games import Ahead, OneBall, Race, Rack, alternate_breaks, winner_breaks
+from evenbreak.games import (
+    Ahead,
+    OneBall,
+    Race,
+    Rack,
+    alternate_breaks,
+    loser_breaks,
+    winner_breaks,
+)
 from evenbreak.matches import win_formula, win_probability
 
 sympy = pytest.importorskip("sympy", reason="the extra 'symbolic' is not installed")
@@ -47,6 +55,26 @@ def test_a_formula_may_depend_on_the_break(breaks, player):
     ):
         found = value(win_formula(match, player=player), chances)
         assert found == pytest.approx(win_probability(match, player=player), rel=1e-13)
+
+
+@pytest.mark.parametrize("breaks", [winner_breaks, alternate_breaks, loser_breaks])
+@pytest.mark.parametrize("chances", [("3/5", "11/20"), ("1/1000000007", "999999/1000000")])
+def test_a_race_to_11_in_two_symbols_has_the_value_of_the_fractions(breaks, chances):
+    own, other = map(Fraction, chances)
+    race = Race(11, 11, Rack(own, other), breaks=breaks)
+    for player in (1, 2):
+        formula = sympy.Poly(win_formula(race, player=player), p1, p2)
+        found = formula.eval({p1: sympy.Rational(own), p2: sympy.Rational(other)})
+        assert Fraction(int(found.p), int(found.q)) == win_probability(
+            race, player=player, exact=True
+        )
+
+
+def test_a_race_of_sets_with_breaks_has_the_value_of_the_fractions():
+    own, other = Fraction(3, 5), Fraction(1, 7)
+    match = Race(3, 2, Race(3, 3, Rack(own, other), breaks=winner_breaks), breaks=alternate_breaks)
+    found = win_formula(match).subs({p1: sympy.Rational(own), p2: sympy.Rational(other)})
+    assert Fraction(int(found.p), int(found.q)) == win_probability(match, exact=True)
 
 
 def test_the_texts_formulas():

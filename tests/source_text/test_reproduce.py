@@ -6,6 +6,7 @@ import pytest
 from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.cells import csv_bytes
 from evenbreak.source_text.figures import figures
+from evenbreak.source_text.graph_to_limit.tables import game_tables
 from evenbreak.source_text.reproduce import all_findings, physics_tables, section_5_tables
 from places import ROOT
 
@@ -18,14 +19,14 @@ def files(reproduced):
 
 
 def test_everything_is_written(files):
-    tables = {f"{name}.csv" for name in {**section_5_tables(), **physics_tables()}}
+    tables = {f"{name}.csv" for name in {**section_5_tables(), **physics_tables(), **game_tables()}}
     pictures = {f"{name}.{kind}" for name in figures() for kind in ("png", "svg")}
-    assert set(files) == {"index.md", "physics.md"} | tables | pictures
+    assert set(files) == {"index.md", "physics.md", "graph_to_limit.md"} | tables | pictures
     assert all(files.values())
 
 
 def test_another_process_writes_the_same_bytes(files):
-    tables = {**section_5_tables(), **physics_tables()}
+    tables = {**section_5_tables(), **physics_tables(), **game_tables()}
     assert [name for name in tables if csv_bytes(tables[name]) != files[f"{name}.csv"]] == []
     for name in ("figure_1_1", "figure_4_8", "figure_5_2", "figure_5_11"):
         figure = figures()[name]()

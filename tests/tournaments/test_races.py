@@ -46,6 +46,26 @@ def test_the_fairest_race_of_a_length() -> None:
         assert laws["F"].win[i, j] == pytest.approx(best.p_win_1)
 
 
+def test_fargorates_races_for_576_against_419() -> None:
+    """What the races that FargoRate lists as fair are worth to the stronger player."""
+    p = scale_of("fargo").win_probability(576 - 419)
+    races = [
+        (3, 2),
+        (4, 2),
+        (5, 3),
+        (6, 3),
+        (7, 4),
+        (8, 4),
+        (9, 4),
+        (10, 5),
+        (11, 5),
+        (12, 5),
+        (13, 6),
+    ]
+    worth = [0.735, 0.629, 0.752, 0.674, 0.771, 0.708, 0.643, 0.736, 0.680, 0.623, 0.711]
+    assert [race_odds(m, n, p).p_win_1 for m, n in races] == pytest.approx(worth, abs=5e-4)
+
+
 @pytest.mark.parametrize("breaks", [alternate_breaks, winner_breaks])
 def test_breaks(breaks) -> None:
     scale = scale_of("npl")

@@ -44,7 +44,7 @@ def chain_answer(
     The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
     """
     limit = stochastic_limit(chain, via=via)
-    mean_steps, doubts = _mean_steps(chain)
+    mean_steps, doubts = mean_steps_of(chain)
     if limit.residual is not None and via != "eigen":
         doubts.append(
             f"the limit was solved with residual {limit.residual:.3g}, without a bound for each "
@@ -53,7 +53,7 @@ def chain_answer(
     states, structure = list(chain.states), chain.structure
     columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
     values: list[Sequence[Any]] = [states, structure.kinds]
-    sentences = [_in_the_end(limit, structure.kinds, mean_steps)]
+    sentences = [in_the_end(limit, structure.kinds, mean_steps)]
     density = None
     if steps is not None:
         after = f"after {count_of(steps, 'step')}"
@@ -104,7 +104,7 @@ def _way(via: Way | None, limit: Limit) -> list[Part]:
     return by_way(via, pairs, beside=beside)
 
 
-def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
+def mean_steps_of(chain: Chain) -> tuple[float | None, list[str]]:
     """Return the mean number of steps to absorption, and why there is none where it is lost."""
     try:
         return steps_to_absorption(chain).mean, []
@@ -113,7 +113,7 @@ def _mean_steps(chain: Chain) -> tuple[float | None, list[str]]:
         return None, [doubt + "certain nevertheless"]
 
 
-def _in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
+def in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
     """Return where the chain ends, or where it is in the long run."""
     where = _places(limit.to_dict())
     if any(p and kind != "absorbing" for p, kind in zip(limit.probability, kinds, strict=True)):

@@ -75,11 +75,13 @@ def _in_words(now: Standing, players: TwoPlayers) -> str:
     a, b = players.names
     if now.leverage is None:
         return f"{a if now.p_win_1 else b} has won the match."
-    name, p = (a, now.p_win_1) if now.p_win_1 >= now.p_win_2 else (b, now.p_win_2)
+    p, left = now.p_win_1, now.p_win_2
     after, other = now.p_win_1_after or (p, p)
+    won = left if p == 1.0 else 0.0  # otherwise a chance of 1 means that the match ends
+    name, p, least = (a, p, left) if p >= left else (b, left, p)
     return (
-        f"From here {name} wins {percent(p)} of the time.\nIf {a} wins the next game, {a}'s chance "
-        f"is {percent(after)}; if {b} wins it, {percent(other)}."
+        f"From here {name} wins {percent(p, least)} of the time.\nIf {a} wins the next game, {a}'s "
+        f"chance is {percent(after, won)}; if {b} wins it, {percent(other, left)}."
     )
 
 

@@ -166,9 +166,7 @@ def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
         return f"The match may never end; the chance of that is {chance(odds.p_never_ends)}."
     ours, theirs = odds.p_win_1, odds.p_win_2
     name, p, left = (a, ours, theirs) if ours >= theirs else (b, theirs, ours)
-    # Beside a chance of 1e-18 the other one is 1 to all digits, but not certain.
-    often = percent(p) if left == 0.0 else percent(min(p, 1.0 - 1e-9))
-    text = f"{name} wins the match {often} of the time."
+    text = f"{name} wins the match {percent(p, left)} of the time."
     if odds.mean_games is None or odds.games_p90 is None:
         return text
     length = decimals(1)(odds.mean_games) if odds.mean_games < 1e6 else games(odds.mean_games)

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.wording import listed
 
 MEANINGS = {
     "agrees": "the computed number confirms the printed one",
@@ -36,7 +37,7 @@ def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterabl
     names = list(files)
     total, wrong = sum(verdicts.values()), verdicts.get("erratum", 0)
     confirmed = verdicts.get("agrees", 0) + verdicts.get("formula", 0)
-    pages = " or ".join(f"{folder}/{name}" for name in names if name.endswith(".md"))
+    pages = listed([f"{folder}/{name}" for name in names if name.endswith(".md")], "or")
     tables, figures = (sum(name.endswith(kind) for name in names) for kind in (".csv", ".png"))
     return Answer(
         f"The source text computed anew, in {folder}",

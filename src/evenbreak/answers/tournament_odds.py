@@ -182,7 +182,7 @@ def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
     lines = []
     if odds is not plug_in:
         lines.append(
-            f"The odds are averaged over {odds.samples} draws of how far the ratings may be off, "
+            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
             f"by their standard errors; chance moves them by {_off(odds)} at most."
         )
     elif not odds.exact:

@@ -13,7 +13,7 @@ from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.clock.finish import Finish, finish, minutes_later
 
 _DAY = 24 * 60
-_WORTH_SAYING = 2.0  # minutes
+_WORTH_SAYING = 10.0  # minutes
 _CHANGES = {
     "one_more_table": "With one more table",
     "races_one_shorter": "With all races one game shorter",
@@ -128,7 +128,7 @@ def _in_words(
     text = f"It {'ends at' if timed else 'takes'} about {middle}; 8 times out of 10 "
     text += f"between {early} and {late}."
     said = [
-        f"{_CHANGES[what]} it would end {count_of(round(saved), 'minute')} earlier."
+        f"{_CHANGES[what]} it would end {clock(saved)} earlier."
         for what, saved in savings.items()
         if saved >= _WORTH_SAYING
     ]

@@ -15,14 +15,21 @@ def chance(p: float) -> str:
     return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
 
 
-def percent(p: float) -> str:
+def percent(p: float, left: float = 0.0) -> str:
     """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
+
+    Beside a chance of 1e-18 for all else, which is `left`, a chance is 1 in every digit, and yet
+    not certain.
 
     >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
     ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
+    >>> percent(1.0, 1e-18)
+    'more than 99.9%'
     >>> percent(0.01), percent(0.0103)  # a round value, as it was given, and a calculated one
     ('1%', '1.0%')
     """
+    if p == 1.0 and left > 0.0:
+        return "more than 99.9%"
     if p == round(p, 2):
         return f"{100 * p:.0f}%"
     if p < 0.001:

@@ -42,7 +42,7 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArr
 
     Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
     entry is right to about machine precision, unless play passes through a transient class
-    of more than some 6,000 states without a narrow band. Then it is certified to a relative
+    too large for elimination (see `factorisation`). Then it is certified to a relative
     error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
     is not None but says by how much the equations are missed.
 

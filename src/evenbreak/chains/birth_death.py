@@ -25,12 +25,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from evenbreak.chains.scaled import prefix_products, shares
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from scipy.sparse import csc_array
 
     from evenbreak.chains.arcs import Places
 
@@ -80,6 +80,61 @@ class BirthDeath:
             last = hi + int(walls[0]) if len(walls) else len(limit) - 1
             period = max(period, self._settle(limit, *self._stretch(last), chance_right))
         return limit, period
+
+    def limits(self) -> csc_array | None:
+        """Return the limits from all states, column j that from j, if all play ends in one state.
+
+        None if play may end in a closed stretch of several states, or if the products leave the
+        range of a long double, in which they are formed.
+        """
+        n, cuts = len(self.loops), self._cuts
+        first, last = np.append(0, cuts + 1).astype(np.int32), np.append(cuts, n - 1)
+        left, right = np.zeros((2, len(first)), dtype=bool)
+        left[1:], right[:-1] = self.down[cuts] > 0.0, self.up[cuts] > 0.0
+        if (first < last)[~left & ~right].any():
+            return None
+        # Beyond a cut there is no way back: play ends at the next missing outward arc.
+        number = np.arange(len(first))
+        leftmost = np.maximum.accumulate(np.where(left, 0, number))
+        rightmost = np.minimum.accumulate(np.where(right, n, number)[::-1])[::-1]
+        sizes = last - first + 1
+        ends = np.repeat(first[np.stack((leftmost, rightmost), axis=1)], sizes, axis=0)
+        chances = np.repeat(np.stack((~right, right), axis=1), sizes, axis=0).astype(np.float64)
+        for lo, hi in zip(first[left & right].tolist(), last[left & right].tolist(), strict=True):
+            found = self._exits_from_all(lo, hi)
+            if found is None:
+                return None
+            chances[lo : hi + 1, 0], chances[lo : hi + 1, 1] = found
+        possible = chances > 0.0
+        indptr = np.zeros(n + 1, dtype=np.int32)
+        np.cumsum(np.add(*possible.T, dtype=np.int32), out=indptr[1:])
+        flat = possible.ravel()
+        return csc_array((chances.ravel()[flat], ends.ravel()[flat], indptr), shape=(n, n))
+
+    def _exits_from_all(
+        self, lo: int, hi: int
+    ) -> tuple[NDArray[np.longdouble], NDArray[np.longdouble]] | None:
+        """Return the chances of leaving lo..hi on the left and on the right, from each state.
+
+        The products are formed in long doubles: with equal arcs, each step repeats the rounding
+        error of one quotient. None if they leave the range.
+        """
+        g = np.empty(hi - lo + 2, dtype=np.longdouble)
+        g[0], g[1:] = 1.0, self.down[lo - 1 : hi]
+        with np.errstate(over="ignore"):
+            g[1:] /= self.up[lo : hi + 1].astype(np.longdouble)
+            np.multiply.accumulate(g, out=g)
+            smallest, from_right = g.min(), np.add.accumulate(g[::-1])[::-1]
+            from_left = np.add.accumulate(g, out=g)
+        total = from_left[-1]
+        if not (np.isfinite(total) and smallest >= np.finfo(np.longdouble).tiny):
+            return None
+        for chances in (from_left, from_right):
+            chances *= 1 / total
+            if min(chances[0], chances[-1]) < 2.0**-1074:
+                # Zero as a float, but a hundred times as slow to convert as zero itself.
+                chances[chances < 2.0**-1074] = 0.0
+        return from_right[1:], from_left[:-1]
 
     @cached_property
     def _cuts(self) -> Places:

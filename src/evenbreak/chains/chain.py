@@ -20,7 +20,7 @@ from evenbreak.chains.birth_death import BirthDeath, birth_death_of
 from evenbreak.chains.paths import random_paths
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
-from evenbreak.checks import whole
+from evenbreak.checks import generator_of, whole
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -236,7 +236,7 @@ class Chain:
         ['sun', 'rain', 'rain', 'sun', 'rain', 'rain', 'sun']
         """
         steps, paths = whole(steps, "steps"), whole(paths, "paths")
-        begin, draw = self.density(start), np.random.default_rng(rng)
+        begin, draw = self.density(start), generator_of(rng)
         return random_paths(self.matrix, begin, steps, paths, draw)
 
     def _own_start(self) -> Hashable:

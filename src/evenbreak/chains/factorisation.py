@@ -5,12 +5,13 @@
 | one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
 | a line of states | cyclic reduction (`line_elimination`) | linear |
 | band of up to 4 | elimination in decimal numbers (`decimal_elimination`) | linear |
-| wider band w, or up to some 6,000 states | blocked elimination (`banded`) | n w^2, n w |
+| others, up to 40 million factors | in fronts of a dissection (`front_elimination`) | see below |
 | larger | sparse LU, certified or with its residual (`certified_lu`) | as SuperLU |
 
-Consecutive small classes are solved together. Where hundreds of states in a row have equal
-arcs, doubles repeat the same rounding error at each of them, so long and narrow classes are
-solved with more digits.
+In fronts, a square grid of n states takes time n^1.5 and memory n log n; a graph that no few states
+cut in two takes n^3 and n^2. Consecutive small classes are solved together. Where hundreds of
+states in a row have equal arcs, doubles repeat the same rounding error at each of them, so long
+and narrow classes are solved with more digits.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import arcs_of, put_back, sums
-from evenbreak.chains.banded import BandedElimination, band_order
 from evenbreak.chains.certified_lu import CertifiedSolve
 from evenbreak.chains.decimal_elimination import DecimalElimination
+from evenbreak.chains.dissection import bandwidth, dissect, neighbours
+from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.triangular_solve import TriangularSolve
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
 
 SMALL = 64
 _MOST_ENTRIES = 40_000_000
+"""Of factors in fronts: those of some 6,000 states with arcs to all others, or a 500 x 500 grid."""
 _NARROW = 4
 
 
@@ -84,11 +87,12 @@ class _Piece:
         order = line_order(T)
         if order is not None:
             return LineElimination(T, leak, order)
-        order, width = band_order(T)
-        if width <= _NARROW:
+        graph = neighbours(T)
+        if bandwidth(graph) <= _NARROW:
             return DecimalElimination(arcs_of(T), leak)
-        if size * min(size, 3 * width) <= _MOST_ENTRIES:
-            return BandedElimination(T, leak, order, width)
+        order, fronts = dissect(graph)
+        if sum(front.entries for front in fronts) <= _MOST_ENTRIES:
+            return FrontElimination(T, leak, order, fronts)
         return CertifiedSolve(T, leak)
 
 

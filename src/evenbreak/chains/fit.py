@@ -22,6 +22,7 @@ from scipy.sparse import coo_array, csc_array
 
 from evenbreak.arrays import short_repr
 from evenbreak.chains.chain import Chain, check_present
+from evenbreak.checks import generator_of
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ class FittedChain:
         >>> np.round([np.mean(won), np.std(won)], 2)
         array([0.6 , 0.05])
         """
-        draw = np.random.default_rng(rng)
+        draw = generator_of(rng)
         weights = self._with(draw.standard_gamma(self.counts.data))
         total = weights.sum(axis=0)
         left = np.repeat(total, np.diff(self.counts.indptr))

@@ -25,8 +25,9 @@ MOST_ENTRIES = 50_000_000
 def limit_matrix(chain: Chain) -> csc_array:
     """Return the limits from all states; shape (n, n), column j is the limit from state j.
 
-    Time and memory are those of one solve for each closed class that is entered from
-    outside, and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
+    For states in a line, with absorbing states at its ends, there is a closed form. Otherwise
+    time and memory are those of one solve for each closed class that is entered from outside,
+    and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
     Where only a sparse factorisation helps, the residual of the chances of ending in a class
     is in `chain.transient.residual` afterwards; that of the law of a closed class is in
     `stochastic_limit(chain, state).residual` for a state of the class.
@@ -45,6 +46,9 @@ def limit_matrix(chain: Chain) -> csc_array:
                           [0.42857143, 0.        , 0.85714286, 1.        ]]))
     """
     check_chain(chain)
+    limits = None if chain.birth_death is None else chain.birth_death.limits()
+    if limits is not None:
+        return limits
     n, structure = len(chain), chain.structure
     law = stationary_laws(chain)
     inside = np.flatnonzero(structure.recurrent)

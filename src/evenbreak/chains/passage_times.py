@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -34,6 +35,7 @@ from evenbreak.errors import AccuracyError, ChainError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 Into: TypeAlias = Literal["absorbing", "closed"]
@@ -79,7 +81,8 @@ class PassageTime:
     residual: float | None
     _at_once: float = field(repr=False)
     _v: NDArray[np.float64] = field(repr=False)
-    _inside: csr_array = field(repr=False)
+    _chain: Chain = field(repr=False)
+    _states: Places = field(repr=False)
     _leak: NDArray[np.float64] = field(repr=False)
     _hope: NDArray[np.float64] = field(repr=False)
 
@@ -146,12 +149,19 @@ class PassageTime:
             f"the mean given that the target is reached is {self.mean_if_reached:.6g}"
         )
 
+    @cached_property
+    def _inside(self) -> csr_array:
+        """The matrix among the states from which the target can be reached."""
+        return csr_array(evened(self._chain)[:, self._states])[self._states]
+
     def _walk(self) -> Iterator[tuple[int, float, float]]:
         """Yield t, P(T = t) and P(t < T, and the target is reached), for t = 0, 1, ..."""
         t, chance, x = 0, self._at_once, self._v
+        last = np.flatnonzero(self._leak)
+        leak = self._leak[last]
         while True:
             yield t, chance, float((self._hope * x).sum())
-            t, chance, x = t + 1, float((self._leak * x).sum()), self._inside @ x
+            t, chance, x = t + 1, float((leak * x[last]).sum()), self._inside @ x
 
 
 @overload
@@ -292,7 +302,6 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
             raise AccuracyError("the mean number of steps is larger than any float")
         # A mean this large comes from a state that is hard to leave; the variance is its square.
         variance = variance if np.isfinite(variance) else np.inf
-    M = evened(chain)
     return PassageTime(
         p_reached=p_reached,
         p_never=p_never,
@@ -302,7 +311,8 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         residual=part.residual,
         _at_once=float(v[ends].sum()),
         _v=v[states],
-        _inside=csr_array(M[:, states][states]),
+        _chain=chain,
+        _states=states,
         _leak=leak,
         _hope=hope,
     )

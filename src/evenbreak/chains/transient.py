@@ -77,7 +77,7 @@ class TransientPart:
     def residual(self) -> float | None:
         """None if every entry of the answers so far is right to about machine precision.
 
-        Otherwise, after a large class without a narrow band that could not be certified: the
+        Otherwise, after a class too large for elimination that could not be certified: the
         largest entry of b - (I - T) x, in units of the largest entry of b.
         """
         factor = self.__dict__.get("_factor")

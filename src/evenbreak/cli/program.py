@@ -45,7 +45,8 @@ SECTIONS = {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
-        "chain": Entry("match.chain", "Any Markov chain: where it ends, from a file of arcs."),
+        "graph": Entry("match.graph", "A game as graph, matrix, eigenvalues and limit, in files."),
+        "chain": Entry("match.chain", "Any Markov chain: where it ends, from a file."),
         "reproduce": Entry("reproduce", "Every table, figure and number of the source text."),
     },
 }

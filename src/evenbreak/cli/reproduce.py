@@ -19,8 +19,9 @@ Examples:
 def command(out: str) -> Answer:
     """Write every table, figure and number of the source text, computed anew.
 
-    Start with DIR/index.md for section 5, statistics, or DIR/physics.md for sections 1 to 4,
-    the physics of the table. They show and explain every number, point out the errors of the
+    Start with DIR/index.md for section 5, statistics, DIR/physics.md for sections 1 to 4, the
+    physics of the table, or DIR/graph_to_limit.md for each game as graph, matrix, eigenvalues and
+    limit. They show and explain every number, point out the errors of the
     text and link to the CSV files. The files are the same to the byte each time. If a number
     is not the one expected, the command says so and ends with exit code 1.
     """

@@ -2,6 +2,7 @@ from .aliases import AliasesFile as AliasesFile
 from .aliases import read_aliases as read_aliases
 from .arcs import ArcsFile as ArcsFile
 from .arcs import read_arcs as read_arcs
+from .chain_forms import read_chain as read_chain
 from .chart import find_chart as find_chart
 from .chart import read_chart as read_chart
 from .csv_writer import to_csv as to_csv
@@ -12,6 +13,9 @@ from .entrants import entered as entered
 from .entrants import read_entrants as read_entrants
 from .entrants import roster_of_entrants as roster_of_entrants
 from .folder import write_files as write_files
+from .graph_forms import graphml_bytes as graphml_bytes
+from .graph_forms import matrix_market_bytes as matrix_market_bytes
+from .graph_forms import node_link_bytes as node_link_bytes
 from .league import LeagueFile as LeagueFile
 from .league import league_of_entrants as league_of_entrants
 from .league import read_league as read_league

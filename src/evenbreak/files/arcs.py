@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,11 +22,11 @@ SUM_TOLERANCE = 1e-9
 
 
 class ArcsFile(NamedTuple):
-    """The arcs of a file, in the order of its rows.
+    """The arcs of a file, in the order of the file.
 
     `sources[k]` and `targets[k]` are positions in `states`, which come in the order in
     which the file first names them; `probabilities[k]` is that of the target, given the
-    source.
+    source. `start` is where the chain begins, if the file says so.
     """
 
     states: list[str]
@@ -34,6 +35,7 @@ class ArcsFile(NamedTuple):
     probabilities: NDArray[np.float64]
     source: str
     warnings: tuple[str, ...]
+    start: str | None = None
 
 
 def read_arcs(path: str | Path) -> ArcsFile:
@@ -69,7 +71,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
         if whole and not np.isnan(p).any():
             _refuse_sums(table, states, sources, p)
     table.problems.raise_any()
-    return ArcsFile(states, sources, targets, p, table.source, table.warnings)
+    return ArcsFile(states, sources, targets, p, table.source, table.warnings, states[sources[0]])
 
 
 def _refuse_empty(table: TextTable, column: str) -> None:
@@ -106,14 +108,24 @@ def _refuse_twice(
 def _refuse_sums(
     table: TextTable, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
 ) -> None:
+    found = sum_problems(states, sources, p)
+    rows = np.array(list(found), dtype=np.int64)
+    table.problems.add_rows(table.lines, rows, lambda row: found[row])
+
+
+def sum_problems(
+    states: Sequence[str], sources: NDArray[np.int64], p: NDArray[np.float64]
+) -> dict[int, str]:
+    """Return what is wrong with the sums out of states, by the first arc out of each.
+
+    >>> sum_problems(["S", "W"], np.array([0]), np.array([0.9]))[0][:32]
+    "the arcs out of 'S' sum to 0.9, "
+    """
     leaving, first = np.unique(sources, return_index=True)
     sums = np.bincount(sources, weights=p, minlength=len(states))
     wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
-    table.problems.add_rows(
-        table.lines,
-        wrong,
-        lambda row: (
-            f"the arcs out of {quoted(states[sources[row]])} sum to {sums[sources[row]]:.12g}, "
-            "not 1; add what is missing (a self-loop counts), or write more digits"
-        ),
-    )
+    return {
+        row: f"the arcs out of {quoted(states[sources[row]])} sum to {sums[sources[row]]:.12g}, "
+        "not 1; add what is missing (a self-loop counts), or write more digits"
+        for row in wrong.tolist()
+    }

@@ -7,6 +7,7 @@ from .breaks import player_1_breaks as player_1_breaks
 from .breaks import player_2_breaks as player_2_breaks
 from .breaks import winner_breaks as winner_breaks
 from .catalogue import CATALOGUE as CATALOGUE
+from .catalogue import game_of_catalogue as game_of_catalogue
 from .drill import Drill as Drill
 from .match import Match as Match
 from .one_ball import OneBall as OneBall

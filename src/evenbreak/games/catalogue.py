@@ -1,7 +1,12 @@
-"""One example of each kind of game; the contract tests run over all of them."""
+"""One example of each kind of game, by name; the contract tests run over all of them."""
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+from typing import Any
+
+from evenbreak.errors import InputError
 from evenbreak.game import Game
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.breaks import alternate_breaks, loser_breaks, winner_breaks
@@ -15,7 +20,9 @@ _BREAKING = Rack(0.6, 0.55)
 
 CATALOGUE: dict[str, Game] = {
     "race 9:5": Race(9, 5, Rack(2 / 3)),
-    "race 5:4, winner breaks": Race(5, 4, _BREAKING, breaks=winner_breaks, first_breaker=2),
+    "race 5:4, winner breaks, player 2 first": Race(
+        5, 4, _BREAKING, breaks=winner_breaks, first_breaker=2
+    ),
     "race 5:5, win by 2, alternate breaks": Race(
         5, 5, _BREAKING, breaks=alternate_breaks, win_by=2
     ),
@@ -33,6 +40,64 @@ CATALOGUE: dict[str, Game] = {
     "one-ball": OneBall(0.4, 0.8),
     "one-ball, two shots ahead": OneBallLookAhead([0.4, 0.8]),
     "series, winner breaks": Series(_BREAKING, breaks=winner_breaks),
+    "series, loser breaks": Series(_BREAKING, breaks=loser_breaks),
     "series, alternate breaks": Series(_BREAKING, breaks=alternate_breaks),
     "drill, progressive 9-ball": Drill.progressive(0.8),
+    "drill, progressive 8-ball": Drill.eight_ball(0.8),
 }
+
+
+def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
+    """Return a game of the catalogue with its full name, perhaps with other chances.
+
+    Parameters
+    ----------
+    name
+        its name, or words of it that no other game has.
+    chances
+        p1 and p2 of its racks or shots, or one chance: of its racks, whoever breaks, or of a
+        shot in a drill. None: those of the catalogue.
+
+    Raises
+    ------
+    InputError
+        if no game or several have this name, or the game takes another number of chances.
+
+    >>> game_of_catalogue("One-ball", 0.3, 0.6)
+    ('one-ball', OneBall(p1=0.3, p2=0.6))
+    >>> game_of_catalogue("drill 9-ball")[0]
+    'drill, progressive 9-ball'
+    """
+    words = _words(name)
+    found = [known for known in CATALOGUE if _words(known) == words] or [
+        known for known in CATALOGUE if words and set(words) <= set(_words(known))
+    ]
+    if len(found) != 1:
+        which = "names several games" if found else "is not a game of the catalogue"
+        raise InputError(f"{name!r} {which}; give one of: {'; '.join(found or CATALOGUE)}")
+    game = CATALOGUE[found[0]]
+    try:
+        return found[0], _with_chances(game, chances) if chances else game
+    except TypeError:
+        wanted = "one chance" if isinstance(game, Drill) else "two chances"
+        raise InputError(
+            f"{found[0]} takes {wanted}, not {len(chances)}; leave one out or add the other"
+        ) from None
+
+
+def _words(name: str) -> list[str]:
+    return re.findall(r"[^\s,]+", name.lower())
+
+
+def _with_chances(game: Any, chances: tuple[float, ...]) -> Any:
+    match game:
+        case OneBall():
+            return OneBall(*chances)
+        case OneBallLookAhead():
+            return replace(game, shots=chances)
+        case Drill(success=(first, *_)):
+            base = Drill.progressive if first == 1.0 else Drill.eight_ball
+            return base(*chances, levels=len(game.success))  # type: ignore[arg-type, misc]
+        case Rack():
+            return Rack(*chances)
+    return replace(game, rack=_with_chances(game.rack, chances))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import kind_of, kind_or_usual, whole
+from evenbreak.checks import generator_of, kind_of, kind_or_usual, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.minutes import between, ended_by
 from evenbreak.matches.pace import Pace, Turnover, pace_of
@@ -146,7 +146,7 @@ def evening(
         return _calculated(one_after_another(found, pace, between_matches), pace)
     if runs is None and tables == len(found) and len(np.unique(pairs)) == pairs.size:
         return _calculated(all_at_once(found, pace), pace)
-    rng = np.random.default_rng(0 if rng is None else rng)
+    rng = generator_of(0 if rng is None else rng)
     return _simulated(found, pace, between_matches, tables, pairs, rng, runs)
 
 

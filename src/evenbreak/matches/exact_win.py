@@ -1,16 +1,20 @@
 """The chance of winning a match as a fraction.
 
 As in `outcomes`, the score after each rack or set is a small Markov chain, and absorption in it
-gives the outcomes of a match, which may be a set of a longer one.
+gives the outcomes of a match, which may be a set of a longer one. In a race the scores only
+rise, and one pass over them in whole numbers does.
 """
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Hashable
 from fractions import Fraction
+from math import lcm
 
 from evenbreak.chains.exact import exact_chance, exact_limit
 from evenbreak.games.match import Match, Score
+from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.outcomes import score_arcs
 from evenbreak.matches.own_games import Ends, ends_of_game, rack_of_game
@@ -54,6 +58,8 @@ def _outcomes(match: Match, score: Score, breaker: int) -> _Outcomes:
         return {(winner, breaker): Fraction(1)}
     units = {first: _unit(match, first) for first in ((1, 2) if match.break_matters else (1,))}
     start = (*match.fold(*score), breaker)
+    if isinstance(match, Race) and match.win_by == 1:
+        return _rising(match, start, units)
     arcs = score_arcs(match, start, units)
     never = {first: 1 - sum(unit.values(), Fraction(0)) for first, unit in units.items()}
     rows: dict[Hashable, dict[Hashable, Fraction]] = {
@@ -63,6 +69,30 @@ def _outcomes(match: Match, score: Score, breaker: int) -> _Outcomes:
     chain = ScoreChain(rows)
     results = sorted({target for row in arcs.values() for target in row if len(target) == 2})
     return {result: chain.solve({result: Fraction(1)})[start] for result in results}
+
+
+def _rising(match: Match, start: tuple[int, int, int], units: dict[int, _Outcomes]) -> _Outcomes:
+    """Return the outcomes of a match whose scores only rise, in whole numbers until the end.
+
+    With the chances of a unit over one denominator, those after k units are over its k-th power.
+    """
+    below = lcm(*(p.denominator for unit in units.values() for p in unit.values()))
+    above = {
+        first: {result: int(p * below) for result, p in unit.items()}
+        for first, unit in units.items()
+    }
+    outcomes: _Outcomes = {}
+    flow = defaultdict(int, {start: 1})
+    # The scores are listed by the units played, so all the flow into one is known in its turn.
+    for state, row in score_arcs(match, start, above).items():
+        played = state[0] + state[1] - start[0] - start[1] + 1
+        for target, ways in row.items():
+            if len(target) == 3:
+                flow[target] += flow[state] * ways
+            else:
+                chance = Fraction(flow[state] * ways, below**played)
+                outcomes[target] = outcomes.get(target, Fraction(0)) + chance
+    return outcomes
 
 
 def _unit(match: Match, breaker: int) -> _Outcomes:

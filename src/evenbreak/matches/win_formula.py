@@ -5,6 +5,7 @@ It needs sympy, which the extra `symbolic` installs.
 
 from __future__ import annotations
 
+from graphlib import TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.chains.symbolic import symbolic_limit
@@ -14,6 +15,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.one_ball import OneBall
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
+from evenbreak.matches.endings import is_bounded
 from evenbreak.matches.formats import MatchFormat, match_format
 from evenbreak.matches.parameters import checked_match, unit_of
 from evenbreak.matches.rack_graph import breaker_in, rack_moves
@@ -74,7 +76,9 @@ def win_formula(played: Match | OneBall | MatchFormat | str, *, player: int = 1)
         played = played.match(rack)
     match = checked_match(played)
     format_ = _format_of(match)
-    return _of_forms(format_, player) if format_ is not None else _solved(match, player)
+    if format_ is not None:
+        return _of_forms(format_, player)
+    return _polynomial(match, player) if is_bounded(match) else _quotient(match, player)
 
 
 def _breaks_of(played: MatchFormat) -> str | None:
@@ -105,27 +109,50 @@ def _of_forms(played: MatchFormat, player: int) -> Any:
     return forms[player - 1] if plain_race else forms[player - 1] / sum(forms)
 
 
-def _solved(match: Match, player: int) -> Any:
-    """Return the formula from the diagram of the match, with 1 minus a symbol for the loser."""
+def _polynomial(match: Match, player: int) -> Any:
+    """Return the formula of a match with a longest length, from its last racks back.
+
+    With x the breaker's chance and f the formulas after the rack, f = f_lost + x (f_won - f_lost),
+    all in whole numbers.
+    """
     import sympy
 
-    if match.break_matters:
-        p1, p2 = sympy.symbols("p1 p2")
-        chances = {1: (p1, 1 - p1), 2: (1 - p2, p2)}
-    else:
-        p = sympy.Symbol("p")
-        chances = {1: (p, 1 - p)}
+    ring, *chances = sympy.ring(_symbols_of(match), sympy.ZZ)
     moves = rack_moves(match)
-    if match.winner(match.start) is not None:
-        return sympy.Integer(match.winner(match.start) == player)
+    after = {state: [target for target, _ in row] for state, row in moves.items()}
+    formula: dict[Any, Any] = {}
+    order = TopologicalSorter(after)
+    order.add(match.start)  # also if the match is over
+    for state in order.static_order():
+        if state not in moves:
+            formula[state] = ring(int(match.winner(state) == player))
+            continue
+        breaker = breaker_in(match, state)
+        won, lost = (formula[target] for target in after[state][:: 1 if breaker == 1 else -1])
+        formula[state] = lost + chances[breaker - 1] * (won - lost)
+    return formula[match.start].as_expr()
+
+
+def _quotient(match: Match, player: int) -> Any:
+    """Return the formula of a match that may go on for ever, from its diagram."""
+    import sympy
+
+    symbols = sympy.symbols(_symbols_of(match), seq=True)
     # All scores with one winner are one final state, which keeps the systems small.
     arcs: dict[tuple[Any, Any], Any] = {}
+    moves = rack_moves(match)
     for state, row in moves.items():
-        for (target, _), chance in zip(row, chances[breaker_in(match, state)], strict=True):
+        breaker = breaker_in(match, state)
+        own = symbols[breaker - 1]
+        for winner, (target, _) in enumerate(row, 1):
             end = target if target in moves else f"won by {match.winner(target)}"
-            arcs[state, end] = arcs.get((state, end), 0) + chance
+            arcs[state, end] = arcs.get((state, end), 0) + (own if winner == breaker else 1 - own)
     triples = [(source, target, chance) for (source, target), chance in arcs.items()]
     return sympy.factor(symbolic_limit(triples, match.start)[f"won by {player}"])
+
+
+def _symbols_of(match: Match) -> str:
+    return "p1 p2" if match.break_matters else "p"
 
 
 def _one_ball_arcs() -> list[tuple[str, str, Any]]:

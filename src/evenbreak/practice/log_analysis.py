@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import whole
+from evenbreak.checks import generator_of, whole
 from evenbreak.practice.drill_log import DrillLog
 from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
 from evenbreak.practice.log_tests import (
@@ -175,7 +175,7 @@ def analyse_log(
     attempts = log.attempts
     p_seen = chances_seen(attempts, log.successes)
     law = level_laws(p_seen)
-    rng = np.random.default_rng(rng)
+    rng = generator_of(rng)
     played = play_again(log, p_seen, replicas=replicas, rng=rng)
     mean_low, mean_high, lifts = _drawn_lifts(log, p_seen, rng, replicas)
     values = tuple(range(1, len(attempts) + 1))

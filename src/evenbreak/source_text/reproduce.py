@@ -1,4 +1,4 @@
-"""The source text as files: tables, problems, printed numbers, figures and two pages."""
+"""The source text as files: tables, problems, printed numbers, figures and three pages."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from evenbreak.source_text.answers import physics_findings, section_5_findings
 from evenbreak.source_text.cells import Rows, Tables, csv_bytes
 from evenbreak.source_text.figures import figures
 from evenbreak.source_text.findings import Finding, physics_row_of, row_of
+from evenbreak.source_text.graph_to_limit.page import graph_to_limit_page
+from evenbreak.source_text.graph_to_limit.tables import game_tables
 from evenbreak.source_text.physics.figure_tables import figure_tables as physics_figure_tables
 from evenbreak.source_text.physics.page import physics_page
 from evenbreak.source_text.published import Erratum, errata, physics_errata
@@ -34,12 +36,14 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
         is called with a line about each step.
     """
     say("Computing the tables and problems")
-    statistics, physics = section_5_tables(), physics_tables()
+    statistics, physics, games = section_5_tables(), physics_tables(), game_tables()
     files = {
         "index.md": section_5_page(section_5_findings(), statistics).encode(),
         "physics.md": physics_page(physics_findings(), physics).encode(),
+        "graph_to_limit.md": graph_to_limit_page(games).encode(),
     }
-    files |= {f"{name}.csv": csv_bytes(rows) for name, rows in {**statistics, **physics}.items()}
+    tables = {**statistics, **physics, **games}
+    files |= {f"{name}.csv": csv_bytes(rows) for name, rows in tables.items()}
     drawn = figures()
     say(f"Drawing {len(drawn)} figures")
     for name, draw in drawn.items():

@@ -70,6 +70,18 @@ def test_walkovers_help_the_weak_and_prizes_are_shared(odds):
     assert sum(column(plain, "prize_mean")) == pytest.approx(150.0)
 
 
+def test_a_draw_as_it_was_made(odds, run, tmp_path):
+    drawn = "player,rating\nAnn,600\nBo,600\nCy,600\nbye 1,\n"
+    answer = odds("--race", "1", *FARGO, "--format", "single", "--seeding", "drawn", entrants=drawn)
+    assert column(answer, "name") == ["Ann", "Bo", "Cy"]
+    assert column(answer, "p_title") == pytest.approx([0.25, 0.25, 0.5])
+    path = tmp_path / "three.csv"
+    path.write_text("player,rating\nAnn,600\nBo,600\nCy,600\n")
+    result = run("tournament", "odds", str(path), "--race", "1", *FARGO, "--seeding", "drawn")
+    assert result.exit_code == 2
+    assert "bye 1" in result.stderr
+
+
 def test_formats_and_seeding(odds):
     single = odds("--race", "5", *FARGO, "--format", "single", "--third-place")
     assert single["p_second_final"] == 0.0

@@ -137,3 +137,10 @@ def test_an_iteration_that_does_not_converge_is_an_error(monkeypatch):
     monkeypatch.setattr(sys.modules[long_run.__module__], "_ROUNDS", 3)
     with pytest.raises(AccuracyError, match="after 3 rounds"):
         Ladder(chart("npl_8"), opponents=AUTOCORRELATED).law()
+
+
+@pytest.mark.parametrize("name", ["npl_8", "npl_20"])
+def test_moves_are_right_where_the_law_is_smaller_than_any_float(name):
+    kernel = Ladder(chart(name), widest=480).kernel
+    np.testing.assert_allclose(kernel.sum(axis=1), 1.0, rtol=0, atol=3e-15)
+    np.testing.assert_allclose(kernel[:240], np.broadcast_to(kernel[0], (240, 2)), rtol=1e-14)

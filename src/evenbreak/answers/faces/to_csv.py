@@ -10,7 +10,7 @@ from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
-    from evenbreak.answers.parts import Show
+    from evenbreak.answers.parts import Show, Table
 
 
 def to_csv(answer: Answer) -> Iterator[str]:
@@ -19,8 +19,13 @@ def to_csv(answer: Answer) -> Iterator[str]:
     if isinstance(numbers, Quantities):
         yield from csv_lines(["quantity", "value"], ([one.name, one.value] for one in numbers.of))
     elif numbers is not None:
-        cells = [repr if c.exact else c.cell for c in numbers.columns for _ in c.names]
-        yield from csv_lines(numbers.names, _as_cells(numbers.records(), cells))
+        yield from table_lines(numbers)
+
+
+def table_lines(table: Table) -> Iterator[str]:
+    """Yield a table's lines of CSV, each with its line end."""
+    cells = [repr if c.exact else c.cell for c in table.columns for _ in c.names]
+    yield from csv_lines(table.names, _as_cells(table.records(), cells))
 
 
 def _as_cells(rows: Iterator[list[Any]], cells: list[Show | None]) -> Iterator[list[Any]]:

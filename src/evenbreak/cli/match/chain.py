@@ -1,6 +1,8 @@
-"""`evenbreak chain`: the stochastic limit of any chain, from a file of arcs."""
+"""`evenbreak chain`: the stochastic limit of any chain, from a file."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,37 +13,66 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import via_option
 from evenbreak.errors import DataError
 
+if TYPE_CHECKING:
+    from evenbreak.chains.matrices import Rows
+
 EXAMPLES = """\b
 Examples:
   evenbreak chain arcs.csv
   evenbreak chain arcs.csv --start S2 --json
   evenbreak chain arcs.csv --steps 10
+  evenbreak chain graph.graphml
+  evenbreak chain matrix.mtx --states states.csv
   evenbreak chain arcs.csv --via eigen
 """
 
 
 @click.command("chain", epilog=EXAMPLES)
-@click.argument("arcs", metavar="ARCS.csv")
-@click.option("--start", metavar="STATE", help="Where to begin.  [default: the first row's source]")
+@click.argument("path", metavar="FILE")
+@click.option(
+    "--start",
+    metavar="STATE",
+    help="Where to begin.  [default: the start that the file names, else the first state]",
+)
 @click.option(
     "--steps",
     type=click.IntRange(0),
     metavar="N",
     help="Also give the probabilities after N steps; CSV then has only these.",
 )
+@click.option(
+    "--states",
+    metavar="STATES.csv",
+    help="The names of the states of a matrix, in its order.  [default: 1, 2, ...]",
+)
+@click.option(
+    "--rows",
+    type=click.Choice(["from", "to"]),
+    help="What a row of a matrix holds: the chances out of its state, or into it.  [default: to, "
+    "so that columns sum to 1]",
+)
 @via_option
 @faces()
-def command(arcs: str, start: str | None, steps: int | None, via: Way | None) -> Answer:
-    """Find where any Markov chain ends, or its long-run average, from a file of arcs.
+def command(
+    path: str,
+    start: str | None,
+    steps: int | None,
+    states: str | None,
+    rows: Rows | None,
+    via: Way | None,
+) -> Answer:
+    """Find where any Markov chain ends, or its long-run average, from a file.
 
-    The columns of ARCS.csv are source, target and probability; - reads standard input.
-    The arcs out of each state sum to 1; the chain ends in a state that is only a target.
+    FILE is a CSV file of arcs with the columns source, target and probability (- reads one from
+    standard input), a graph in GraphML (.graphml) or node-link JSON (.json), or a transition
+    matrix in Matrix Market form (.mtx). The arcs out of each state sum to 1; the chain ends in a
+    state that is only a target.
     """
     from evenbreak.answers.chain import chain_answer
 
-    file = files.read_arcs(arcs)
+    file = files.read_chain(path, states=states, rows=rows)
     if start is None:
-        start = file.states[file.sources[0]]
+        start = file.start or file.states[0]
     elif start not in file.states:
         known = ", ".join(repr(state) for state in file.states[:5])
         raise DataError(

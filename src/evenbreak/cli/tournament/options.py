@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import update_wrapper
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,9 @@ if TYPE_CHECKING:
 
 FORMATS = ("double", "single", "consolation", "round-robin", "king-of-the-hill")
 DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
+SEEDINGS = ("listed", "rating", "blind", "drawn")
 MOST_PLAYERS = 256
+BYE = re.compile(r"bye[\s\d]*", re.IGNORECASE)
 
 
 def _race_option(name: str, what: str) -> Any:
@@ -65,8 +68,8 @@ def tournament_options(command: Command) -> Command:
         roster = with_starters(file.roster, points, starter, starter_sd)
         if not 2 <= len(roster) <= MOST_PLAYERS:
             refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")
-        roster, seeded = _seeded(roster, seeding, seed)
-        bracket = _bracket(roster.players, form, final, qualifiers, drops, third_place=third_place)
+        roster, seeded, lines = _seeded(roster, seeding, seed)
+        bracket = _bracket(roster.players, form, final, qualifiers, drops, third_place, lines)
         from evenbreak.answers.tournament import Tournament
 
         tournament: Tournament = Tournament(file, roster, bracket, races, points, seeded)
@@ -91,9 +94,11 @@ def tournament_options(command: Command) -> Command:
         _race_option("--race", "Even races to N games."),
         click.option(
             "--seeding",
-            type=click.Choice(["listed", "rating", "blind"]),
+            type=click.Choice(SEEDINGS),
             default="listed",
-            help="The order of the seeds: as the file lists them, by rating, or drawn blind.",
+            help="The order of the seeds: as the file lists them, by rating, or drawn at random "
+            "(blind). Or no seeds (drawn): the first two rows of the file meet, and so on, with "
+            "rows named bye 1, bye 2 ... for byes.",
         ),
         click.option(
             "--third-place", is_flag=True, help="Single elimination with a match for third place."
@@ -181,14 +186,26 @@ def _scale(
     return scale, warnings
 
 
-def _seeded(roster: ratings.Roster, seeding: str, seed: int) -> tuple[ratings.Roster, str]:
-    """Return the players in seed order, and in words where it comes from."""
+def _seeded(
+    roster: ratings.Roster, seeding: str, seed: int
+) -> tuple[ratings.Roster, str, list[int | None] | None]:
+    """Return the players in seed order, in words where it comes from, and the lines if drawn."""
     import numpy as np
 
     places = list(range(len(roster)))
+    lines: list[int | None] | None = None
     if seeding == "listed":
-        return roster, "seeded in that order"
-    if seeding == "rating":
+        return roster, "seeded in that order", None
+    if seeding == "drawn":
+        order = [k for k in places if not BYE.fullmatch(roster.players[k])]
+        lines = [order.index(k) if k in order else None for k in places]
+        if len(lines) & (len(lines) - 1):
+            refuse(
+                f"--seeding drawn takes 2, 4, 8, 16 ... rows, and the file has {len(lines)}; add "
+                "rows named bye 1, bye 2 ... where the byes are"
+            )
+        words = "drawn in that order"
+    elif seeding == "rating":
         order, words = tournaments.by_rating(places, roster.rating.tolist()), "seeded by rating"
     else:
         order = tournaments.blind_draw(places, np.random.default_rng(seed))
@@ -201,6 +218,7 @@ def _seeded(roster: ratings.Roster, seeding: str, seed: int) -> tuple[ratings.Ro
             roster.games[order],
         ),
         words,
+        lines,
     )
 
 
@@ -210,19 +228,21 @@ def _bracket(
     final: Any,
     qualifiers: int | None,
     drops: str,
-    *,
     third_place: bool,
+    lines: list[int | None] | None,
 ) -> tournaments.Bracket:
+    if lines is not None and form not in ("double", "single", "consolation"):
+        refuse(f"--seeding drawn is for eliminations, not {form}")
     match form:
         case "double":
             pattern: Any = DROPS[drops]
             return tournaments.double_elimination(
-                players, final=final, qualifiers=qualifiers, drops=pattern
+                players, final=final, qualifiers=qualifiers, drops=pattern, lines=lines
             )
         case "single":
-            return tournaments.single_elimination(players, third_place=third_place)
+            return tournaments.single_elimination(players, third_place=third_place, lines=lines)
         case "consolation":
-            return tournaments.consolation(players)
+            return tournaments.consolation(players, lines=lines)
         case "round-robin":
             return tournaments.round_robin(players)
     return tournaments.king_of_the_hill(players)

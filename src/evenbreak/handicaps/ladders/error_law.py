@@ -23,6 +23,8 @@ from evenbreak.handicaps.ladders.pairing import Pairing
 
 _SETTLED = 1e-13
 _ROUNDS = 300
+_FULL_DIGITS = float(np.finfo(float).tiny / np.finfo(float).eps)
+"""Products of a chance and a weight above this are right to the last digit."""
 
 
 class NightModel(NamedTuple):
@@ -189,8 +191,8 @@ def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
         start=np.zeros(chances[0].shape[:2]),
     )
     weight = np.sum(joint, axis=(0, 2))
-    known = weight > 0.0
-    # Where the weight is smaller than any float, one form is as good as another.
+    known = weight > _FULL_DIGITS
+    # Where the weight is hardly larger than any float, one form is as good as another.
     return np.where(known, flow / np.where(known, weight, 1.0), chances[0].mean(axis=2))
 
 

@@ -4,9 +4,9 @@ The model is that of `evenbreak.matches.pace`: a match takes (overhead + per_gam
 minutes, with the luck N of the match and the pace A of the evening lognormal with mean 1. What
 the matches played so far say of log A is a normal posterior.
 
-The paces of single matches make whole events end too late, and too sure of when. With the pace
-and the spread of evenings below, and rounds that wait for each other, 10-90% bands held 80% of
-the finishes of 648 real one-day events: calibrated, not derived.
+The paces of single matches make whole events end too late, and too sure of when. The pace and the
+spread of evenings below are calibrated, not derived: with these figures, and rounds that wait for
+each other, a model held 81% of the finishes of 648 real one-day events in its 10-90% bands.
 """
 
 from __future__ import annotations

@@ -6,8 +6,8 @@ sets on the two halves of the part, all splits of S into A and B being equally l
 
     f(S, i) = mean over splits of f(A, i) sum over j in B of f(B, j) P(i beats j), i in A,
 
-and likewise for i in B. The n!/2^(n-1) samples of n players are never written out. Other
-formats go through all samples where they are few, and through a sample of them otherwise;
+and likewise for i in B. The n!/2^(n-1) draws of n players are never written out. Other
+formats go through all draws where they are few, and through a sample of them otherwise;
 each draw is exact.
 """
 
@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from functools import cache
-from itertools import combinations
+from itertools import combinations, permutations
 from math import comb, factorial
 
 import numpy as np
@@ -52,7 +52,7 @@ def blind_draw_odds(
     win
         as in `title_odds`.
     samples
-        how many samples are sampled where there are too many to go through all of them.
+        how many draws are sampled where there are too many to go through all of them.
     rng
         where pseudo-random numbers come from then; None: a generator with the seed 0.
 
@@ -166,9 +166,9 @@ def _masks(members: Ints) -> Ints:
 
 
 def _all_draws(bracket: Bracket) -> Ints | None:
-    """Return all samples, who is on each line, but one of those that swap first opponents.
+    """Return all draws: who is on each line, once for each pair of first opponents.
 
-    None if they are too many.
+    None if there are too many.
     """
     count = len(bracket.players)
     pairs = [
@@ -178,20 +178,14 @@ def _all_draws(bracket: Bracket) -> Ints | None:
     ]
     if bracket.groups or count > 10 or factorial(count) >> len(pairs) > _FEW_DRAWS:
         return None
-    found = np.array(list(_permutations(count)))
+    found = np.array(list(permutations(range(count))))
     for one, other in pairs:
         found = found[found[:, one] < found[:, other]]  # type: ignore[index]
     return found
 
 
-def _permutations(count: int) -> Iterator[tuple[int, ...]]:
-    from itertools import permutations
-
-    return permutations(range(count))
-
-
 def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
-    """Yield the places of the players, for some samples at a time; the last axis is samples."""
+    """Yield the places of the players, for some draws at a time; they are the last axis."""
     plan = exact_plan(bracket)
     if plan is None:
         for order in orders:

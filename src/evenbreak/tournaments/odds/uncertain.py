@@ -37,6 +37,7 @@ from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 _CELLS = 4_000_000
 _SAMPLES_EACH = 20  # of a bracket that is too large to be exact; the ratings vary more
 _MOST_STATES = 1e6
+_FEWEST, _MOST = 200, 2_000  # draws of the ratings
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +62,7 @@ def over_ratings(
     ratings: Sequence[float] | ArrayLike,
     spread: ArrayLike,
     *,
-    samples: int = 200,
+    samples: int | None = None,
     results: Results | None = None,
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
@@ -81,7 +82,8 @@ def over_ratings(
         how uncertain they are: a standard deviation for each player, or the covariance
         matrix of all of them. Errors are normal.
     samples
-        how many samples of the ratings; they come in pairs on either side of the ratings.
+        how many draws of the ratings, in pairs on either side of them; None: 200 to 2,000,
+        fewer for larger brackets.
     rng
         where pseudo-random numbers come from; None: a generator with the seed 0.
 
@@ -95,22 +97,24 @@ def over_ratings(
     >>> def by_fargo(ratings):
     ...     return scale_of("fargo").win_probability(ratings[:, None] - ratings)
     >>> found = over_ratings(single_elimination(4), by_fargo, [700, 500, 500, 500], [80] * 4)
-    >>> found.as_if_sure.title.round(3), found.averaged.title.round(2)
-    (array([0.64, 0.13, 0.13, 0.1 ]), array([0.59, 0.14, 0.14, 0.12]))
+    >>> found.as_if_sure.title[0].round(2), found.averaged.title[0].round(2)
+    (np.float64(0.64), np.float64(0.59))
     """
     now = standing(bracket, results)
     if now.assumed:
         name = next(iter(now.assumed))
         raise InputError(f"results has {name!r}; give results of matches whose players are known")
     mean = column(ratings, "ratings", len(bracket.players), "players")
+    remaining = now.remaining
+    plan = exact_plan(remaining, (), _MOST_STATES)
+    if samples is None:
+        samples = _draws(plan, len(mean))
     pairs = -(-whole(samples, "samples", at_least=4) // 2)
     rng = rng or np.random.default_rng(0)
     drawn = mean + _errors(spread, len(mean), pairs, rng)
     tables = [
         chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in (mean, *drawn)
     ]
-    remaining = now.remaining
-    plan = exact_plan(remaining, (), _MOST_STATES)
     sure = odds_now(now, tables[0], rng=rng)
     if plan is None:
         certain = place_odds(bracket, meetings_so_far(now), settled_ranks(now))
@@ -123,6 +127,14 @@ def over_ratings(
     error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
     return UncertainOdds(odds, sure)
+
+
+def _draws(plan: Plan | None, players: int) -> int:
+    """Return how many draws of the ratings take a second or two."""
+    if plan is None:
+        return _FEWEST
+    hundreds = min(4e5 / max(plan.states, 1), 5e4 / players**2) // 1
+    return int(np.clip(100 * hundreds, _FEWEST, _MOST))
 
 
 def _errors(spread: ArrayLike, players: int, pairs: int, rng: np.random.Generator) -> Floats:

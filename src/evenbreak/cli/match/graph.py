@@ -1,0 +1,193 @@
+"""`evenbreak graph`: a game's road from its graph to its limit, as files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from evenbreak import files
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import Decorator, out_option
+from evenbreak.cli.kit.terminal import write_folder
+from evenbreak.cli.kit.values import CHANCE, refuse
+from evenbreak.errors import InputError
+
+if TYPE_CHECKING:
+    from evenbreak.answers.road import Road
+    from evenbreak.game import Game
+    from evenbreak.matches.formats import MatchFormat
+
+MOST_STATES = 5_000
+"""The most states of a game, so that every file is written in seconds."""
+
+MOST_WITH_VECTORS = 200
+"""The most states whose eigenvectors are written."""
+
+FILES = (
+    "graph.graphml",
+    "graph.json",
+    "arcs.csv",
+    "matrix.mtx",
+    "states.csv",
+    "classes.csv",
+    "eigenvalues.csv",
+    "eigenvectors.csv",
+    "limit.csv",
+    "graph.svg",
+    "graph.png",
+)
+
+EXAMPLES = """\b
+Examples:
+  evenbreak graph one-ball --p1 0.4 --p2 0.8 --out one_ball
+  evenbreak graph series winner breaks --p1 0.6 --p2 0.55 --out breaks
+  evenbreak graph drill 9-ball --p 0.8 --out drill
+  evenbreak graph ahead 5:3 --p 0.6 --out ahead
+  evenbreak graph 7:5 alternate breaks --p1 0.6 --p2 0.5 --out race
+  evenbreak graph npl_10 --out ladder
+"""
+
+
+def _chance(name: str, what: str) -> Decorator[Any]:
+    return click.option(f"--{name}", metavar="P", type=CHANCE, help=what)
+
+
+@click.command("graph", epilog=EXAMPLES)
+@click.argument("game", metavar="GAME", nargs=-1, required=True)
+@_chance("p", "Chance that A wins a game, or in a drill the chance of making a shot.")
+@_chance("p1", "Chance that A wins a game that A breaks, or makes the one ball.")
+@_chance("p2", "Chance that B wins a game that B breaks, or makes the one ball.")
+@out_option("Where the files go; created if it does not exist.")
+@faces(page=False, always_text=True)
+def command(
+    game: tuple[str, ...], p: float | None, p1: float | None, p2: float | None, out: str
+) -> Answer:
+    """Write a game as graph, transition matrix, eigenvalues and limit.
+
+    GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
+    a match, such as 9:5, "7:7 win by 2" or ahead 5:3; another game of the catalogue; or a chart,
+    such as npl_10, for the ladder of rating errors that it makes. Without --p, or --p1 and --p2,
+    a game has example chances. The graph is written as GraphML and node-link JSON, the matrix in
+    Matrix Market form, all else as CSV and as a picture; evenbreak chain reads them back.
+    """
+    from evenbreak.answers.graph import graph_answer
+    from evenbreak.answers.road import road_of
+    from evenbreak.files.folder import check_folder
+
+    if p is not None and (p1 is not None or p2 is not None):
+        refuse("--p cannot be combined with --p1 and --p2; leave it out")
+    if (p1 is None) != (p2 is None):
+        refuse("--p1 and --p2 go together; give both")
+    chances = tuple(chance for chance in (p, p1, p2) if chance is not None)
+    title, played = _game(" ".join(game), chances)
+    check_folder(out)
+    road = road_of(played)
+    written, doubts = _files(played, road, title)
+    doubts += [
+        f"{Path(out, name)} is from an earlier run and of another game; remove it"
+        for name in FILES
+        if name not in written and Path(out, name).exists()
+    ]
+    write_folder(out, written)
+    return graph_answer(title, road, warnings=doubts)
+
+
+def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
+    """Return what a game is called, with its chances, and the game itself."""
+    from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
+    from evenbreak.handicaps.charts.chart import CHARTS
+    from evenbreak.handicaps.charts.chart_of import catalogue_name
+
+    if catalogue_name(name) in CHARTS or Path(name).is_file():
+        if chances:
+            refuse("the ladder of a chart has no chances of its own; leave --p, --p1 and --p2 out")
+        return _ladder(name)
+    if (found := _format(name)) and (chances or name not in CATALOGUE):
+        return _match(found, chances)
+    try:
+        title, played = game_of_catalogue(name, *chances)
+    except InputError as error:
+        refuse(f"{error}; or a match, such as 7:5; or a chart: {', '.join(CHARTS)}")
+    return f"{title[0].upper()}{title[1:]}{_with(chances)}", played
+
+
+def _ladder(name: str) -> tuple[str, Game]:
+    """Return the ladder that a chart makes, by the rule of the National Pool League."""
+    from evenbreak.cli.kit.systems import chart_by_difference
+    from evenbreak.handicaps import Ladder
+
+    chart = chart_by_difference("GAME", name)
+    return f"The ladder of rating errors on the chart {chart.name}", Ladder(chart)
+
+
+def _format(name: str) -> MatchFormat | None:
+    from evenbreak.matches.formats import match_format
+
+    try:
+        return match_format(name)
+    except InputError:
+        return None
+
+
+def _match(played: MatchFormat, chances: tuple[float, ...]) -> tuple[str, Game]:
+    from evenbreak.games.rack import Rack
+
+    if not chances:
+        refuse(f"the chances for {played} are missing; give --p, or --p1 and --p2")
+    if played.scores > MOST_STATES:
+        refuse(
+            f"{played} has about {played.scores:,} scores; give a match of up to {MOST_STATES:,}"
+        )
+    kind = "" if played.ahead or played.set_ else "Race "
+    return f"{kind}{played}{_with(chances)}".capitalize(), played.match(Rack(*chances))
+
+
+def _with(chances: tuple[float, ...]) -> str:
+    """Return the chances in words.
+
+    >>> _with((0.6,)), _with((0.6, 0.55)), _with(())
+    (' with p = 0.6', ' with p1 = 0.6 and p2 = 0.55', '')
+    """
+    if len(chances) == 2:
+        return f" with p1 = {chances[0]:g} and p2 = {chances[1]:g}"
+    return f" with p = {chances[0]:g}" if chances else ""
+
+
+def _files(played: Game, road: Road, title: str) -> tuple[dict[str, bytes], list[str]]:
+    """Return the content of each file by its name, and what is not written, with the reason."""
+    from evenbreak.answers import graph as tables
+    from evenbreak.answers.faces.to_csv import table_lines
+    from evenbreak.plots.diagram import draw
+    from evenbreak.plots.picture import image_bytes
+
+    written = {
+        "graph.graphml": files.graphml_bytes(road.graph),
+        "graph.json": files.node_link_bytes(road.graph),
+        "matrix.mtx": files.matrix_market_bytes(road.chain),
+    }
+    doubts = []
+    made = [
+        tables.arcs_table,
+        tables.states_table,
+        tables.classes_table,
+        tables.eigenvalue_table,
+        tables.limit_table,
+    ]
+    if len(road.chain) <= MOST_WITH_VECTORS:
+        made.append(tables.eigenvector_table)
+    else:
+        doubts.append(
+            f"eigenvectors.csv is not written: there are more than {MOST_WITH_VECTORS} states"
+        )
+    for table in (make(road) for make in made):
+        written[f"{table.name}.csv"] = "".join(table_lines(table)).encode()
+    try:
+        picture = draw(played, title=title)
+        written["graph.svg"] = image_bytes(picture, "svg")
+        written["graph.png"] = image_bytes(picture, "png")
+    except InputError as error:
+        doubts.append(f"no picture is written: {error}")
+    return {name: written[name] for name in FILES if name in written}, doubts

@@ -1,0 +1,206 @@
+"""Reading a Markov chain from any of its forms: arcs, GraphML, node-link JSON, Matrix Market."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from evenbreak.errors import DataError
+from evenbreak.files.arcs import COLUMNS, ArcsFile, read_arcs, sum_problems
+from evenbreak.files.encoding import content_of
+from evenbreak.files.problems import quoted
+from evenbreak.files.text_table import read_table
+
+if TYPE_CHECKING:
+    import networkx as nx
+    from scipy.sparse import csc_array
+
+    from evenbreak.chains.matrices import Rows
+
+STATES = {"state": ("name", "node")}
+"""The column of a list of states, with its other names."""
+MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period", "limit"), ())
+"""Columns that it may have; `kind` says which state is the start."""
+
+
+def read_chain(
+    path: str | Path, *, states: str | Path | None = None, rows: Rows | None = None
+) -> ArcsFile:
+    r"""Read a chain; the end of its name says its form.
+
+    Parameters
+    ----------
+    path
+        `.graphml`, `.json` (node-link), `.mtx` (Matrix Market), or a table of arcs (see
+        `read_arcs`), as '-', standard input, always is.
+    states
+        a CSV file with the names of the states of a matrix, in its order; without it they are
+        numbered from 1.
+    rows
+        how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row holds
+        the chances into its state, so that the columns sum to 1, as in this package. None: 'to',
+        but a matrix whose rows alone sum to 1 is refused, and one whose rows and columns do is
+        read with a warning.
+
+    Raises
+    ------
+    DataError
+        with what is wrong in the file: its form, missing or wrong probabilities, arcs or states
+        listed twice, sums that are not 1.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "matrix.mtx"
+    ...     _ = path.write_text("%%MatrixMarket matrix coordinate real general\n2 2 3\n"
+    ...                         "1 1 0.75\n2 1 0.25\n1 2 1\n")
+    ...     read_chain(path).probabilities
+    array([0.75, 0.25, 1.  ])
+    """
+    form = PurePath(path).suffix.lower()
+    if form != ".mtx" and (states is not None or rows is not None):
+        option = "states" if states is not None else "rows"
+        raise DataError([f"{path}: only a Matrix Market file (.mtx) needs {option}; leave it out"])
+    if form == ".mtx":
+        return _of_matrix(path, states, rows)
+    if form in (".graphml", ".xml"):
+        return _of_graph(path, _graphml)
+    return _of_graph(path, _node_link) if form == ".json" else read_arcs(path)
+
+
+def _graphml(content: bytes) -> nx.Graph[Any]:
+    import networkx as nx
+
+    return nx.read_graphml(io.BytesIO(content))
+
+
+def _node_link(content: bytes) -> nx.Graph[Any]:
+    import networkx as nx
+
+    data = json.loads(content.decode("utf-8-sig"))
+    arcs = "links" if "links" in data else "edges"  # networkx before 3.6 wrote links
+    return nx.node_link_graph({"multigraph": False, **data}, edges=arcs)
+
+
+def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
+    source, content = content_of(path)
+    try:
+        graph = parsed(content)
+    except Exception as error:
+        form = "GraphML" if parsed is _graphml else "node-link JSON, with nodes and edges"
+        raise DataError([f"{source}: cannot be read as {form} ({error}); check the file"]) from None
+    if not graph.is_directed() or graph.is_multigraph():
+        _refuse(source, "is not a directed graph with one arc from each state to each other")
+    if not len(graph):
+        _refuse(source, "has no states; write a node for each")
+    names = ("probability", *COLUMNS["probability"])
+    problems, triples = [], []
+    position = {state: k for k, state in enumerate(graph)}
+    for j, i, attributes in graph.edges(data=True):
+        given = next((attributes[name] for name in names if name in attributes), None)
+        chance = float(given) if isinstance(given, int | float) else np.nan
+        if not 0.0 <= chance <= 1.0:
+            problems.append(
+                f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has probability "
+                f"{given!r}; give each arc a number from 0 to 1, named probability"
+            )
+        triples.append((position[j], position[i], chance))
+    states = [str(state) for state in graph]
+    if len(set(states)) < len(states):
+        _refuse(source, "has two states that are written alike; give each a name of its own")
+    ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
+    sources, targets = ends.T
+    p = np.array([triple[2] for triple in triples])
+    _raise_any(problems)
+    _raise_any(f"{source}: {text}" for text in sum_problems(states, sources, p).values())
+    starts = [str(state) for state, kind in graph.nodes(data="kind") if kind == "start"]
+    return ArcsFile(states, sources, targets, p, source, (), starts[0] if starts else None)
+
+
+def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -> ArcsFile:
+    source, content = content_of(path)
+    matrix = _square(content, source)
+    wrong = np.flatnonzero(~((matrix.data >= 0.0) & (matrix.data <= 1.0)))
+    if wrong.size:
+        _refuse(source, f"has the entry {matrix.data[wrong[0]]:.12g}; give numbers from 0 to 1")
+    by_columns, by_rows = (
+        bool((np.abs(np.asarray(matrix.sum(axis=axis)).ravel() - 1.0) <= 1e-9).all())
+        for axis in (0, 1)
+    )
+    warnings: tuple[str, ...] = ()
+    if rows is None and by_rows and not by_columns:
+        _refuse(
+            source,
+            "is row-stochastic: its rows sum to 1 and its columns do not, so a row holds the "
+            "chances out of its state; say so with rows='from' (--rows from), or transpose it",
+        )
+    if rows is None and by_rows and (matrix - matrix.T).count_nonzero():
+        warnings = (
+            f"{source}: its rows and its columns sum to 1; a column was read as the chances out "
+            "of its state. Give --rows from if a row holds them, or --rows to if this is right",
+        )
+    if rows == "from":
+        matrix = matrix.T.tocsc()
+    n = matrix.shape[0]
+    names, start = [str(k + 1) for k in range(n)], None
+    if states is not None:
+        names, start, more = _states(states, n)
+        warnings += more
+    sources = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    targets = matrix.indices.astype(np.int64)
+    line = "row" if rows == "from" else "column"
+    sums = np.bincount(sources, weights=matrix.data, minlength=n)
+    _raise_any(
+        f"{source}: {line} {k + 1} sums to {sums[k]:.12g}, not 1; give probabilities out of each "
+        "state, with a 1 on the diagonal for a state that is never left"
+        for k in np.flatnonzero(np.abs(sums - 1.0) > 1e-9).tolist()
+    )
+    return ArcsFile(names, sources, targets, matrix.data, source, warnings, start)
+
+
+def _square(content: bytes, source: str) -> csc_array[np.float64]:
+    """Return the square matrix of real numbers in a Matrix Market file."""
+    from scipy.io import mmread
+    from scipy.sparse import coo_array, csc_array, issparse
+
+    try:
+        read: Any = mmread(io.BytesIO(content))
+    except Exception as error:
+        _refuse(source, f"cannot be read as a Matrix Market file ({error}); check the file")
+    found = coo_array(read)
+    if found.dtype.kind not in "iuf" or found.shape[0] != found.shape[1] or not found.shape[0]:
+        kind = "complex " if found.dtype.kind == "c" else ""
+        size = " x ".join(map(str, found.shape))
+        _refuse(source, f"holds a {kind}matrix of {size}; give a square one of real numbers")
+    matrix: csc_array[np.float64] = csc_array(found.astype(np.float64))
+    if issparse(read) and matrix.nnz < found.nnz:
+        _refuse(source, "lists an entry twice; keep one of the two")
+    return matrix
+
+
+def _states(path: str | Path, n: int) -> tuple[list[str], str | None, tuple[str, ...]]:
+    """Return the names of n states, the one of the kind 'start', and warnings."""
+    table = read_table(path, STATES, MORE_OF_STATES, rows="states")
+    table.problems.raise_any()
+    names = table.cells("state")
+    if len(names) != n or len(set(names)) < n or not all(names):
+        _refuse(
+            table.source,
+            f"names {len(set(filter(None, names)))} states in {len(names)} rows, and the matrix "
+            f"has {n}; give each a name of its own, in the order of the matrix",
+        )
+    kinds = table.cells("kind") if "kind" in table else []
+    start = next((name for name, kind in zip(names, kinds, strict=False) if kind == "start"), None)
+    return names, start, table.warnings
+
+
+def _refuse(source: str, text: str) -> NoReturn:
+    raise DataError([f"{source}: {text}"])
+
+
+def _raise_any(problems: Any) -> None:
+    if found := list(problems):
+        raise DataError(found)

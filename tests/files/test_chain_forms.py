@@ -1,0 +1,202 @@
+"""A game written in every form and read back; and what is refused at the door."""
+
+import json
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from evenbreak.answers.road import road_of
+from evenbreak.chains import Chain, chain_from_arrays, chain_of, stochastic_limit
+from evenbreak.errors import DataError
+from evenbreak.files import (
+    graphml_bytes,
+    matrix_market_bytes,
+    node_link_bytes,
+    read_chain,
+)
+from evenbreak.files.arcs import ArcsFile
+from evenbreak.game import Game
+from evenbreak.games import CATALOGUE
+from evenbreak.handicaps import Ladder, chart
+
+GAMES = {**CATALOGUE, "npl_10": Ladder(chart("npl_10")), "npl_20": Ladder(chart("npl_20"))}
+
+
+def chain_in(file: ArcsFile, start: str | None) -> Chain:
+    return chain_from_arrays(
+        file.states, file.sources, file.targets, file.probabilities, start=start
+    )
+
+
+@pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
+@pytest.mark.parametrize("form", ["graphml", "json", "mtx"])
+def test_the_limit_is_the_same_when_read_back(tmp_path, game: Game, form: str) -> None:
+    road = road_of(game)
+    contents = {
+        "graphml": graphml_bytes(road.graph),
+        "json": node_link_bytes(road.graph),
+        "mtx": matrix_market_bytes(road.chain),
+    }
+    path = tmp_path / f"graph.{form}"
+    path.write_bytes(contents[form])
+    names = None
+    if form == "mtx":
+        names = tmp_path / "states.csv"
+        nodes = road.graph.nodes(data="kind")
+        names.write_text("state,kind\n" + "".join(f'"{s}",{kind}\n' for s, kind in nodes))
+    file = read_chain(path, states=names)
+    assert (file.states, file.start, file.warnings) == (
+        list(road.chain.states),
+        road.chain.start,
+        (),
+    )
+    chain = chain_in(file, file.start)
+    assert (chain.matrix != road.chain.matrix).nnz == 0
+    limit = stochastic_limit(chain).probability
+    np.testing.assert_allclose(limit, road.limit.probability, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        limit, stochastic_limit(chain_of(game)).probability, rtol=0, atol=1e-15
+    )
+
+
+def matrix_file(folder, rows):
+    n = len(rows)
+    entries = [(i + 1, j + 1, p) for i, row in enumerate(rows) for j, p in enumerate(row) if p]
+    path = folder / "matrix.mtx"
+    path.write_text(
+        f"%%MatrixMarket matrix coordinate real general\n{n} {n} {len(entries)}\n"
+        + "".join(f"{i} {j} {p}\n" for i, j, p in entries)
+    )
+    return path
+
+
+def problem(path, **options) -> str:
+    with pytest.raises(DataError) as caught:
+        read_chain(path, **options)
+    return caught.value.problems[0]
+
+
+BY_COLUMNS = [[0.75, 1.0], [0.25, 0.0]]
+BY_ROWS = [[0.75, 0.25], [1.0, 0.0]]
+BOTH = [[0.25, 0.5, 0.25], [0.25, 0.25, 0.5], [0.5, 0.25, 0.25]]
+
+
+def test_a_row_stochastic_matrix_is_recognised(tmp_path) -> None:
+    path = matrix_file(tmp_path, BY_ROWS)
+    assert "row-stochastic" in problem(path)
+    read = chain_in(read_chain(path, rows="from"), None)
+    assert read.matrix.toarray().tolist() == BY_COLUMNS
+    assert "column 1 sums to 1.75" in problem(path, rows="to")
+    assert "row 1 sums to 1.75" in problem(matrix_file(tmp_path, BY_COLUMNS), rows="from")
+
+
+def test_a_matrix_that_reads_both_ways_comes_with_a_warning(tmp_path) -> None:
+    path = matrix_file(tmp_path, BOTH)
+    file = read_chain(path)
+    assert chain_in(file, None).matrix.toarray().tolist() == BOTH
+    assert "--rows from" in file.warnings[0]
+    assert read_chain(path, rows="to").warnings == ()
+    assert chain_in(read_chain(path, rows="from"), None).matrix.toarray().T.tolist() == BOTH
+    assert read_chain(matrix_file(tmp_path, [[0.0, 1.0], [1.0, 0.0]])).warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("rows", "part"),
+    [
+        ([[0.5, 1.0], [0.25, 0.0]], "column 1 sums to 0.75"),
+        ([[-0.5, 1.0], [1.5, 0.0]], "-0.5"),
+        ([[float("nan"), 1.0], [1.0, 0.0]], "nan"),
+    ],
+)
+def test_a_bad_matrix(tmp_path, rows, part) -> None:
+    assert part in problem(matrix_file(tmp_path, rows))
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("hello", "Matrix Market"),
+        ("", "Matrix Market"),
+        ("%%MatrixMarket matrix coordinate real general\n1 2 1\n1 1 1.0\n", "1 x 2"),
+        ("%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1.0 0.5\n", "complex"),
+        ("%%MatrixMarket matrix coordinate real general\n1 1 2\n1 1 0.5\n1 1 0.5\n", "twice"),
+    ],
+)
+def test_what_is_no_square_matrix(tmp_path, text, part) -> None:
+    path = tmp_path / "matrix.mtx"
+    path.write_text(text)
+    assert part in problem(path)
+
+
+@pytest.mark.parametrize("names", ["a\n", "a\na\n", "a\nb\nc\n"])
+def test_states_that_do_not_fit_the_matrix(tmp_path, names) -> None:
+    path = matrix_file(tmp_path, BY_COLUMNS)
+    states = tmp_path / "states.csv"
+    states.write_text("state\n" + names)
+    assert "the matrix has 2" in problem(path, states=states)
+
+
+def test_states_and_rows_are_for_matrices(tmp_path) -> None:
+    assert "states" in problem(tmp_path / "arcs.csv", states="states.csv")
+    assert "rows" in problem(tmp_path / "graph.json", rows="from")
+
+
+def json_file(folder, edges, **more):
+    nodes = sorted({end for edge in edges for end in (edge["source"], edge["target"])})
+    data = {"directed": True, "nodes": [{"id": node} for node in nodes], "edges": edges, **more}
+    path = folder / "graph.json"
+    path.write_text(json.dumps(data))
+    return path
+
+
+def edge(source, target, **attributes):
+    return {"source": source, "target": target, **attributes}
+
+
+@pytest.mark.parametrize(
+    ("edges", "more", "part"),
+    [
+        ([edge("S", "W", probability=0.5)], {}, "'S' sum to 0.5"),
+        ([edge("S", "W")], {}, "'S' -> 'W' has probability None"),
+        ([edge("S", "W", probability=1.5)], {}, "1.5"),
+        ([edge("S", "W", probability="1")], {}, "'1'"),
+        ([edge("S", "W", probability=1.0)], {"directed": False}, "directed"),
+        ([edge("S", "W", probability=1.0)], {"multigraph": True}, "one arc"),
+        ([edge("1", 1, probability=1.0)], {"nodes": [{"id": 1}, {"id": "1"}]}, "alike"),
+        ([], {}, "no states"),
+    ],
+)
+def test_a_bad_graph(tmp_path, edges, more, part) -> None:
+    nodes = {} if "nodes" not in more else more
+    if nodes:
+        path = tmp_path / "graph.json"
+        path.write_text(json.dumps({"directed": True, "edges": edges, **more}))
+    else:
+        path = json_file(tmp_path, edges, **more)
+    assert part in problem(path)
+
+
+def test_probabilities_may_have_the_names_that_columns_have(tmp_path) -> None:
+    path = json_file(tmp_path, [edge("S", "W", p=0.25), edge("S", "L", p=0.75)])
+    assert read_chain(path).probabilities.tolist() == [0.25, 0.75]
+
+
+def test_links_as_older_programs_write_them(tmp_path) -> None:
+    path = tmp_path / "graph.json"
+    graph = nx.DiGraph([("S", "W", {"probability": 1.0})])
+    path.write_text(json.dumps(nx.node_link_data(graph, edges="links")))
+    assert read_chain(path).states == ["S", "W"]
+
+
+@pytest.mark.parametrize("name", ["graph.json", "graph.graphml"])
+@pytest.mark.parametrize("content", ["", "hello", "{}", "[1]", "<graphml", "<a/>"])
+def test_what_is_no_graph(tmp_path, name, content) -> None:
+    path = tmp_path / name
+    path.write_text(content)
+    problem(path)
+
+
+def test_a_missing_file(tmp_path) -> None:
+    for form in ("mtx", "json", "graphml", "csv"):
+        assert "no such file" in problem(tmp_path / f"nowhere.{form}")
