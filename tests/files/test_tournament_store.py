@@ -52,10 +52,8 @@ def writer(file: Path, name: str, many: int) -> subprocess.Popen[str]:
 
 
 def test_what_was_written_is_read(tonight: Path) -> None:
-    def draw(state: object) -> list[Event]:
-        return [Event(AT, moves.draw(read_tournament(tonight), np.random.default_rng(1)))]
-
-    before, after = add_events(tonight, draw)
+    rng = np.random.default_rng(1)
+    before, after = add_events(tonight, lambda state: [Event(AT, moves.draw(state, rng))])
     assert not before.drawn
     assert read_tournament(tonight).order == after.order == ("P0", "P1", "P2", "P3")
     assert evening(read_events(tonight)).lines == after.lines
@@ -81,13 +79,12 @@ def test_two_programs_lose_nothing(tonight: Path) -> None:
 
 @pytest.mark.parametrize("wait", [0.0, 0.05, 0.13])
 def test_what_was_acknowledged_survives_a_kill(tonight: Path, wait: float) -> None:
-    process = writer(tonight, "Ann", 200)
-    assert process.stdout is not None
-    first = process.stdout.readline()
-    time.sleep(wait)
-    process.send_signal(signal.SIGKILL)
-    acknowledged = [first.strip(), *process.stdout.read().split("\n")]
-    process.wait()
+    with writer(tonight, "Ann", 200) as process:
+        assert process.stdout is not None
+        first = process.stdout.readline()
+        time.sleep(wait)
+        process.send_signal(signal.SIGKILL)
+        acknowledged = [first.strip(), *process.stdout.read().split("\n")]
     assert set(filter(None, acknowledged)) <= set(read_tournament(tonight).entrants)
     add_events(tonight, lambda state: [Event(AT, moves.late(state, Entrant("Bo", 500.0)))])
     assert list(read_tournament(tonight).entrants)[-1] == "Bo"

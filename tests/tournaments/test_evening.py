@@ -213,7 +213,7 @@ def test_the_same_match_cannot_be_called_twice_nor_a_taken_table_used() -> None:
     events.append(Event(AT, moves.call(evening(events), "W1.1", 2)))
     with pytest.raises(InputError, match="on table 2"):
         moves.call(evening(events), "W1.1", None)
-    with pytest.raises(InputError, match="taken by W1.1"):
+    with pytest.raises(InputError, match=r"taken by W1\.1"):
         moves.call(evening(events), "W1.2", 2)
 
 

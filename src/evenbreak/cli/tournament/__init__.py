@@ -16,6 +16,7 @@ COMMANDS = {
     "late": Entry("tournament.late", "Let a late player in."),
     "drop": Entry("tournament.drop", "Let a player go home."),
     "forfeit": Entry("tournament.forfeit", "Let a player forfeit a match."),
+    "export": Entry("tournament.export", "List the matches that were played, for the ratings."),
     "odds": Entry("tournament.odds", "Find each player's odds of winning the tournament."),
     "time": Entry("tournament.time", "Find when the tournament ends, and when each match starts."),
 }

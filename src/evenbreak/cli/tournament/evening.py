@@ -39,14 +39,13 @@ def file_option(command: Command) -> Command:
 def at_option(command: Command) -> Command:
     """Add --at, which the command gets as `at`: a time such as 2025-03-01T19:30:00."""
 
-    def run(*, at: int | None, **rest: Any) -> Any:
-        now = datetime.now().replace(microsecond=0)
+    def run(*, at: int | None, file: str | None = None, **rest: Any) -> Any:
+        moment = datetime.now().replace(microsecond=0)
         if at is not None:
-            named = now.replace(hour=at // 60, minute=at % 60, second=0)
-            if named - now > _HALF_A_DAY:  # 23:50, entered after midnight
-                named -= timedelta(days=1)
-            now = named
-        return command(at=now.isoformat(), **rest)
+            moment = _near(moment if file is None else _last(file), at, same_day=file is None)
+        if file is not None:
+            rest["file"] = file
+        return command(at=moment.isoformat(), **rest)
 
     wrapped: Any = update_wrapper(run, command)
     return with_options(  # type: ignore[no-any-return]
@@ -58,6 +57,25 @@ def at_option(command: Command) -> Command:
             help="When it happened.  [default: now]",
         ),
     )
+
+
+def _last(file: str) -> datetime:
+    """Return when something happened last."""
+    from evenbreak.files.tournament_store import read_events
+
+    return datetime.fromisoformat(read_events(file)[-1].at)
+
+
+def _near(reference: datetime, at: int, *, same_day: bool) -> datetime:
+    """Return the moment of a time of day, in minutes, that is nearest to another moment.
+
+    >>> _near(datetime(2025, 3, 1, 23, 50), 15, same_day=False)
+    datetime.datetime(2025, 3, 2, 0, 15)
+    """
+    moment = reference.replace(hour=at // 60, minute=at % 60, second=0)
+    if same_day or abs(moment - reference) <= _HALF_A_DAY:
+        return moment
+    return moment + timedelta(days=1 if moment < reference else -1)
 
 
 def add(file: str, at: str, decide: Callable[[Evening], Sequence[What]]) -> tuple[Evening, Evening]:

@@ -67,7 +67,7 @@ def tournament_options(command: Command) -> Command:
         return command(tournament=tournament, warnings=entered.warnings, seed=entered.seed, **rest)
 
     wrapped: Any = update_wrapper(run, command)
-    return entry_options(wrapped)
+    return entry_options(wrapped)  # type: ignore[no-any-return]
 
 
 def entry_options(command: Command) -> Command:
