@@ -9,6 +9,7 @@ a `probability`.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 from evenbreak.errors import GameError
@@ -117,7 +118,7 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
         states,
         np.array(sources, dtype=np.intp),
         np.array(targets, dtype=np.intp),
-        np.array(chances, dtype=float),
+        np.array(chances, dtype=object if Fraction in map(type, chances) else float),
     )
 
 
@@ -236,7 +237,7 @@ def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> n
         zip(
             map(states.__getitem__, arcs.sources.tolist()),
             map(states.__getitem__, arcs.targets.tolist()),
-            arcs.probabilities.tolist(),
+            arcs.probabilities.astype(float).tolist(),
             strict=True,
         ),
         weight="probability",

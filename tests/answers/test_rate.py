@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from evenbreak.answers.rate import choice_words, prior_words, rate_answer, unlinked_words
+from evenbreak.answers.prior_words import choice_words, prior_words
+from evenbreak.answers.rate import rate_answer, unlinked_words
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings import PriorChoice, Results, fit
 

@@ -32,7 +32,7 @@ def test_every_kind_of_prediction_has_its_losses(chosen):
 
 
 def test_the_tests_stand_beside_what_was_expected(demo):
-    _, _, tests, _, _ = parts_of(demo)[0]
+    tests = parts_of(demo)[0][2]
     rows = {row[0]: row[1:] for row in tests.rows}
     spread, first = demo.dispersion, demo.first_breaks
     assert rows["spread of scores"] == (
@@ -47,7 +47,9 @@ def test_the_tests_stand_beside_what_was_expected(demo):
 
 
 def test_matches_and_spots_have_a_row_a_bin(demo):
-    _, _, _, matches, spots = parts_of(demo)[0]
+    _, _, _, shapes, matches, spots, experience = parts_of(demo)[0]
+    assert [row.of for row in shapes.rows] == ["deciders", "sweeps", "games"]
+    assert [row[0] for row in experience.rows] == ["1 to 20", "21 to 50", "51 to 200"]
     assert [row[1] for row in matches.rows] == [one.matches for one in demo.matches]
     assert [row[0] for row in spots.rows] == [1, 2, 3, 4, 5, "all"]
 

@@ -25,6 +25,7 @@ def test_every_figure_has_its_row(demo):
             "gain",
             "calibration",
         ),
+        *("form", "score", "score_with_form", "experience"),
         *("calibration_plug_in", "no_favourite", "dispersion", "first_break", "side", "spot"),
     }
     (row,) = [r for r in rows if (r["part"], r["of"], r["item"]) == ("slope", "game", "integrated")]

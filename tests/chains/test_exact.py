@@ -11,7 +11,8 @@ import oracle
 from evenbreak.chains import absorption, chain_of, steps_to_absorption, stochastic_limit
 from evenbreak.chains.exact import exact_rows
 from evenbreak.errors import ChainError, InputError
-from evenbreak.games import Ahead, Race, Rack
+from evenbreak.games import Ahead, OneBall, Race, Rack, winner_breaks
+from evenbreak.matches import win_probability
 
 
 def test_a_race_is_a_sum_of_binomials():
@@ -96,3 +97,28 @@ def test_chances_that_are_no_fractions_are_refused():
 def test_there_is_one_way_to_an_exact_answer():
     with pytest.raises(InputError, match="eigen"):
         stochastic_limit(chain_of({"a": {"b": 1}}), "a", via="eigen", exact=True)
+
+
+THIRD, SEVENTH = Fraction(1, 3), Fraction(1, 7)
+IN_FRACTIONS = [
+    OneBall(THIRD, Fraction(4, 5)),
+    Race(3, 2, Rack(THIRD, SEVENTH), breaks=winner_breaks),
+    Ahead(2, 2, Rack(THIRD)),
+    Race(2, 1, Race(2, 2, Rack(THIRD))),
+    Race(2, 1, OneBall(THIRD, SEVENTH)),
+]
+
+
+@pytest.mark.parametrize(
+    "game", IN_FRACTIONS, ids=["one-ball", "race", "ahead", "sets", "race of one-ball"]
+)
+def test_a_game_keeps_the_fractions_that_it_is_given(game):
+    limit = stochastic_limit(chain_of(game), exact=True)
+    wins = sum(p for state, p in limit.items() if game.winner(state) == 1)
+    assert wins == win_probability(game, exact=True)
+    assert float(wins) == pytest.approx(win_probability(game), rel=1e-14)
+
+
+def test_one_ball_of_a_third_is_five_thirteenths():
+    limit = stochastic_limit(chain_of(OneBall(THIRD, Fraction(4, 5))), exact=True)
+    assert limit["W"] == Fraction(5, 13)

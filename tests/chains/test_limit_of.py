@@ -7,7 +7,7 @@ from evenbreak.chains import limit_of
 from evenbreak.chains.ways import WAYS
 from evenbreak.errors import ChainError, InputError
 from evenbreak.game import graph_of
-from evenbreak.games import Drill, OneBall
+from evenbreak.games import Drill, OneBall, Race, Rack
 
 DRILL = Drill([0.9, 0.6, 0.2])
 
@@ -38,4 +38,4 @@ def test_a_way_that_does_not_exist_names_those_that_do() -> None:
     with pytest.raises(InputError, match=r"power.*elimination"):
         limit_of(DRILL, via="power")
     with pytest.raises(ChainError, match="use elimination"):
-        limit_of(OneBall(0.4, 0.8), via="kernel")
+        limit_of(Race(2, 2, Rack(0.4)), via="kernel")

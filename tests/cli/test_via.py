@@ -62,19 +62,19 @@ def test_the_answer_is_the_same_by_every_way(ask, line, via) -> None:
 def test_a_chain_from_a_file(ask, via, tmp_path) -> None:
     line, battle = tmp_path / "line.csv", tmp_path / "battle.csv"
     line.write_text("source,target,probability\nA,A,0.5\nA,B,0.5\nB,A,0.5\nB,C,0.5\nC,B,1\n")
-    battle.write_text("source,target,probability\nA,W,0.5\nA,B,0.5\nB,L,0.25\nB,A,0.75\n")
+    battle.write_text("source,target,probability\nA,W,0.5\nA,B,0.5\nB,W,0.25\nB,L,0.25\nB,A,0.5\n")
     found = ask("chain", str(line), "--via", via)
     assert found["limit"] == pytest.approx({"A": 0.4, "B": 0.4, "C": 0.2}, rel=1e-14)
     assert found["kernel_difference"] <= 1e-15
     found = ask("chain", str(battle), "--via", via)
-    assert found["limit"]["W"] == pytest.approx(0.8, rel=1e-14)
+    assert found["limit"]["W"] == pytest.approx(5 / 6, rel=1e-14)
     apart = found["elimination_difference"]
     assert apart is None if via == "elimination" else apart <= 1e-15
 
 
 def test_a_chain_without_a_closed_form_names_the_way_that_answers(run, tmp_path) -> None:
     battle = tmp_path / "battle.csv"
-    battle.write_text("source,target,probability\nA,W,0.5\nA,B,0.5\nB,L,0.25\nB,A,0.75\n")
+    battle.write_text("source,target,probability\nA,W,0.5\nA,B,0.5\nB,W,0.25\nB,L,0.25\nB,A,0.5\n")
     result = run("chain", str(battle), "--via", "kernel")
     assert result.exit_code == 1
     assert "use elimination" in result.stderr

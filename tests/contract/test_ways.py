@@ -34,8 +34,8 @@ CHANCES = st.floats(0.01, 0.99) | st.sampled_from([0.0, 0.5, 1.0])
 
 
 def has_kernel(game):
-    """Return whether the states stand in a line, in the order in which the game lists them."""
-    return chain_of(game).birth_death is not None
+    """Return whether the states stand in a line."""
+    return chain_of(game).line is not None
 
 
 @pytest.mark.parametrize("via", WAYS)

@@ -21,13 +21,13 @@ def season(change: float, days: int = 720) -> Results:
 
 
 def gains(results):
-    found = half_life_gains(results, 0.6, np.random.default_rng(1))
+    found = half_life_gains(results, 0.6)
     return {one.half_life: one.gain for one in found}
 
 
 def test_strengths_that_wander_are_found():
     found = gains(season(0.05))
-    assert tuple(found) == HALF_LIVES
+    assert tuple(found) == HALF_LIVES[:3]
     assert found[90.0].low > 0
 
 

@@ -129,8 +129,14 @@ def test_forfeits_need_no_day():
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season():
     choice = best_prior(read_results(SEASON).results)
-    assert choice.prior_sd == pytest.approx(math.log(2) / 2)
+    # Newcomers who begin lower leave the others closer together.
+    assert choice.prior_sd == pytest.approx(math.log(2) / 2**1.5)
+    newcomers, half_life = choice.evidence
+    assert (newcomers.of, newcomers.used) == ("newcomers", True)
+    assert newcomers.gain.low > 0
+    assert newcomers.value > 3 * newcomers.standard_error
+    assert (half_life.used, choice.half_life) == (False, None)
     loss = dict(zip(choice.tried, choice.log_loss, strict=True))
     # A prior that says next to nothing predicts worse than no ratings at all (ln 2).
-    assert min(loss.values()) == pytest.approx(0.67798, abs=1e-5)
+    assert min(loss.values()) == pytest.approx(0.67581, abs=2e-5)
     assert min(loss.values()) < math.log(2) < max(loss.values())

@@ -98,7 +98,7 @@ def _way(via: Way | None, limit: Limit) -> list[Part]:
     """Return how the limit was found, beside the closed form of a line or else elimination."""
     if via is None:
         return []
-    beside: Way = "kernel" if limit.chain.birth_death is not None else "elimination"
+    beside: Way = "kernel" if limit.chain.line is not None else "elimination"
     known = stochastic_limit(limit.chain, via=beside)
     pairs = zip(limit.probability.tolist(), known.probability.tolist(), strict=True)
     return by_way(via, pairs, beside=beside)

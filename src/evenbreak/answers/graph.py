@@ -46,8 +46,7 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
     Player 1 wins with chance 0.4545 and player 2 with chance 0.5455.
     The chain ends in 'L' (0.5455) or 'W' (0.4545), after 1.82 steps on average.
     >>> print(answer.sentences[2])
-    Elimination and the eigenvectors give the same limit, to within 1e-12. The closed form is
-    for states in a line, and these are not.
+    The closed form, elimination and the eigenvectors give the same limit, to within 1e-12.
     """
     chain, structure = road.chain, road.chain.structure
     mean_steps, doubts = mean_steps_of(chain)
@@ -164,7 +163,8 @@ def _spectrum_words(road: Road) -> str:
         )
     real = "all real" if np.isrealobj(values) else "some of them complex"
     which = "All" if len(values) == n else "The leading"
-    return f"{which} {len(values):,} eigenvalues are found, {real}.{gap}"
+    first = f" The first {LEADING} are below." if len(values) > LEADING else ""
+    return f"{which} {len(values):,} eigenvalues are found, {real}.{gap}{first}"
 
 
 def _gap_words(road: Road) -> str:
@@ -173,10 +173,13 @@ def _gap_words(road: Road) -> str:
             " The distance to the limit falls too slowly to measure: an eigenvalue lies next to "
             "the unit circle."
         )
+    if road.gap > 1.0 - SAME and road.limit.is_cesaro:
+        return " After a fixed number of steps the chain only goes round (the gap is 1)."
     if road.gap > 1.0 - SAME:
         return " The limit is reached after a fixed number of steps (the gap is 1)."
+    what = "long-run cycle" if road.limit.is_cesaro else "limit"
     return (
-        f" In the end the distance to the limit falls by {percent(road.gap)} with each step (the "
+        f" In the end the distance to the {what} falls by {percent(road.gap)} with each step (the "
         f"gap is {road.gap:.4g})."
     )
 

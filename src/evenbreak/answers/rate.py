@@ -7,12 +7,20 @@ import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.prior_words import (
+    evidence_rows,
+    group_rows,
+    groups_table,
+    level_words,
+    levels_data,
+    prior_details,
+    prior_warnings,
+)
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
-from evenbreak.ratings.scale import Scale
 
 NOT_LINKED = "no chain of opponents links the two"
 
@@ -59,7 +67,12 @@ def rate_answer(
     return Answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
-        details=[prior_words(ratings), *([] if pairs else [_ERRORS_IN_WORDS])],
+        details=[
+            *([] if pairs else [_ERRORS_IN_WORDS]),
+            *prior_details(ratings, choice),
+            *groups_table(ratings),
+        ],
+        csv=table,
         warnings=[
             *file.warnings,
             *file.ties,
@@ -159,8 +172,7 @@ def _counted(ratings: Ratings) -> str:
 
 def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     """Yield what the ratings rest on besides the results, where something was asked for."""
-    if choice is not None and choice.learnt:
-        yield choice_words(ratings, choice)
+    yield from level_words(ratings, choice)
     if ratings.named:
         names = [f"{name} has {points:g}" for name, points in ratings.named]
         on_average, other = (" on average", "their mean") if names[1:] else ("", "that player")
@@ -178,52 +190,6 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
         stronger = "higher" if points >= 0 else "lower"
         known = ", as given" if error is None else f", give or take {_ONE(error)}"
         yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
-
-
-def prior_words(ratings: Ratings) -> str:
-    """Return what was assumed about players before any result."""
-    width = _ONE(ratings.scale.points(ratings.prior_sd))
-    start = "average" if ratings.named else f"at {ratings.anchor:g}"
-    return (
-        f"Before any result, every player is assumed to be {start}, give or take {width} points "
-        "(the prior)."
-    )
-
-
-def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
-    """Return how the prior was chosen by prediction."""
-    width = _ONE(ratings.scale.points(choice.prior_sd))
-    text = (
-        f"Of {len(choice.tried)} values of --prior tried, {width} points predicted the "
-        f"{choice.predicted:,} later results best."
-    )
-    if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
-        end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
-        text += f" It is the {end} one tried, so one beyond it may be better still."
-    return text
-
-
-def prior_warnings(
-    file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
-) -> Iterator[str]:
-    """Yield a warning where the prior was to be chosen by too few results."""
-    if choice is not None and not choice.learnt:
-        yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
-
-
-def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
-    """Return that the results cannot choose a prior, and which one is used.
-
-    >>> from evenbreak.ratings import scale_of
-    >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
-    >>> print(too_few_for_prior_words(few, scale_of("npl")))
-    22 later results are too few to choose a prior by; the default of 30.0 points is used.
-    """
-    few = "is too little" if choice.predicted == 1 else "are too few"
-    return (
-        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
-        f"{_ONE(scale.points(choice.prior_sd))} points is used."
-    )
 
 
 def unlinked_words(ratings: Ratings) -> Iterator[str]:
@@ -270,6 +236,9 @@ def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
             for width, loss in zip(choice.tried, choice.log_loss, strict=True)
         ],
         "prior_learnt": None if choice is None else choice.learnt,
+        "levels": levels_data(ratings, choice),
+        "groups": group_rows(ratings),
+        "evidence": evidence_rows(choice),
         "half_life_days": ratings.half_life,
         "played_by_weight": ratings.weight,
         "as_of": None if ratings.as_of is None else str(ratings.as_of),

@@ -7,7 +7,7 @@ import pandas as pd
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.left_out import left_out
 from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.rate import prior_warnings
+from evenbreak.answers.prior_words import prior_warnings
 from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.scale_words import decimals_of

@@ -80,7 +80,7 @@ def road_of(game: Game) -> Road:
     >>> road.spectrum.values.round(4), round(road.limits["eigen"]["W"], 12)
     (array([ 1.    ,  1.    ,  0.3464, -0.3464]), 0.454545454545)
     >>> list(road.refused)
-    ['kernel']
+    []
     """
     graph = _named(graph_of(game))
     chain = chain_of(graph)

@@ -12,9 +12,13 @@ from evenbreak.answers.wording import count_of, decimals, listed, percent, race,
 from evenbreak.league.nights import PlayedNight
 from evenbreak.league.sandbag_watch import Watched
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""
+
+FEW_NEW = 0.1
+"""The share of players without a rating of their own from which a warning is due."""
 
 NAMED = 3
 """How many flagged players the first sentence names."""
@@ -110,6 +114,31 @@ def sandbag_watch_answer(
         data={"alpha": alpha, "honest": honest, "tried_events": _events(watched[0])},
         csv=players,
     )
+
+
+def unrated_doubts(roster: Roster, results: Results) -> list[str]:
+    """Return a warning if too many players begin without a rating of their own.
+
+    These are players whose rating rests on no games, and those who share one rating where most
+    players do.
+
+    >>> club = Roster(["Ann", "Bo", "Cy"], [80, 80, 80])
+    >>> len(unrated_doubts(club, Results.from_names(["Ann"], ["Bo"], [7], [5])))
+    1
+    """
+    seen = {results.players[place] for place in (*results.player_a, *results.player_b)}
+    playing = np.array([name in seen for name in roster.players])
+    rated = roster.rating[playing]
+    same, many = np.unique(rated[~np.isnan(rated)], return_counts=True)
+    shared = np.isin(rated, same[many > len(rated) / 2])
+    new = int((shared | (roster.games[playing] == 0) | np.isnan(rated)).sum())
+    if not new or new < FEW_NEW * len(rated):
+        return []
+    return [
+        f"{new:,} of {count_of(len(rated), 'player')} begin without a rating of their own, but "
+        "--honest established takes all ratings to be as accurate as in the long run; strong "
+        "newcomers may be flagged for winning, so use --honest any"
+    ]
 
 
 def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.answers.night_results import rating_changes_of_files
+from evenbreak.answers.wording import count_of
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
@@ -16,6 +17,7 @@ from evenbreak.handicaps.systems.system import System
 from evenbreak.league.nights import PlayedNight, played_nights
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.walk_forward import even_races
 
 MOST_TRIED = 20
 """The most events that are tried: each of them takes as long as a watch without events."""
@@ -61,6 +63,35 @@ def nights_of_files(
     if problems:
         raise DataError(_once(problems))
     return nights
+
+
+def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
+    """Return a season with a race for every match, and a warning if some were not stated.
+
+    A match without a race or a winner is read as an even race to the winner's games, unless such
+    a match was drawn (see `even_races`).
+
+    >>> plain = Results.from_names(["Ann"], ["Bo"], [7], [5])
+    >>> raced, warnings = with_even_races(ResultsFile(plain, "r.csv", (), (), ""))
+    >>> raced.results.races, len(warnings)
+    ((array([7]), array([7])), 1)
+    """
+    results = season.results
+    winner = np.zeros(len(results)) if results.winner is None else results.winner
+    unknown = results.counted & (results.races[0] == 0) & (winner == 0)
+    if not unknown.any():
+        return season, []
+    made = even_races(results.select(unknown))[:2]
+    race_a, race_b = (race.copy() for race in results.races)
+    race_a[unknown], race_b[unknown] = made
+    many = count_of(int((race_a != results.races[0]).sum()), "match", "matches")
+    if many.startswith("0 "):
+        return season, []
+    warning = (
+        f"{season.source}: the race of {many} is not stated, so each is read as an even race to "
+        "the winner's games; if a chart set the races, name it with --chart"
+    )
+    return replace(season, results=replace(results, race_a=race_a, race_b=race_b)), [warning]
 
 
 def _once(problems: Iterable[str]) -> list[str]:

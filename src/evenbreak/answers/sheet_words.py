@@ -5,6 +5,7 @@ from typing import Any
 
 import pandas as pd
 
+from evenbreak.answers.prior_words import level_words
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
 from evenbreak.answers.sheet import Sheet
@@ -89,7 +90,8 @@ def how_rated(sheet: Sheet) -> str:
     """
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
-    text = f"Every player starts at {ratings.anchor:g}, give or take {prior:.4g}"
+    who = "Apart from what is known beforehand, every player" if ratings.levels else "Every player"
+    text = f"{who} starts at {ratings.anchor:g}, give or take {prior:.4g}"
     if sheet.choice is not None and sheet.choice.learnt:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "
@@ -97,8 +99,8 @@ def how_rated(sheet: Sheet) -> str:
         )
     as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"
     if ratings.half_life is not None:
-        return f"{text}. A match counts half after {ratings.half_life:g} days{as_of}."
-    return f"{text}{as_of}."
+        text += f". A match counts half after {ratings.half_life:g} days"
+    return " ".join([f"{text}{as_of}.", *level_words(ratings, sheet.choice)])
 
 
 def rating_model(sheet: Sheet) -> str:

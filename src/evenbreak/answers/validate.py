@@ -1,9 +1,11 @@
 """Whether a league can trust its ratings."""
 
+from dataclasses import replace
 from typing import Any
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.prior_words import evidence_rows, levels_data
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_remarks import percents, remarks
 from evenbreak.answers.validate_rows import findings_table
@@ -94,6 +96,8 @@ def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
         "prior_points": found.prior_sd * scale.points_per_log_odds,
         "half_life": forecasts.half_life,
         **_choice(found),
+        "levels": levels_data(replace(found.ratings, scale=scale), found.choice),
+        "evidence": evidence_rows(found.choice),
         **{name: getattr(found, name) for name in _AS_FOUND},
     }
 
@@ -115,6 +119,6 @@ _OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
 _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
-    *("skill", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
-    *("half_lives", "lengths", "drawn"),
+    *("skill", "form", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
+    *("half_lives", "lengths", "experience", "drawn"),
 )

@@ -6,9 +6,11 @@ from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_judgement import points_text
-from evenbreak.answers.wording import count_of, decimals
+from evenbreak.answers.wording import count_of, decimals, percent
+from evenbreak.ratings.by_experience import ByExperience
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.match_form import MatchForm
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
@@ -42,6 +44,9 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     if tests:
         yield _TESTS_EXPLAINED
         yield Table("", _TEST_COLUMNS, tests)
+    if found.form is not None:
+        yield _form(found.form, scale)
+        yield _shapes(found.form)
     if found.matches:
         yield _matches(found)
         if found.spots:
@@ -50,6 +55,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
                 "mostly by their own errors, so predictions of matches are of little use."
             )
             yield _by_spot(found)
+    if found.experience:
+        yield _experience(found, scale)
     new = int(found.forecasts.new.sum())
     if new:
         yield f"In {count_of(new, 'match', 'matches')} one of the players had not played before."
@@ -157,6 +164,64 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
                 (low, high),
                 None,
             )
+
+
+def _form(form: MatchForm, scale: Scale) -> str:
+    v, low, high = form.variance
+    points = scale.points_per_log_odds
+    end = "This is established." if form.established else "This may be luck."
+    return (
+        f"Form of the day: the difference between two players varies from match to match with a "
+        f"standard deviation of {points * form.sd:.0f} points (variance {v:.3f} in squared "
+        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end}"
+    )
+
+
+def _shapes(form: MatchForm) -> Table:
+    """Return deciders, sweeps and lengths, seen and expected."""
+    columns = [
+        Column("of", "", left=True),
+        Column("seen", "seen", lambda one: _span(one, 3, " to ")),
+        Column("said", "expected", decimals(3)),
+        Column("said_with_form", "with form", decimals(3)),
+    ]
+    title = "Scores, with 95% intervals, beside what the ratings expect without and with form:"
+    return Table("", columns, form.shapes, title)
+
+
+def _experience(found: Validation, scale: Scale) -> Table:
+    """Return how the less experienced player of a match fared, by the games played before."""
+    points = scale.points_per_log_odds
+
+    def off(one: Estimate) -> str:
+        return f"{points * one.value:+.1f}  {points * one.low:+.1f} to {points * one.high:+.1f}"
+
+    columns = [
+        Column("before", "games before"),
+        Column("matches", "matches"),
+        Column("predicted", "predicted", percent),
+        Column("seen", "won", percent),
+        Column("stronger", "points off, with 95% interval", off),
+        Column("spread", "spread of scores", decimals(2)),
+    ]
+    rows = [
+        (
+            _games_before(one),
+            *(one.matches, one.predicted, one.seen, one.stronger, one.spread),
+        )
+        for one in found.experience
+    ]
+    title = (
+        "Games won by the less experienced player of a match, by the games that they had played "
+        "before; below 0 points they are overrated compared with their opponents:"
+    )
+    return Table("", columns, rows, title)
+
+
+def _games_before(one: ByExperience) -> str:
+    if one.most is None:
+        return f"{one.fewest} or more"
+    return "none" if one.most == 0 else f"{one.fewest} to {one.most}"
 
 
 def _matches(found: Validation) -> Table:

@@ -1,8 +1,9 @@
 """What a validated season shows besides the verdict, each in a sentence or two."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from evenbreak.answers.rate import too_few_for_prior_words
+from evenbreak.answers.prior_words import level_words, too_few_for_prior_words
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     any_winner_breaks,
@@ -26,7 +27,11 @@ WIDE = 0.4
 
 def remarks(found: Validation, scale: Scale) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
-    said = [_handicaps(found), _spread(found), _half_life(found), _first_column(found)]
+    levels = level_words(replace(found.ratings, scale=scale), found.choice)
+    said = [
+        *(_handicaps(found), _spread(found), _form(found, scale), *levels),
+        *(_experience(found, scale), _half_life(found), _first_column(found)),
+    ]
     return [text for text in (*said, _prior(found, scale)) if text]
 
 
@@ -80,7 +85,7 @@ def _spread(found: Validation) -> str:
         return ""
     more = 100.0 * (test.seen / test.by_chance - 1.0)
     causes = ["players have good and bad days"]
-    if not found.half_lives or best_half_life(found):
+    if best_half_life(found):
         causes.append("the ratings lag behind")
     if any_winner_breaks(found):
         causes.append("the break is strong under winner breaks")
@@ -88,6 +93,26 @@ def _spread(found: Validation) -> str:
         causes.append("the handicaps know more than these ratings")
     text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
     return " ".join([text, *_lengths(found)])
+
+
+def _form(found: Validation, scale: Scale) -> str:
+    """Return what form of the day means for scores, '' where it is not established."""
+    form = found.form
+    if form is None or not form.established:
+        return ""
+    deciders, sweeps, _ = form.shapes
+    if not (deciders.nearer and sweeps.nearer):
+        return ""  # scores vary for another reason, such as handicaps that the ratings do not know
+    points = form.sd * scale.points_per_log_odds
+    shares = [
+        f"{percent(shape.seen.value)} {words} ({percent(shape.said)} expected without this, "
+        f"{percent(shape.said_with_form)} with it)"
+        for shape, words in ((deciders, "went to the last game"), (sweeps, "were sweeps"))
+    ]
+    return (
+        f"From match to match the difference between two players varies by about {points:.0f} "
+        f"points around that of their ratings. Of {form.races:,} matches {listed(shares)}."
+    )
 
 
 def _lengths(found: Validation) -> Iterator[str]:
@@ -114,8 +139,32 @@ def _way(half: RaceLengths) -> int:
     return clearly_off(Estimate(half.share, half.low, half.high), half.predicted)
 
 
+def _experience(found: Validation, scale: Scale) -> str:
+    """Return which players with little experience are overrated or underrated, '' if none are."""
+    for one in found.experience:
+        way = clearly_off(one.stronger, 0.0)
+        if way and one.most is not None:
+            who = "before their first game"
+            if one.most:
+                who = f"after {one.fewest} to {one.most} games"
+            return (
+                f"Players are {'under' if way > 0 else 'over'}rated {who}: against more "
+                f"experienced opponents they won {percent(one.seen)} of their games "
+                f"({percent(one.predicted)} predicted), as if they were "
+                f"{abs(one.stronger.value) * scale.points_per_log_odds:.0f} points "
+                f"{'stronger' if way > 0 else 'weaker'} than rated."
+            )
+    return ""
+
+
 def _half_life(found: Validation) -> str:
     """Return which half-life to use, '' where none clearly helps."""
+    used = found.forecasts.half_life
+    if found.half_lives and used is not None:
+        return (
+            f"Old games count less, because later ones are then predicted better: a match counts "
+            f"half after {used:g} days. rate and report find this by themselves."
+        )
     days = best_half_life(found)
     if days is None:
         return ""
@@ -162,8 +211,8 @@ def _prior(found: Validation, scale: Scale) -> str:
     if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
         return ""
     if found.prior_sd == PRIOR_SD:
-        return f"The default prior of {points_text(PRIOR_SD, scale)} points suits this league best."
+        return f"The usual prior of {points_text(PRIOR_SD, scale)} points suits this league best."
     return (
-        f"A --prior of {points_text(found.prior_sd, scale)} would suit this league best; the "
-        f"default of {points_text(PRIOR_SD, scale)} points will do too."
+        f"A prior of {points_text(found.prior_sd, scale)} points suits this league best, and rate "
+        f"and report use it; the usual one of {points_text(PRIOR_SD, scale)} points will do too."
     )

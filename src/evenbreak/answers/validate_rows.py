@@ -45,7 +45,7 @@ def findings_table(found: Validation) -> Table:
 
 
 def _prior(found: Validation) -> Iterator[tuple[Any, ...]]:
-    """Yield how the prior was chosen, nothing where it was given."""
+    """Yield how the prior was chosen, and what levels gain; nothing where it was given."""
     choice = found.choice
     if choice is None:
         return
@@ -54,6 +54,9 @@ def _prior(found: Validation) -> Iterator[tuple[Any, ...]]:
     head = ("game", "plug-in", choice.predicted, None)
     yield ("prior_range", *head, found.prior_sd, choice.low, choice.high, None)
     yield ("log_loss_as_it_went", *head, choice.as_it_went, None, None, None)
+    for one in choice.evidence:
+        if one.of != "half_life":
+            yield ("level", "game", one.of, choice.predicted, 0.0, *one.gain, None)
 
 
 def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:
@@ -71,6 +74,12 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     if spread is not None:
         figures = (spread.races, spread.by_chance, spread.seen)
         rows.append(("dispersion", "match", "scores", *figures, None, None, spread.p_value))
+    if found.form is not None:
+        rows.append(("form", "game", "variance", found.form.races, 0.0, *found.form.variance, None))
+        for shape in found.form.shapes:
+            head = ("score", "match", shape.of, found.form.races)
+            rows.append((*head, shape.said, *shape.seen, None))
+            rows.append(("score_with_form", *head[1:], shape.said_with_form, *shape.seen, None))
     if runs is not None:
         figures = (runs.matches, runs.expected, float(runs.runs))
         rows.append(("streaks", "match", "runs", *figures, None, None, runs.p_value))
@@ -91,6 +100,9 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
         spot = "all" if row.spot is None else row.spot
         figures = (row.matches, row.expected, row.share)
         rows.append(("spot", "match", spot, *figures, row.low, row.high, None))
+    for one in found.experience:
+        before = f"{one.fewest}-{'' if one.most is None else one.most}"
+        rows.append(("experience", "game", before, one.games, 0.0, *one.stronger, None))
     for half in found.lengths:
         figures = (half.matches, half.predicted, half.share)
         ends = f"{half.shortest}-{half.longest}"

@@ -113,8 +113,8 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        f"Use --prior {use} with rate and report: with the default of {default} points, "
-        f"{_too_sure(wrong)}."
+        f"Let the results choose the prior, as rate and report do: here it is {use} points. With "
+        f"the usual {default} points, {_too_sure(wrong)}."
     )
 
 

@@ -10,7 +10,7 @@ from evenbreak.answers.matches_behind import MATCH, matches_behind
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.one_more_match import OneMore, Refit, Standing, one_more_match
 from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.rate import prior_warnings, prior_words
+from evenbreak.answers.prior_words import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.scale_words import decimals_of, like_scale_words
 from evenbreak.answers.wording import chance, percent, race
 from evenbreak.files.results import ResultsFile
@@ -67,7 +67,7 @@ def why_answer(
             "Worth: how much lower (or, with a minus, higher) the rating would be if this match "
             "had not been played and all others had.",
         ],
-        details=[prior_words(ratings)],
+        details=list(prior_details(ratings, choice)),
         warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
         data={
             "player_a": names[0],
@@ -77,6 +77,7 @@ def why_answer(
             "race_a": now.race and now.race[0],
             "race_b": now.race and now.race[1],
             "p_win_a": now.p_win,
+            "evidence": evidence_rows(choice),
             "one_more": [
                 {
                     "winner": one.winner,

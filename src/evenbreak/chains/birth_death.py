@@ -25,8 +25,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import coo_array, csc_array
 
+from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.scaled import prefix_products, shares
 
 if TYPE_CHECKING:
@@ -186,6 +187,27 @@ def birth_death_of(matrix: csc_array) -> BirthDeath | None:
     up, down, loops = matrix.diagonal(-1), matrix.diagonal(1), matrix.diagonal()
     stored = np.count_nonzero(up) + np.count_nonzero(down) + np.count_nonzero(loops)
     return BirthDeath(up, down, loops) if stored == matrix.nnz else None
+
+
+def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
+    """Return the order in which the states of a chain stand in a line, and the chain in it.
+
+    None if they do not.
+
+    >>> one_ball = csc_array([[0, 0, 0.2, 0], [0.4, 1, 0, 0], [0.6, 0, 0, 0], [0, 0, 0.8, 1]])
+    >>> order, line = line_of(one_ball)
+    >>> order, line.limit(1)
+    (array([1, 0, 2, 3], dtype=int32), (array([0.45454545, 0.        , 0.        , 0.54545455]), 1))
+    """
+    paths = coo_array(matrix)
+    apart = paths.row != paths.col
+    ones = np.ones(np.count_nonzero(apart))
+    either = csc_array((ones, (paths.row[apart], paths.col[apart])), shape=matrix.shape)
+    order = line_order(csc_array(either + either.T)) if matrix.shape[0] > 1 else None
+    if order is None:
+        return None
+    line = csc_array(matrix[:, order])[order]
+    return order, BirthDeath(line.diagonal(-1), line.diagonal(1), line.diagonal())
 
 
 def _is_full(matrix: csc_array) -> bool:

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.sparse import csc_array, issparse
 
 from evenbreak.chains.arcs import Arcs, arcs_of, sums
-from evenbreak.chains.birth_death import BirthDeath, birth_death_of
+from evenbreak.chains.birth_death import BirthDeath, birth_death_of, line_of
 from evenbreak.chains.paths import random_paths
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
@@ -128,8 +128,13 @@ class Chain:
 
     @cached_property
     def birth_death(self) -> BirthDeath | None:
-        """The chain as a line of states, if each moves to its neighbours only."""
+        """The chain as a line of states, if each moves to its neighbours in the matrix only."""
         return birth_death_of(self.matrix)
+
+    @cached_property
+    def line(self) -> tuple[Places, BirthDeath] | None:
+        """The order in which the states stand in a line, and the chain in it; see `line_of`."""
+        return line_of(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:

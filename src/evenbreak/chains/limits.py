@@ -181,9 +181,9 @@ def stochastic_limit(
     exact
         whether to calculate in fractions and return them, by state. A chance that `chain_of`
         got as a `Fraction` or as text is taken as it is, a float as the decimal that it
-        prints. The arcs of a `Race` are floats: `win_probability` is exact for matches.
-        Time and the length of the fractions grow with the number of states: for some hundreds
-        of states in a line, or some thousands of scores of a race.
+        prints. Matches, series and one-ball games keep a `Fraction`; drills and ladders hold
+        floats. Time and the length of the fractions grow with the number of states: for some
+        hundreds of states in a line, or some thousands of scores of a race.
 
     Raises
     ------
@@ -231,10 +231,7 @@ def stochastic_limit(
         probability, period = chain.birth_death.limit(at)
         return Limit(chain, probability, period)
     if via == "kernel":
-        raise ChainError(
-            "there is no closed form for this chain and start: its states do not stand in a line "
-            "in the order given, or the start is a density; use elimination"
-        )
+        return _limit_in_line(chain, at)
     structure = chain.structure
     if structure.is_acyclic:
         return Limit(chain, ends_of(chain, chain.density(start)))
@@ -250,6 +247,19 @@ def stochastic_limit(
     if "transient" in chain.__dict__:
         residual = largest(chain.transient.residual, residual)
     return Limit(chain, law, period, residual)
+
+
+def _limit_in_line(chain: Chain, at: int | None) -> Limit:
+    """Return the limit from the state `at`, whatever the order in which the line is given."""
+    if chain.line is None or at is None:
+        raise ChainError(
+            "there is no closed form for this chain and start: its states do not stand in a line, "
+            "or the start is a density; use elimination"
+        )
+    order, walk = chain.line
+    probability = np.empty(len(chain))
+    probability[order], period = walk.limit(int(np.flatnonzero(order == at)[0]))
+    return Limit(chain, probability, period)
 
 
 def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:

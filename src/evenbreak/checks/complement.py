@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, overload
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, overload
 
 if TYPE_CHECKING:
     from evenbreak.arrays import Floats
@@ -14,14 +15,17 @@ _DECIMALS = 1e15
 def complement(p: float) -> float: ...
 @overload
 def complement(p: Floats) -> Floats: ...
-def complement(p: float | Floats) -> float | Floats:
+def complement(p: Any) -> Any:
     """Return 1 - p, for a p of at most 15 decimals as the decimal: .1 for .9.
 
-    So the chance of losing keeps its digits where it is small. Other values give 1 - p in floats.
+    So the chance of losing keeps its digits where it is small. Other values give 1 - p in floats,
+    a `Fraction` one.
 
     >>> complement(0.9), 1.0 - 0.9
     (0.1, 0.09999999999999998)
     """
+    if isinstance(p, Fraction):
+        return 1 - p
     left = 1.0 - p
     if isinstance(left, float):
         decimal = round(left * _DECIMALS) / _DECIMALS

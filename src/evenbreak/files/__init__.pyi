@@ -26,5 +26,6 @@ from .roster import RosterFile as RosterFile
 from .roster import read_roster as read_roster
 from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
+from .several_results import read_seasons as read_seasons
 from .text_table import TextTable as TextTable
 from .text_table import read_table as read_table

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
 from evenbreak.errors import DataError
@@ -79,6 +79,17 @@ class Problems:
             what is wrong in a row, and what to do.
         """
         self._found += [(int(lines[row]), message(int(row))) for row in rows]
+
+    @property
+    def lines(self) -> set[int]:
+        """The lines that have problems; 0 stands for the whole file."""
+        return {line for line, _ in self._found}
+
+    def outside(self, lines: Collection[int]) -> Problems:
+        """Return the problems that are not in some lines."""
+        rest = Problems(self.source)
+        rest._found = [(line, text) for line, text in self._found if line not in lines]
+        return rest
 
     def listed(self) -> tuple[str, ...]:
         """Return the problems, a line each, those of the file as a whole first."""

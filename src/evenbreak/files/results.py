@@ -16,6 +16,7 @@ import numpy as np
 from evenbreak.arrays import short_repr
 from evenbreak.errors import InputError
 from evenbreak.files.aliases import AliasesFile, read_aliases
+from evenbreak.files.bad_rows import doubtful_score_warnings, without_bad_rows
 from evenbreak.files.columns_hint import columns_hint
 from evenbreak.files.date_cells import DateOrder
 from evenbreak.files.doubtful_dates import date_warnings
@@ -76,6 +77,7 @@ def read_results(
     aliases: str | Path | None = None,
     columns: Mapping[str, str] | None = None,
     dates: DateOrder | None = None,
+    skip_bad: bool = False,
 ) -> ResultsFile:
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
@@ -96,12 +98,15 @@ def read_results(
         for columns such as player_a the titles that they have in the file, if not known ones.
     dates
         'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
+    skip_bad
+        whether rows that cannot be read, and scores that can hardly be games, are left out and
+        listed in the warnings; otherwise the file is refused for the former, and the latter count.
 
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there are any; before that with
-        those of the file of aliases.
+        with every problem of the file, a line each, if there are any that `skip_bad` does not
+        leave out; before that with those of the file of aliases.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -124,13 +129,22 @@ def read_results(
             exported=export_of,
         )
     )
-    names = PlayerNames(table, NAMES, by_alias.means)
-    results = results_rows(table, names, results_columns(table, names, dates))
+
+    def read(rows: TextTable) -> tuple[PlayerNames, Results]:
+        names = PlayerNames(rows, NAMES, by_alias.means)
+        return names, results_rows(rows, names, results_columns(rows, names, dates))
+
+    skipped: list[str] = []
+    if skip_bad:
+        table, skipped = without_bad_rows(table, lambda rows: read(rows)[1])
+    names, results = read(table)
     table.problems.raise_any()
-    groups = tuple(similar_names(results.players, _met(results)))
+    groups = tuple(similar_names(results.players, met_pairs(results)))
     warnings = [
         *by_alias.warnings,
         *table.warnings,
+        *skipped,
+        *doubtful_score_warnings(results, table.lines, table.source),
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
         *hidden_letter_warnings(table, NAMES),
@@ -209,7 +223,7 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     )
 
 
-def _met(results: Results) -> list[tuple[str, str]]:
+def met_pairs(results: Results) -> list[tuple[str, str]]:
     """Return the names that played each other, each pair once for either order."""
     pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
     return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]

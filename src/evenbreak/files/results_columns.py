@@ -11,6 +11,7 @@ from evenbreak.files.player_names import PlayerNames
 from evenbreak.files.results_layout import BY_WINNER
 from evenbreak.files.text_table import TextTable
 from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS
+from evenbreak.ratings.results_frame import GROUPS
 
 NAMES = ("player_a", "player_b")
 
@@ -30,7 +31,10 @@ OPTIONAL = {
     "first_break": ("first breaker", "breaks first", "lag won by"),
     "break_format": ("who breaks", "breaks next"),
     "racks": ("rack winners", "games in order"),
-    "event": ("tournament", "competition", "league", "division"),
+    "event": ("tournament", "competition", "league"),
+    "team_a": ("team 1", "home team"),
+    "team_b": ("team 2", "away team"),
+    "division": ("class", "flight"),
     "forfeit": ("walkover", "forfeited", "no show", "w/o"),
     **BY_WINNER,
 }
@@ -78,7 +82,8 @@ def results_columns(
     choices = "winner, loser, alternate, a or b"
     columns["break_format"] = words(table, "break_format", FORMAT_WORDS, choices=choices, empty=0)
     columns["racks"] = texts(table, "racks", _without_blanks)
-    columns["event"] = texts(table, "event", partial(unicodedata.normalize, "NFC"))
+    for name in ("event", *GROUPS):
+        columns[name] = texts(table, name, partial(unicodedata.normalize, "NFC"))
     return columns
 
 

@@ -25,6 +25,8 @@ BY_WINNER = {
     "loser_score": ("loser games", "losers score", "games won by loser"),
     "winner_race": ("winner needs", "winners race"),
     "loser_race": ("loser needs", "losers race"),
+    "winner_team": ("winners team",),
+    "loser_team": ("losers team",),
 }
 """The columns that are brought to another layout here, with their other names."""
 
@@ -42,6 +44,8 @@ _OF_WINNER = {
     "loser_score": "score_b",
     "winner_race": "race_a",
     "loser_race": "race_b",
+    "winner_team": "team_a",
+    "loser_team": "team_b",
 }
 
 Pair = tuple[str, str]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from array import array
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import compress, count
 from operator import itemgetter
 from pathlib import Path
@@ -72,6 +72,8 @@ class TextTable:
         the bytes that were read.
     titles
         what the file calls the columns that it has.
+    header
+        the line in which the header begins.
     """
 
     source: str
@@ -82,6 +84,7 @@ class TextTable:
     warnings: tuple[str, ...]
     content: bytes
     titles: Mapping[str, str] = field(default_factory=dict)
+    header: int = 0
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -95,6 +98,16 @@ class TextTable:
 
         codes = {name: self.columns[name].codes for name in self.found}
         return pd.DataFrame(codes).duplicated().to_numpy()
+
+    def without(self, lines: Collection[int]) -> TextTable:
+        """Return the table without the rows in some lines, and without its problems there."""
+        kept = ~np.isin(self.lines, list(lines))
+        columns = {}
+        for name, (distinct, codes) in self.columns.items():
+            used, renumbered = np.unique(codes[kept], return_inverse=True)
+            columns[name] = Texts([distinct[code] for code in used.tolist()], renumbered)
+        problems = self.problems.outside(lines)
+        return replace(self, lines=self.lines[kept], columns=columns, problems=problems)
 
     def cells(self, name: str) -> list[str]:
         """Return the text of a column, row by row; '' throughout where the file lacks it."""
@@ -184,6 +197,7 @@ def read_table(
         tuple(warnings),
         content,
         {name: titles[place] for name, place in places.items()},
+        line,
     )
 
 

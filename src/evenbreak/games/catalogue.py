@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from difflib import get_close_matches
 from typing import Any
 
 from evenbreak.errors import InputError
@@ -73,16 +74,15 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
         known for known in CATALOGUE if words and set(words) <= set(_words(known))
     ]
     if len(found) != 1:
+        near = found or get_close_matches(name.lower(), CATALOGUE, n=3) or list(CATALOGUE)
         which = "names several games" if found else "is not a game of the catalogue"
-        raise InputError(f"{name!r} {which}; give one of: {'; '.join(found or CATALOGUE)}")
+        raise InputError(f"{name!r} {which}; give one of: {'; '.join(near)}")
     game = CATALOGUE[found[0]]
     try:
         return found[0], _with_chances(game, chances) if chances else game
     except TypeError:
-        wanted = "one chance" if isinstance(game, Drill) else "two chances"
-        raise InputError(
-            f"{found[0]} takes {wanted}, not {len(chances)}; leave one out or add the other"
-        ) from None
+        wanted = "one chance" if isinstance(game, Drill) else "two chances, p1 and p2"
+        raise InputError(f"{found[0]} takes {wanted}, not {len(chances)}") from None
 
 
 def _words(name: str) -> list[str]:

@@ -184,7 +184,7 @@ class Match(ABC, Generic[ChanceT]):
                 self.breaks(breaker, winner) if self.breaks else breaker,
             ): chance
             for winner in (1, 2)
-            if (chance := rack.chance(winner, breaker)) > 0.0
+            if (chance := rack.move(winner, breaker)) > 0.0
         }
 
     def _after_rack_of_set(
@@ -207,7 +207,7 @@ class Match(ABC, Generic[ChanceT]):
                 target = self._state(
                     score, self.breaks(opener[0], winner) if opener and self.breaks else carried
                 )
-            result[target] = result.get(target, 0.0) + chance
+            result[target] = result.get(target, 0) + chance
         return result
 
     def _state(self, score: Score, breaker: int) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
+from fractions import Fraction
 
 from evenbreak.checks import complement, number_probabilities, number_probability
 
@@ -15,7 +16,7 @@ class OneBall:
     Parameters
     ----------
     p1, p2
-        P(player 1, 2 makes the ball | that player shoots).
+        P(player 1, 2 makes the ball | that player shoots); a `Fraction` is kept, for exact answers.
 
     Raises
     ------
@@ -30,8 +31,10 @@ class OneBall:
     p2: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "p1", number_probability(self.p1, "p1"))
-        object.__setattr__(self, "p2", number_probability(self.p2, "p2"))
+        for name in ("p1", "p2"):
+            given = getattr(self, name)
+            p = number_probability(given, name)
+            object.__setattr__(self, name, given if isinstance(given, Fraction) else p)
 
     @property
     def start(self) -> str:

@@ -75,7 +75,7 @@ class Race(Match[ChanceT]):
         return (a - spare, b - spare) if spare > 0 else (a, b)
 
     def arcs(self) -> ArcArrays | None:
-        """Return all states and arcs as arrays; None for a race of sets or a race win-by-K.
+        """Return all states and arcs as arrays; None for sets, win-by-K, or chances in fractions.
 
         They are those of `moves`, made without a Python loop over the states.
 
@@ -85,7 +85,7 @@ class Race(Match[ChanceT]):
         >>> Race(3, 3, Rack(0.5), win_by=2).arcs() is None
         True
         """
-        if self.win_by > 1 or not isinstance(self.rack, Rack):
+        if self.win_by > 1 or not isinstance(self.rack, Rack) or self.rack.in_fractions:
             return None
         from evenbreak.games.race_arcs import race_arcs
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 from evenbreak.checks import ManyAsOne, complement, one_of, probability, together
@@ -117,6 +118,26 @@ class Rack(Generic[ChanceT]):
             return self.p1 if player == 1 else self.q1
         own = (self.p1, self.q1) if breaker == 1 else (self.p2, self.q2)
         return own[player != breaker]
+
+    @property
+    def in_fractions(self) -> bool:
+        """Whether a chance was given as a `Fraction`, which floats may not hold."""
+        return any(isinstance(chance, Fraction) for chance in self.given)
+
+    def move(self, player: int, breaker: int = 1) -> Any:
+        """Return P(`player` wins the rack | `breaker` breaks it), for the moves of a game.
+
+        It is a `Fraction` if the chance was given as one.
+
+        >>> from fractions import Fraction
+        >>> Rack(Fraction(1, 3)).move(2)
+        Fraction(2, 3)
+        """
+        given = self.given[0 if self.p2 is None else breaker - 1]
+        if not isinstance(given, Fraction):
+            return self.chance(player, breaker)
+        own = 1 if self.p2 is None else breaker
+        return given if player == own else 1 - given
 
     def of_numbers(self) -> Rack[float]:
         """Return the rack itself if it holds numbers, which a graph needs.

@@ -65,7 +65,7 @@ class Series:
         return {
             breaker: chance
             for winner, breaker in by_winner.items()
-            if (chance := self.rack.chance(winner, state)) > 0.0
+            if (chance := self.rack.move(winner, state)) > 0.0
         }
 
     def winner(self, state: int) -> None:  # noqa: ARG002

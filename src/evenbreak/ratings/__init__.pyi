@@ -1,7 +1,10 @@
 from .consistency import Problem as Problem
 from .consistency import find_problems as find_problems
 from .fit import fit as fit
+from .fitted import Group as Group
 from .fitted import Ratings as Ratings
+from .levels import Levels as Levels
+from .prior import Evidence as Evidence
 from .prior import PriorChoice as PriorChoice
 from .prior import best_prior as best_prior
 from .race_likelihood import RaceSlopes as RaceSlopes

@@ -5,6 +5,13 @@ on the diagonal, and, where a break advantage is estimated too, one more row and
 with the corner c. By the Schur complement s = c - bᵀH⁻¹b,
 
     covariance of the ratings = H⁻¹ + H⁻¹b bᵀH⁻¹ / s,    variance of the advantage = 1 / s.
+
+Levels that players share, such as those of teams (see `evenbreak.ratings.prior_means`), are
+further unknowns of H. With θ the skills and b the levels, the law of total variance gives
+
+    cov(θ) = cov(θ | b) + cov(θ, b) cov(b)⁻¹ cov(b, θ),
+
+where cov(θ | b) is the inverse of the Laplacian plus τ alone.
 """
 
 from __future__ import annotations
@@ -22,6 +29,7 @@ from evenbreak.arrays import Floats, Places
 from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+from evenbreak.ratings.prior_means import PriorMeans
 
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""
@@ -43,6 +51,8 @@ class Curvature:
     border, corner
         the second derivatives in a rating and the break advantage, and in the advantage
         twice; None where it is not estimated.
+    means
+        the levels that players share; None where there are none.
     """
 
     size: int
@@ -52,6 +62,7 @@ class Curvature:
     precision: float
     border: Floats | None = None
     corner: float | None = None
+    means: PriorMeans | None = None
 
     @cached_property
     def matrix(self) -> sparse.csc_array:
@@ -69,69 +80,131 @@ class Curvature:
         return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
 
     @cached_property
+    def _across(self) -> Floats:
+        """The second derivatives in a rating and a level: shape (size, levels)."""
+        design = np.zeros((self.size, 0)) if self.means is None else self.means.design
+        return np.asarray(-self.precision * design)
+
+    @cached_property
+    def _levels(self) -> Floats:
+        """The second derivatives in two levels."""
+        if self.means is None:
+            return np.zeros((0, 0))
+        return np.asarray(np.diag(self.means.precision) - self.means.design.T @ self._across)
+
+    @cached_property
     def _factor(self) -> Any:
-        return cho_factor(self.matrix.toarray(), lower=True)
+        whole = np.block([[self.matrix.toarray(), self._across], [self._across.T, self._levels]])
+        return cho_factor(whole, lower=True)
+
+    @cached_property
+    def _border(self) -> Floats | None:
+        """The border, with the levels: they have nothing to do with the break advantage."""
+        if self.border is None:
+            return None
+        return np.append(self.border, np.zeros(len(self._levels)))
 
     @cached_property
     def _with_border(self) -> Floats | None:
-        return None if self.border is None else self._solve(self.border)
+        return None if self._border is None else self._solve(self._border)
 
     @cached_property
     def border_variance(self) -> float | None:
         """The variance of the break advantage, or None where it is not estimated."""
-        if self.border is None or self.corner is None or self._with_border is None:
+        if self._border is None or self.corner is None or self._with_border is None:
             return None
-        return 1.0 / (self.corner - float(self.border @ self._with_border))
+        return 1.0 / (self.corner - float(self._border @ self._with_border))
+
+    @cached_property
+    def _with_levels(self) -> Floats:
+        """The covariance of every rating and level with each level, the advantage known."""
+        levels = len(self._levels)
+        wanted = np.eye(levels, self.size + levels, self.size)
+        return np.reshape([self._solve(row) for row in wanted], wanted.shape).T
+
+    @cached_property
+    def level_covariance(self) -> Floats:
+        """The covariance of the levels."""
+        covariance = self._with_levels[self.size :]
+        if self._with_border is not None and self.border_variance is not None:
+            with_border = self._with_border[self.size :]
+            covariance = covariance + np.outer(with_border, with_border) * self.border_variance
+        return np.asarray(covariance)
+
+    @cached_property
+    def by_levels(self) -> Floats:
+        """The A for which AAᵀ is what uncertain levels add to the covariance of the ratings."""
+        if not len(self._levels):
+            return np.zeros((self.size, 0))
+        root = np.linalg.cholesky(self._with_levels[self.size :])
+        return np.asarray(np.linalg.solve(root, self._with_levels[: self.size].T).T)
 
     def variances(self) -> Floats:
         """Return the variance of each rating."""
-        variance = inverse_diagonal(self.matrix, self.precision)
+        variance = inverse_diagonal(self.matrix, self.precision) + (self.by_levels**2).sum(1)
         if self._with_border is not None and self.border_variance is not None:
-            variance = variance + self._with_border**2 * self.border_variance
-        return variance
+            variance = variance + self._with_border[: self.size] ** 2 * self.border_variance
+        return np.asarray(variance)
 
     def times(self, contrast: Floats) -> Floats:
         """Return the covariance of each rating with a weighted sum of them.
 
         The variance of the sum itself is `contrast @ times(contrast)`.
         """
-        product = self._solve(contrast)
+        product = self._solve(np.append(contrast, np.zeros(len(self._levels))))[: self.size]
         if self._with_border is not None and self.border_variance is not None:
-            shared = float(self._with_border @ contrast) * self.border_variance
-            product = product + self._with_border * shared
+            with_border = self._with_border[: self.size]
+            product = product + with_border * (with_border @ contrast) * self.border_variance
         return product
 
     def _solve(self, right: Floats) -> Floats:
-        if self.size <= _DENSE_UP_TO:
+        if len(right) <= _DENSE_UP_TO:
             return np.asarray(cho_solve(self._factor, right))
         return self._iterate(right, 1e-12)
 
     def newton_step(self, gradient: Floats, slope: float, accuracy: float) -> tuple[Floats, float]:
-        """Return the step of the ratings and of the break advantage that Newton's method takes.
+        """Return the step that Newton's method takes.
 
         Parameters
         ----------
         gradient, slope
-            the first derivatives in each rating, and in the advantage.
+            the first derivatives in each rating and level, and in the break advantage.
         accuracy
             the relative residual of the linear systems.
+
+        Returns
+        -------
+        tuple
+            the step of the ratings and levels, and of the advantage.
         """
         step = -self._iterate(gradient, accuracy)
-        if self.border is None or self.corner is None:
+        if self._border is None or self.corner is None:
             return step, 0.0
-        bordered = self._iterate(self.border, accuracy)
-        rest = self.corner - float(self.border @ bordered)
+        bordered = self._iterate(self._border, accuracy)
+        rest = self.corner - float(self._border @ bordered)
         if rest <= 0.0:  # not convex here: down along the slope, as if all of the corner were left
-            rest = abs(self.corner) + float(self.border @ bordered)
-        shift = -(slope + float(self.border @ step)) / rest
+            rest = abs(self.corner) + float(self._border @ bordered)
+        shift = -(slope + float(self._border @ step)) / rest
         return step - bordered * shift, shift
 
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
-        scale = 1.0 / np.sqrt(self._diagonal)
+        diagonal = np.append(self._diagonal, np.diag(self._levels))
+        scale = 1.0 / np.sqrt(diagonal)
         upper = self._upper(self.weight * scale[self.low] * scale[self.high])
         lower = upper.T
-        scaled = LinearOperator(upper.shape, lambda v: v - upper @ v - lower @ v, dtype=np.float64)
+        own, other = scale[: self.size], scale[self.size :]
+        across = self._across * own[:, None] * other
+        levels = self._levels * other[:, None] * other
+
+        def times(v: Floats) -> Floats:
+            skill, level = v[: self.size], v[self.size :]
+            image = skill - upper @ skill - lower @ skill
+            if not len(level):
+                return np.asarray(image)
+            return np.concatenate([image + across @ level, across.T @ skill + levels @ level])
+
+        scaled = LinearOperator((len(right), len(right)), times, dtype=np.float64)
         solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
         if failed:
             raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")

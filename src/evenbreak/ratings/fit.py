@@ -16,6 +16,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of, match_weights, until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
 from evenbreak.ratings.pairs import PairCounts, count_pairs
@@ -52,6 +53,7 @@ def fit(
     half_life: float | None = None,
     as_of: Any = None,
     break_advantage: float | str | None = None,
+    levels: Levels | None = None,
 ) -> Ratings:
     """Return the ratings that are most likely a posteriori, given the games of `results`.
 
@@ -81,6 +83,9 @@ def fit(
         by how many points the breaker of a rack plays better; 'fit' to estimate it from
         the racks whose breaker is known (see `count_broken`); None: the break
         does not matter.
+    levels
+        how far newcomers are behind, and how much teams and divisions differ; None: every
+        player's prior has the same mean.
 
     Raises
     ------
@@ -95,7 +100,7 @@ def fit(
     -----
     Bradley & Terry (1952), "Rank analysis of incomplete block designs"; a prior as in
     Caron & Doucet (2012), though theirs is gamma and this one normal. Without named players
-    the ratings of a component have exactly the mean `anchor`.
+    and levels the ratings of a component have exactly the mean `anchor`.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
@@ -120,9 +125,10 @@ def fit(
     played: PairCounts | LikelihoodTerms = pairs
     advantage = break_precision = None
     break_games = 0.0
-    if not len(won_only) and half_life is None and break_advantage is None:
+    means = means_of(in_time, levels) if levels else None
+    players = len(results.players)
+    if not len(won_only) and half_life is None and break_advantage is None and means is None:
         mode = find_mode(pairs, prior_sd**-2)
-        skill = mode.point
     else:
         breaks = break_advantage is not None
         known = _known_advantage(break_advantage, scale) if breaks else 0.0
@@ -131,10 +137,14 @@ def fit(
         break_games = terms.games_with_breaker if breaks else 0.0
         break_precision = BREAK_SD**-2 if known is None and break_games else None
         mode = find_mixed_mode(
-            terms, prior_sd**-2, advantage=known or 0.0, break_precision=break_precision
+            terms,
+            prior_sd**-2,
+            advantage=known or 0.0,
+            break_precision=break_precision,
+            means=means,
         )
-        skill = mode.point[:-1]
         advantage = float(mode.point[-1]) if break_games else None
+    skill = mode.point[:players]
     component = _components(played.graph)
     rating = centre + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)
@@ -162,7 +172,10 @@ def fit(
         break_advantage=None if advantage is None else scale.points(advantage),
         break_games=break_games,
         _played=played,
+        levels=levels or Levels(),
         _skill=skill,
+        _means=means,
+        _level=np.zeros(0) if means is None else mode.point[players:-1],
         _break_precision=break_precision,
     )
 

@@ -6,19 +6,38 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.pairs import PairCounts
+from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+class Group(NamedTuple):
+    """How far a team or division is above the average one, before its players' results.
+
+    Parameters
+    ----------
+    kind, name
+        'team' or 'division', and what it is called.
+    above, standard_error
+        points.
+    """
+
+    kind: str
+    name: str
+    above: float
+    standard_error: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +77,8 @@ class Ratings:
         where the break does not matter.
     break_games
         the games, by weight, whose breaker is known, if the break matters.
+    levels
+        how much newcomers, teams and divisions differ beforehand.
     """
 
     players: tuple[str, ...]
@@ -83,9 +104,12 @@ class Ratings:
     later: int = 0
     break_advantage: float | None = None
     break_games: float = 0.0
+    levels: Levels = field(default_factory=Levels)
     _played: PairCounts | LikelihoodTerms = field(repr=False)
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
+    _means: PriorMeans | None = field(default=None, repr=False)
+    _level: Floats = field(default_factory=lambda: np.zeros(0), repr=False)
 
     def __repr__(self) -> str:
         return (
@@ -175,10 +199,12 @@ class Ratings:
         prior's) and is independent of where in it each player stands. With v the variance of
         a rating,
 
-            q = (v - σ²/n) n / (n - 1),
+            q = (v - σ²/n) n / (n - 1).
 
-        so that the mean of q₁ + q₂ over the pairs of a component is exactly the mean variance
-        of their differences. For n = 2 that of the only pair is exact too.
+        Uncertain levels add AAᵀ to the covariance; in its place comes that of the rows of A
+        less their mean over the component. The mean of q₁ + q₂ over the pairs of a component is
+        then exactly the mean variance of their differences. For n = 2 that of the only pair is
+        exact too.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
@@ -187,10 +213,53 @@ class Ratings:
         """
         size = np.bincount(self.component)[self.component]
         alone = size == 1
-        around_level = np.maximum(self._variance - self.prior_sd**2 / size, 0.0)
+        by_levels = self._curvature.by_levels
+        sums = np.zeros((self.component.max() + 1, by_levels.shape[1]))
+        np.add.at(sums, self.component, by_levels)
+        apart = by_levels - sums[self.component] / size[:, None]
+        around_level = self._variance - self.prior_sd**2 / size
+        around_level += (apart**2).sum(1) - (by_levels**2).sum(1)
+        around_level = np.maximum(around_level, 0.0)
         share = around_level * size / np.where(alone, 1, size - 1)
         variance = np.where(alone, self._variance, share)
         return np.sqrt(variance) * self.scale.points_per_log_odds
+
+    @property
+    def expected(self) -> Floats:
+        """What each player was expected to be before any result, in points."""
+        means = self._means or PriorMeans.none(len(self.players))
+        return self.anchor + self.scale.points_per_log_odds * means.expected(self._level)
+
+    @property
+    def newcomer_share(self) -> float:
+        """The part of `levels.newcomers` by which a newcomer is below the average player."""
+        games = (self.games + self.races_won + self.races_lost)[~self.idle]
+        return float((1.0 - newness(games)).mean()) if len(games) else 0.0
+
+    @property
+    def newcomer(self) -> float:
+        """How far below the average of those who have played a newcomer begins, in points."""
+        return self.scale.points(self.levels.newcomers) * self.newcomer_share
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Each team and division that `levels` counts: how far above the average one it is.
+
+        Within a kind of group the strongest comes first.
+        """
+        if self._means is None or not self._means.names:
+            return ()
+        kinds = np.array([kind for kind, _ in self._means.names])
+        same = (kinds[:, None] == kinds).astype(float)
+        contrast = np.eye(len(kinds)) - same / same.sum(1)
+        covariance = contrast @ self._curvature.level_covariance @ contrast.T
+        above = self.scale.points_per_log_odds * contrast @ self._level
+        error = self.scale.points_per_log_odds * np.sqrt(np.diagonal(covariance))
+        found = [
+            Group(kind, name, float(points), float(sd))
+            for (kind, name), points, sd in zip(self._means.names, above, error, strict=True)
+        ]
+        return tuple(sorted(found, key=lambda one: (one.kind, -one.above, one.name)))
 
     @property
     def break_error(self) -> float | None:
@@ -269,7 +338,7 @@ class Ratings:
     def _curvature(self) -> Curvature:
         advantage = self.scale.log_odds(self.break_advantage or 0.0)
         return self._played.curvature(
-            self._skill, advantage, self.prior_sd**-2, self._break_precision
+            self._skill, advantage, self.prior_sd**-2, self._break_precision, self._means
         )
 
     def _levels(self) -> list[tuple[Bools, Floats]]:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.ratings.calibration import Estimate, bootstrap_ratio
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.gains import FEWEST_STRETCHES, gains_over
+from evenbreak.ratings.levels import Levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stretches import stretch_losses
 
-HALF_LIVES = (90.0, 180.0, 365.0)
-"""The half-lives tried, in days."""
-
-FEWEST_STRETCHES = 10
-"""Stretches from which they can be compared."""
+HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)
+"""The half-lives tried, in days; the longer ones only in files that cover as many days."""
 
 
 class HalfLifeGain(NamedTuple):
@@ -33,38 +32,38 @@ class HalfLifeGain(NamedTuple):
     gain: Estimate
 
 
+def half_lives_for(results: Results) -> tuple[float, ...]:
+    """Return the half-lives to try: those up to a year, and those that the file is longer than."""
+    dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
+    days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
+    return tuple(one for one in HALF_LIVES if one <= max(days, 365.0))
+
+
 def half_life_gains(
     results: Results,
     prior_sd: float,
-    rng: np.random.Generator,
     *,
+    levels: Levels | None = None,
+    half_lives: Sequence[float] | None = None,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> tuple[HalfLifeGain, ...]:
-    """Return what each of `HALF_LIVES` gains in predicting a season from the days before.
+    """Return what each half-life gains in predicting a season from the days before.
 
-    All ways of rating predict the same stretches with the same prior, so the intervals are
-    those of the differences, the stretches resampled. Nothing is returned for a season of
-    fewer than ten stretches.
+    Nothing is returned for a season of fewer than ten stretches.
 
     Parameters
     ----------
     results, progress
         as for `stretch_losses`.
-    prior_sd
-        standard deviation of the prior in natural log-odds.
-    rng
-        resamples the stretches.
+    prior_sd, levels
+        as for `fit`.
+    half_lives
+        days; None: those of `half_lives_for`.
     """
-    ways = [{"prior_sd": prior_sd, "half_life": days} for days in (None, *HALF_LIVES)]
+    tried = half_lives_for(results) if half_lives is None else half_lives
+    how = {"prior_sd": prior_sd, "levels": levels}
+    ways = [{**how, "half_life": days} for days in (None, *tried)]
     found = stretch_losses(results, ways, progress=progress)
-    stretches = np.arange(len(found.losses))
-    if len(stretches) < FEWEST_STRETCHES:
+    if len(found.losses) < FEWEST_STRETCHES:
         return ()
-    ageless = found.losses[:, 0]
-    return tuple(
-        HalfLifeGain(
-            days,
-            bootstrap_ratio(ageless - found.losses[:, column], found.predicted, stretches, rng),
-        )
-        for column, days in enumerate(HALF_LIVES, 1)
-    )
+    return tuple(map(HalfLifeGain, tried, gains_over(found)))

@@ -22,6 +22,7 @@ from scipy.special import expit
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.ratings.covariance import Curvature, sums_by_player
 from evenbreak.ratings.own_break_wins import BreakWinsTerms
+from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.race_likelihood import race_slopes
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.who_broke import count_broken
@@ -104,11 +105,17 @@ class LikelihoodTerms:
         return self._net(pull), float(self.broke @ miss - self.own_break_weight @ own_breaks)
 
     def curvature(
-        self, skill: Floats, advantage: float, precision: float, break_precision: float | None
+        self,
+        skill: Floats,
+        advantage: float,
+        precision: float,
+        break_precision: float | None,
+        means: PriorMeans | None = None,
     ) -> Curvature:
         """Return the Hessian of the negative log-posterior.
 
-        Where `break_precision` is None the break advantage is not estimated.
+        Where `break_precision` is None the break advantage is not estimated; where `means` is
+        None players share no levels.
         """
         difference = skill[self.low] - skill[self.high]
         x = difference[self.pair] + advantage * self.broke
@@ -123,7 +130,9 @@ class LikelihoodTerms:
             spread = self.own_breaks.log_sums(advantage)[2]
             corner = float((self.broke != 0) @ bend - self.own_break_weight @ spread)
             corner += break_precision
-        return Curvature(self.players, self.low, self.high, weight, precision, border, corner)
+        return Curvature(
+            self.players, self.low, self.high, weight, precision, border, corner, means
+        )
 
     def _net(self, pull: Floats) -> Floats:
         """Return the sum for each player over their pairs, counted negative where they are high."""

@@ -15,6 +15,7 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.newton import Mode, find_zero, step_accuracy, tolerance
+from evenbreak.ratings.prior_means import PriorMeans
 
 _FULL_STEP = 1e-6
 """Newton steps shorter than this are taken whole: the value can no longer measure their gain."""
@@ -26,9 +27,10 @@ def find_mixed_mode(
     *,
     advantage: float = 0.0,
     break_precision: float | None = None,
+    means: PriorMeans | None = None,
     start: Floats | None = None,
 ) -> Mode:
-    """Return the skills, and then the break advantage, that are most likely a posteriori.
+    """Return the skills, levels and break advantage, in this order, most likely a posteriori.
 
     Parameters
     ----------
@@ -40,6 +42,8 @@ def find_mixed_mode(
         the break advantage in log-odds: known, or where to begin.
     break_precision
         the prior precision of the advantage, about 0; None: it is known.
+    means
+        the means of the skills' priors and the levels that players share; None: all 0, and none.
     start
         skills from which to begin.
 
@@ -48,27 +52,30 @@ def find_mixed_mode(
     AccuracyError
         if the gradient does not come down to rounding.
     """
+    players = terms.players
+    known = PriorMeans.none(players) if means is None else means
 
     def cost(point: Floats) -> float:
-        skill, advantage = point[:-1], float(point[-1])
-        prior = 0.5 * precision * float(skill @ skill)
-        prior += 0.5 * (break_precision or 0.0) * advantage**2
+        skill, level, advantage = point[:players], point[players:-1], float(point[-1])
+        prior = 0.5 * (break_precision or 0.0) * advantage**2
+        prior -= known.log_density(skill, level, precision)
         return prior - terms.log_likelihood(skill, advantage)
 
-    skill = np.zeros(terms.players) if start is None else start
-    begin = np.append(skill, advantage)
+    skill = known.mean if start is None else start
+    begin = np.concatenate([skill, np.zeros(len(known.level_sd)), [advantage]])
     value = cost(begin)
 
     def gradient_at(point: Floats) -> tuple[Floats, Callable[[], Floats]]:
-        skill, advantage = point[:-1], float(point[-1])
+        skill, level, advantage = point[:players], point[players:-1], float(point[-1])
         gradient, slope = terms.derivatives(skill, advantage)
-        gradient = gradient + precision * skill
+        of_skill, of_level = known.slopes(skill, level, precision)
+        gradient = np.append(gradient + of_skill, of_level)
         slope = slope + break_precision * advantage if break_precision is not None else 0.0
         whole = np.append(gradient, slope)
 
         def step() -> Floats:
             nonlocal value
-            curvature = terms.curvature(skill, advantage, precision, break_precision)
+            curvature = terms.curvature(skill, advantage, precision, break_precision, means)
             full = np.append(*curvature.newton_step(gradient, slope, step_accuracy(whole)))
             length, longest = 1.0, float(np.abs(full).max())
             while True:

@@ -10,6 +10,7 @@ from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.prior_means import PriorMeans
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +43,12 @@ class PairCounts:
         advantage: float,  # noqa: ARG002
         precision: float,
         break_precision: float | None,  # noqa: ARG002
+        means: PriorMeans | None = None,
     ) -> Curvature:
         """Return the Hessian of the negative log-posterior; the break does not matter here."""
         difference = skill[self.low] - skill[self.high]
         weight = self.games.data * expit(difference) * expit(-difference)
-        return Curvature(len(skill), self.low, self.high, weight, precision)
+        return Curvature(len(skill), self.low, self.high, weight, precision, means=means)
 
 
 def count_pairs(

@@ -1,21 +1,28 @@
-"""How wide the prior should be: the width that predicts the next matches best.
+"""What to assume about players before their results: the prior that predicts later matches best.
 
-Each stretch of a season is predicted from the days before it with each width (see
-`evenbreak.ratings.stretches`). The width under which the actual results were most likely is
-chosen, if the results are enough to choose by.
+Each stretch of a season is predicted from the days before it (see `evenbreak.ratings.stretches`),
+in one search for the width of the prior, for what the file knows about players (see
+`evenbreak.ratings.levels`), and for the half-life of old results. The width under which the actual
+results were most likely is chosen first, if the results are enough to choose by. Then each of the
+others is added in turn where it clearly predicts better, and the width is chosen anew.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
+from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.gains import gains_over, is_clear
+from evenbreak.ratings.half_life import half_lives_for
+from evenbreak.ratings.levels import Levels, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stretches import StretchLosses, stretch_losses
 
@@ -30,6 +37,51 @@ VAGUE = 4.0
 
 FEWEST = 100
 """Games (or matches known by the winner alone) to predict before a width is chosen by them."""
+
+TRIED = {
+    "race": (0.25, 0.5, 0.75, 1.0, 1.25),
+    "division_sd": (0.1, 0.2, 0.4, 0.8),
+    "team_sd": (0.1, 0.2, 0.4, 0.8),
+    "newcomers": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
+}
+"""The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
+
+STEP = 0.05
+"""How far apart sizes are from which the standard error of the best one is taken."""
+
+Progress = Callable[[int, int], None]
+
+
+class Evidence(NamedTuple):
+    """What it gains to let one more thing count.
+
+    Parameters
+    ----------
+    of
+        a field of `Levels`, or 'half_life'.
+    tried
+        the sizes that were tried; for 'half_life' days.
+    gains
+        how much log-loss a game each of them saves, in nats, given what was added before.
+    used
+        whether it clearly predicts better, and is used.
+    value
+        the size that predicts best.
+    standard_error
+        how far off that may be; None where it is not used, or only a few sizes were compared.
+    """
+
+    of: str
+    tried: tuple[float, ...]
+    gains: tuple[Estimate, ...]
+    used: bool
+    value: float
+    standard_error: float | None = None
+
+    @property
+    def gain(self) -> Estimate:
+        """What the best of the sizes tried gains."""
+        return max(self.gains, key=lambda one: one.value)
 
 
 class PriorChoice(NamedTuple):
@@ -52,6 +104,12 @@ class PriorChoice(NamedTuple):
         whether that range is narrow enough to choose by, and 100 results were predicted.
     as_it_went
         the log-loss where each stretch has the width that did best before it.
+    levels
+        what the file knows about players, as far as it clearly helps.
+    half_life
+        days after which a match counts half; None: old games count in full.
+    evidence
+        what each of these gains.
     """
 
     prior_sd: float
@@ -62,23 +120,29 @@ class PriorChoice(NamedTuple):
     high: float
     learnt: bool
     as_it_went: float
+    levels: Levels = Levels()
+    half_life: float | None = None
+    evidence: tuple[Evidence, ...] = ()
 
 
 def best_prior(
     results: Results,
     *,
     widths: Sequence[float] = WIDTHS,
-    half_life: float | None = None,
+    half_life: float | Literal["best"] | None = "best",
     break_advantage: float | str | None = None,
     scale: Any = "npl",
-    progress: Callable[[int, int], None] = lambda _done, _all: None,
+    progress: Progress = lambda _done, _all: None,
 ) -> PriorChoice:
-    """Return the width of the prior whose ratings predict later matches best.
+    """Return the prior, and the half-life, whose ratings predict later matches best.
 
-    Predictions take the ratings at face value, without their uncertainty. Players who
-    have not played yet are predicted to be average, so the matches of newcomers count too.
+    Predictions take the ratings at face value, without their uncertainty. Players who have not
+    played yet are predicted at the mean of their prior, so the matches of newcomers count too.
     Where fewer than 100 games are predicted, or widths four times apart predict equally well,
     there are too few results to choose by, and the width nearest to the default is returned.
+
+    Levels and half-lives are added one after another where they clearly predict better (see
+    `evenbreak.ratings.gains`).
 
     Parameters
     ----------
@@ -86,10 +150,12 @@ def best_prior(
         matches on at least two days, all with a date; forfeits and 0-0 may lack one.
     widths
         the standard deviations to try, in natural log-odds.
-    half_life, break_advantage, scale
+    half_life
+        'best' to choose it; else as for `fit`.
+    break_advantage, scale
         as for `fit`; the scale only matters for a break advantage in points.
     progress
-        called with how many stretches are done, and of how many.
+        called with how much is done, and of how much.
 
     Raises
     ------
@@ -111,31 +177,106 @@ def best_prior(
     if not len(widths):
         raise InputError("widths is empty; give at least one standard deviation")
     tried = np.sort(np.asarray(widths, dtype=float))
-    ways = [
-        {
-            "prior_sd": width,
-            "half_life": half_life,
-            "break_advantage": break_advantage,
-            "scale": scale,
-        }
-        for width in tried.tolist()
-    ]
-    found = stretch_losses(results, ways, progress=progress)
-    total = found.losses.sum(0)
-    good = tried[total <= total.min() + AS_GOOD]
-    predicted = int(found.predicted.sum())
-    learnt = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
-    best = total if learnt else _from_default(tried)
-    return PriorChoice(
-        float(tried[best.argmin()]),
-        tuple(tried.tolist()),
-        tuple(found.means.tolist()),
-        predicted,
-        float(good[0]),
-        float(good[-1]),
-        learnt,
-        _as_it_went(found, tried),
+    more = {name: TRIED[name] for name in known_levels(results)}
+    if half_life == "best":
+        more["half_life"] = half_lives_for(results)
+    way: dict[str, Any] = {
+        "half_life": None if half_life == "best" else half_life,
+        "break_advantage": break_advantage,
+        "scale": scale,
+        "levels": Levels(),
+    }
+    search = _Search(results, len(more) + 2, progress)
+    choice = search.width(tried, way)
+    if not choice.learnt:
+        return choice
+    evidence = []
+    for name, sizes in more.items():
+        found = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd})
+        evidence.append(found)
+        if found.used:
+            way = _with(way, name, found.value)
+    if any(found.used for found in evidence):
+        choice = search.width(tried, way)._replace(learnt=True)
+        best = {**way, "prior_sd": choice.prior_sd}
+        evidence = [search.sharpened(found, best) for found in evidence]
+        for found in evidence:
+            way = _with(way, found.of, found.value) if found.used else way
+    return choice._replace(
+        levels=way["levels"], half_life=way["half_life"], evidence=tuple(evidence)
     )
+
+
+def _with(way: Mapping[str, Any], name: str, value: float) -> dict[str, Any]:
+    """Return a way to rate with one more thing that counts."""
+    if name == "half_life":
+        return {**way, name: value}
+    return {**way, "levels": replace(way["levels"], **{name: value})}
+
+
+class _Search:
+    """The steps of a search, each of which goes through the whole season once."""
+
+    def __init__(self, results: Results, steps: int, progress: Progress) -> None:
+        self._results = results
+        self._steps, self._done = steps, 0
+        self._progress = progress
+
+    def _losses(self, ways: Sequence[Mapping[str, Any]]) -> StretchLosses:
+        steps = max(self._steps, self._done + 1)
+
+        def progress(done: int, stretches: int) -> None:
+            self._progress(100 * self._done + 100 * done // stretches, 100 * steps)
+
+        found = stretch_losses(self._results, ways, progress=progress)
+        self._done += 1
+        return found
+
+    def width(self, tried: Floats, way: Mapping[str, Any]) -> PriorChoice:
+        """Return the width that predicts best, rating in some way."""
+        found = self._losses([{**way, "prior_sd": width} for width in tried.tolist()])
+        total = found.losses.sum(0)
+        good = tried[total <= total.min() + AS_GOOD]
+        predicted = int(found.predicted.sum())
+        learnt = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
+        best = total if learnt else _from_default(tried)
+        return PriorChoice(
+            float(tried[best.argmin()]),
+            tuple(tried.tolist()),
+            tuple(found.means.tolist()),
+            predicted,
+            float(good[0]),
+            float(good[-1]),
+            learnt,
+            _as_it_went(found, tried),
+            half_life=way["half_life"],
+        )
+
+    def add(self, name: str, sizes: Sequence[float], way: Mapping[str, Any]) -> Evidence:
+        """Return what it gains to let one more thing count."""
+        found = self._losses([way, *(_with(way, name, size) for size in sizes)])
+        best = sizes[int(found.means[1:].argmin())]
+        return Evidence(name, tuple(sizes), gains_over(found), is_clear(found), best)
+
+    def sharpened(self, found: Evidence, way: Mapping[str, Any]) -> Evidence:
+        """Return the same with the best size between those tried, and its standard error.
+
+        One step of Newton's method from the best of them; the error is the sandwich's, stretches
+        being independent of each other.
+        """
+        if not found.used or found.of not in ("newcomers", "race"):
+            return found
+        sizes = found.value + np.array([-STEP, 0.0, STEP])
+        losses = self._losses([_with(way, found.of, size) for size in sizes.tolist()]).losses
+        slope = (losses[:, 2] - losses[:, 0]) / (2.0 * STEP)
+        bend = float((losses[:, 0] - 2.0 * losses[:, 1] + losses[:, 2]).sum()) / STEP**2
+        if bend <= 0.0:
+            return found
+        shift = -float(slope.sum()) / bend
+        error = float(np.sqrt(((slope - slope.mean()) ** 2).sum())) / bend
+        apart = max(np.diff(found.tried).max(), 4.0 * STEP)
+        value = found.value + float(np.clip(shift, -apart, apart))
+        return found._replace(value=value, standard_error=error)
 
 
 def _from_default(widths: Floats) -> Floats:

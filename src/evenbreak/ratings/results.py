@@ -37,6 +37,9 @@ _TYPES: dict[str, Any] = {
     "break_format": np.int8,
     "racks": object,
     "event": object,
+    "team_a": object,
+    "team_b": object,
+    "division": object,
     "forfeit": np.bool_,
     "unscored": np.bool_,
 }
@@ -77,6 +80,8 @@ class Results:
         who won each rack, in order, as text like 'abba'; '' where not stated.
     event
         any text.
+    team_a, team_b, division
+        the team of each player and the division of the match; '' where not stated.
     forfeit
         whether the match was a forfeit; its scores then do not count as games played.
     unscored
@@ -111,6 +116,9 @@ class Results:
     break_format: NDArray[np.int8] | None = None
     racks: NDArray[np.object_] | None = None
     event: NDArray[np.object_] | None = None
+    team_a: NDArray[np.object_] | None = None
+    team_b: NDArray[np.object_] | None = None
+    division: NDArray[np.object_] | None = None
     forfeit: Bools | None = None
     unscored: Bools | None = None
 
@@ -172,7 +180,8 @@ class Results:
         frame
             with the columns of a results file: `player_a`, `player_b`, `score_a` and
             `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
-            `break_format`, `racks`, `event` and `forfeit` that are known. `winner` and
+            `break_format`, `racks`, `event`, `team_a`, `team_b`, `division` and `forfeit` that
+            are known. `winner` and
             `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
             match of which the races and the winner are known. Other columns are not used, which
             a warning says.
@@ -265,9 +274,35 @@ class Results:
         columns: dict[str, Any] = {}
         for name, kind in _TYPES.items():
             values = getattr(self, name)
-            unstated = "" if kind is object else 0
-            more = np.array([given.get(name, unstated)], dtype=kind)
+            more = np.array([given[name]], dtype=kind) if name in given else _unstated(name, 1)
             columns[name] = None if values is None else np.concatenate([values, more])
+        return Results(self.players, **columns)
+
+    def joined(self, later: Results) -> Results:
+        """Return the results with those of `later`, which are between the same players, at the end.
+
+        Columns that only one of them has are filled up with what is not stated.
+        """
+        if self.players != later.players:
+            raise InputError("the results are not between the same players; give one list of names")
+        columns: dict[str, Any] = {}
+        for name in _TYPES:
+            parts = [getattr(self, name), getattr(later, name)]
+            if any(part is not None for part in parts):
+                unstated = [_unstated(name, len(self)), _unstated(name, len(later))]
+                filled = [
+                    empty if part is None else part
+                    for part, empty in zip(parts, unstated, strict=True)
+                ]
+                columns[name] = np.concatenate(filled)
+        return Results(self.players, **columns)
+
+    def unplayed(self) -> Results:
+        """Return the matches as they stood before they were played: at 0-0, without a winner."""
+        columns = {name: getattr(self, name) for name in _TYPES}
+        for name in ("score_a", "score_b", "winner", "racks", "forfeit", "unscored"):
+            if columns[name] is not None:
+                columns[name] = _unstated(name, len(self))
         return Results(self.players, **columns)
 
     def played(self) -> Played:
@@ -293,3 +328,11 @@ class Results:
         if self.unscored is None:
             return self.select(np.zeros(0, dtype=np.int64))
         return self.select(self.unscored & ~self.given_away)
+
+
+def _unstated(name: str, rows: int) -> NDArray[Any]:
+    """Return a column of which nothing is stated."""
+    kind = _TYPES[name]
+    if name == "date":
+        return np.full(rows, "NaT", dtype=kind)
+    return np.full(rows, "" if kind is object else 0, dtype=kind)

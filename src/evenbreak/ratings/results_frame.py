@@ -21,7 +21,8 @@ Meaning = TypeVar("Meaning")
 
 NAMES, SCORES, RACES = ("player_a", "player_b"), ("score_a", "score_b"), ("race_a", "race_b")
 SIDES = ("winner", "first_break")
-_OTHERS = ("date", "break_format", "racks", "event", "forfeit")
+GROUPS = ("team_a", "team_b", "division")
+_OTHERS = ("date", "break_format", "racks", "event", *GROUPS, "forfeit")
 COLUMNS = (*NAMES, *SCORES, *RACES, *SIDES, *_OTHERS)
 _MOST_PROBLEMS = 20
 
@@ -110,7 +111,8 @@ def columns_of(reader: FrameReader) -> dict[str, Any]:
     formats = "winner, loser, alternate, a or b"
     columns["break_format"] = reader.read("break_format", _format, formats, 0)
     columns["racks"] = reader.read("racks", _racks, "text of a and b such as 'abba'", "")
-    columns["event"] = reader.read("event", str, "text", "")
+    for name in ("event", *GROUPS):
+        columns[name] = reader.read(name, str, "text", "")
     for name in SIDES:
         columns[name] = _sides(reader, name, *names)
     columns["unscored"] = _unscored(reader, columns)

@@ -79,8 +79,8 @@ def stretch_losses(
     predicted = np.zeros(len(stretches))
     breaks = any(way.get("break_advantage") is not None for way in ways)
     for row, (first, last) in enumerate(stretches):
-        before = played.select(date < first)
         coming = played.select((date >= first) & (date <= last))
+        before = _with_schedule(played.select(date < first), coming)
         scored, won_only = coming.played().results, coming.won_only()
         weights = np.ones(len(scored)), np.ones(len(won_only))
         terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
@@ -94,10 +94,29 @@ def stretch_losses(
     return StretchLosses(losses, predicted)
 
 
+def can_be_predicted(results: Results) -> bool:
+    """Return whether all matches that count have a date, and there are two days at least.
+
+    >>> can_be_predicted(Results.from_names(["A"], ["B"], [7], [5], date=["2026-01-31"]))
+    False
+    """
+    played = results.select(results.counted)
+    return played.date is not None and len(np.unique(played.date)) > 1 and not _undated(played)
+
+
+def _undated(played: Results) -> int:
+    return len(played) if played.date is None else int(np.isnat(played.date).sum())
+
+
+def _with_schedule(before: Results, coming: Results) -> Results:
+    """Return matches, and others as they stand before they are played: at 0-0, without a winner."""
+    return before.joined(coming.unplayed())
+
+
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
     """Return the matches that count and their dates, or refuse those without one."""
     played = results.select(results.counted)
-    undated = len(played) if played.date is None else int(np.isnat(played.date).sum())
+    undated = _undated(played)
     if undated:
         raise InputError(
             f"{undated:,} of {len(played):,} matches have no date, but a prior is chosen by how "

@@ -18,11 +18,15 @@ from evenbreak.ratings.advantages import (
     first_column,
     side_advantage,
 )
+from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
+from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.match_form import MatchForm, match_form
 from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
 from evenbreak.ratings.results import Results
@@ -44,6 +48,8 @@ class Validation:
     ----------
     forecasts
         the predictions with the prior `prior_sd`.
+    ratings
+        what `fit` makes of all these matches in the same way.
     prior_sd
         the prior that was given, or else the one that `best_prior` chooses.
     choice
@@ -57,8 +63,8 @@ class Validation:
         log-loss of plug-in less that of integrated, by what is predicted: above 0,
         integrating out the uncertainty helps.
     half_lives
-        what it gains to let old games count less; empty where a half-life was given, or the
-        season is too short to say.
+        what it gains to let old games count less; empty unless `half_life` is 'best', or where
+        the season is too short to say.
     skill
         ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
     games, matches
@@ -67,6 +73,8 @@ class Validation:
         the same for matches, by the ratings at face value.
     toss_ups
         how many matches have no favourite and so are in no bin, by what is predicted.
+    form
+        how much chances vary from match to match; None with fewer than 100 races.
     dispersion, streaks, breaker, first_breaks
         whether play inside matches agrees with the model; None where the file does not say.
     side, first_column
@@ -76,11 +84,14 @@ class Validation:
         how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
+    experience
+        how the less experienced player of a match fared, by the games played before.
     drawn
         what the bootstrap resamples: 'dates' or 'matches'.
     """
 
     forecasts: Forecasts
+    ratings: Ratings
     prior_sd: float
     choice: PriorChoice | None
     scored: tuple[Scored, ...]
@@ -92,6 +103,7 @@ class Validation:
     matches: tuple[CalibrationBin, ...]
     matches_plug_in: tuple[CalibrationBin, ...]
     toss_ups: dict[str, int]
+    form: MatchForm | None
     dispersion: Dispersion | None
     streaks: Streaks | None
     side: Estimate | None
@@ -100,6 +112,7 @@ class Validation:
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
     lengths: tuple[RaceLengths, ...]
+    experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
 
 
@@ -107,7 +120,7 @@ def validate(
     results: Results,
     *,
     prior_sd: float | None = None,
-    half_life: float | None = None,
+    half_life: float | Literal["best"] | None = "best",
     seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
@@ -118,11 +131,11 @@ def validate(
     results
         the matches, with dates.
     prior_sd
-        standard deviation of the prior in natural log-odds; None: the one that `best_prior`
-        chooses from all matches with a date.
+        standard deviation of the prior in natural log-odds, the same for everybody; None: the
+        prior that `best_prior` chooses from all matches with a date, with levels if they help.
     half_life
-        days after which a game counts half; None: games never age, and it is tested whether
-        that is right.
+        days after which a game counts half; None: games never age. 'best': chosen with the
+        prior, or where that is given, games never age, and it is tested whether that is right.
     seed
         of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
@@ -146,26 +159,33 @@ def validate(
     """
     check_results(results)
     seed = seed_of(seed)
-    parts = _parts(progress, 1 + 2 * (prior_sd is None) + (half_life is None))
-    walk = walk_forward(
+    many = 4 if prior_sd is None else 2
+    parts = _parts(progress, many)
+    choice = None
+    half_lives: tuple[HalfLifeGain, ...] = ()
+    never = None if half_life == "best" else half_life
+    walk = usual_walk = walk_forward(
         results,
         prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
-        half_life=half_life,
+        half_life=never,
         progress=next(parts),
     )
-    usual_walk, choice = walk, None
     dated = results.select(~np.isnat(np.asarray(results.date)))
     if prior_sd is None:
         choice = best_prior(dated, half_life=half_life, progress=next(parts))
-        shown = next(parts)
-        if choice.prior_sd != PRIOR_SD:
+        half_lives = _tested(choice)
+        if (choice.prior_sd, choice.half_life, choice.levels) != (PRIOR_SD, never, Levels()):
             walk = walk_forward(
-                results, prior_sd=choice.prior_sd, half_life=half_life, progress=shown
+                results,
+                prior_sd=choice.prior_sd,
+                half_life=choice.half_life,
+                levels=choice.levels,
+                progress=next(parts),
             )
+    if half_life == "best" and not half_lives:
+        half_lives = half_life_gains(dated, walk.prior_sd, progress=next(parts))
+    progress(100 * many, 100 * many)
     rng = np.random.default_rng(seed)
-    half_lives: tuple[HalfLifeGain, ...] = ()
-    if half_life is None:
-        half_lives = half_life_gains(dated, walk.prior_sd, rng, progress=next(parts))
     raced = bool(walk.race_a.any())
     of_all: tuple[Of, ...] = ("game", "match") if raced else ("game",)
     hows: tuple[How, ...] = ("plug-in", "integrated")
@@ -183,6 +203,9 @@ def validate(
         )
     return Validation(
         forecasts=walk,
+        ratings=fit(
+            walk.results, prior_sd=walk.prior_sd, half_life=walk.half_life, levels=walk.levels
+        ),
         prior_sd=walk.prior_sd,
         choice=choice,
         scored=tuple(one.scored(cluster, rng) for one in made.values()),
@@ -202,6 +225,7 @@ def validate(
         matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
         matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
         toss_ups={of: made[of, "integrated"].toss_ups for of in of_all},
+        form=match_form(walk, cluster, np.random.default_rng(seed)),
         dispersion=spread,
         streaks=streaks(walk),
         side=side_advantage(walk),
@@ -210,7 +234,18 @@ def validate(
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
         lengths=tuple(race_lengths(walk)),
+        experience=tuple(by_experience(walk)),
         drawn="dates" if by_dates else "matches",
+    )
+
+
+def _tested(choice: PriorChoice) -> tuple[HalfLifeGain, ...]:
+    """Return what each half-life gains, as it was found when the prior was chosen."""
+    return tuple(
+        HalfLifeGain(days, gain)
+        for found in choice.evidence
+        if found.of == "half_life"
+        for days, gain in zip(found.tried, found.gains, strict=True)
     )
 
 

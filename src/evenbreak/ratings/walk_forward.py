@@ -22,6 +22,7 @@ from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.daily_refit import DailyRefit
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
+from evenbreak.ratings.levels import Knowledge, Levels
 from evenbreak.ratings.results import Results
 
 NODES = 31
@@ -56,7 +57,7 @@ class Forecasts:
         P(a wins the match), likewise; NaN where there is no race.
     won
         1 where a won the race, 0 where b did, NaN where there is none.
-    prior_sd, half_life
+    prior_sd, half_life, levels
         what the ratings were fitted with.
     undated, forfeits, empty, unscored
         rows left out because they have no date, are forfeits, stand at 0-0, or state only
@@ -78,6 +79,7 @@ class Forecasts:
     won: Floats
     prior_sd: float
     half_life: float | None
+    levels: Levels
     undated: int
     forfeits: int
     empty: int
@@ -105,6 +107,7 @@ def walk_forward(
     *,
     prior_sd: float = PRIOR_SD,
     half_life: float | None = None,
+    levels: Levels | None = None,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Forecasts:
     """Predict every dated match of `results` from the matches of earlier dates alone.
@@ -117,6 +120,8 @@ def walk_forward(
         standard deviation of the prior in natural log-odds.
     half_life
         days after which a game counts half; None: games never age.
+    levels
+        how far newcomers are behind, and how much teams and divisions differ.
     progress
         called with how many dates are done, and of how many.
 
@@ -151,7 +156,9 @@ def walk_forward(
             "in the column date, so that earlier dates can predict later ones"
         )
     a, b = season.player_a, season.player_b
-    league = DailyRefit(len(season.players), a, b, precision)
+    levels = levels or Levels()
+    knowledge = Knowledge(season, levels)
+    league = DailyRefit(len(season.players), a, b, precision, knowledge.means())
     difference, variance = np.zeros(len(season)), np.zeros(len(season))
     starts = np.searchsorted(date_of, np.arange(len(days) + 1))
     for day, (start, end) in enumerate(pairwise(starts)):
@@ -159,9 +166,12 @@ def walk_forward(
         if half_life is not None and day:
             passed = (days[day] - days[day - 1]).astype(int)
             league.fade(0.5 ** (float(passed) / half_life))
+        knowledge.see(rows)
+        league.begin_day(knowledge.means() if levels else None)
         difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
         variance[rows] = league.difference_variance(a[rows], b[rows])
         league.learn(rows, season.score_a[rows], season.score_b[rows])
+        knowledge.play(rows)
         progress(day + 1, len(days))
     return _forecasts(
         season,
@@ -170,6 +180,7 @@ def walk_forward(
         np.sqrt(variance),
         prior_sd=float(prior_sd),
         half_life=half_life,
+        levels=levels,
         **left_out,
     )
 

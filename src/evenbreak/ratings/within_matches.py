@@ -20,6 +20,9 @@ from evenbreak.ratings.walk_forward import Forecasts
 REPLICAS = 300
 """Simulated seasons."""
 
+MOST_SIMULATED = 5_000_000
+"""Matches in all of them: the more matches a season has, the fewer seasons are needed."""
+
 LONGEST_SIMULATED = 1000
 """Games needed in the longest race that is simulated: each game of it takes memory."""
 
@@ -81,8 +84,8 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
     p = forecasts.p_game_integrated[rows]
     m, n = forecasts.race_a[rows], forecasts.race_b[rows]
     seen = _spread(forecasts.results.score_a[rows], forecasts.games[rows], p)
-    played = np.empty(REPLICAS)
-    for k in range(REPLICAS):
+    played = np.empty(min(REPLICAS, MOST_SIMULATED // len(p) + 2))
+    for k in range(len(played)):
         drawn = expit(forecasts.difference[rows] + forecasts.sd[rows] * rng.standard_normal(len(p)))
         won, games = play_races(drawn, m, n, rng)
         played[k] = _spread(won, games, p)

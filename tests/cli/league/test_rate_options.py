@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.league.rate_options import DAYS, PointsOr, prior_in_log_odds, read_day
+from evenbreak.cli.league.rate_options import DAYS, NumberOr, prior_in_log_odds, read_day
 from evenbreak.ratings import scale_of
 
 
@@ -12,16 +12,16 @@ def read(kind, text):
 
 
 def test_a_number_of_points_or_the_word_in_any_case():
-    prior = PointsOr("best", 0.0)
+    prior = NumberOr("best", 0.0)
     assert read(prior, "22.5") == 22.5
     assert read(prior, " Best ") == "best"
-    assert read(PointsOr("fit", -1e6), "-3") == -3.0
+    assert read(NumberOr("fit", -1e6), "-3") == -3.0
 
 
 @pytest.mark.parametrize("text", ["-1", "wide", "nan", "1e9", ""])
 def test_other_words_are_refused_with_the_one_that_is_known(text):
     with pytest.raises(click.BadParameter, match="best"):
-        read(PointsOr("best", 0.0), text)
+        read(NumberOr("best", 0.0), text)
 
 
 @pytest.mark.parametrize("text", ["2026-01-31", "31.1.2026", "2026/1/31"])

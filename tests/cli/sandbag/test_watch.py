@@ -99,3 +99,28 @@ def test_what_is_wrong_is_refused_by_name(run, words, named):
     result = run("sandbag", "watch", *words)
     assert (result.exit_code, result.stdout) == (2, "")
     assert named in result.stderr
+
+
+@pytest.fixture
+def plain(tmp_path):
+    """A season without races, between players of whom nobody has a rating of their own."""
+    season, roster = tmp_path / "season.csv", tmp_path / "roster.csv"
+    days = [(f"2025-09-{day:02d}", "Bo" if day % 2 else "Cy", day % 4) for day in range(1, 29)]
+    rows = [f"{date},Ann,{other},7,{lost}" for date, other, lost in days]
+    season.write_text("\n".join(["date,player_a,player_b,score_a,score_b", *rows]))
+    roster.write_text("player,rating\nAnn,80\nBo,80\nCy,80\n")
+    return str(season), "--roster", str(roster)
+
+
+def test_races_that_are_not_stated_are_even(run, plain):
+    result = run("sandbag", "watch", *plain, "--player", "Ann", "--json")
+    assert result.exit_code == 0, result.stderr
+    assert "28 matches" in result.stderr
+    matches = json.loads(result.stdout)["matches"]
+    assert {(row["needs"], row["opponent_needs"]) for row in matches} == {(7, 7)}
+
+
+def test_established_is_doubted_where_players_have_no_ratings_of_their_own(run, plain):
+    assert "3 of 3 players" in run("sandbag", "watch", *plain, "--honest", "established").stderr
+    assert "3 of 3 players" not in run("sandbag", "watch", *plain).stderr
+    assert "established" not in run("sandbag", "watch", *SEASON, "--honest", "established").stderr

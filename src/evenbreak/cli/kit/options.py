@@ -167,16 +167,31 @@ dates_option = click.option(
 def results_options(command: Command) -> Command:
     """Add the options of every command that reads results, which gets them as `reading`.
 
-    They are --aliases, --columns and --dates, by the names that `files.read_results` has.
+    They are --aliases, --columns, --dates and --skip-bad, by the names that `files.read_results`
+    has.
     """
 
-    def run(*, aliases: str | None, columns: dict[str, str], dates: str | None, **rest: Any) -> Any:
-        return command(reading={"aliases": aliases, "columns": columns, "dates": dates}, **rest)
+    def run(
+        *,
+        aliases: str | None,
+        columns: dict[str, str],
+        dates: str | None,
+        skip_bad: bool,
+        **rest: Any,
+    ) -> Any:
+        reading = {"aliases": aliases, "columns": columns, "dates": dates, "skip_bad": skip_bad}
+        return command(reading=reading, **rest)
 
     wrapped: Any = update_wrapper(run, command)
     return with_options(  # type: ignore[no-any-return]
         wrapped,
         dates_option,
+        click.option(
+            "--skip-bad",
+            is_flag=True,
+            help="Leave out rows that cannot be read and scores that can hardly be games, and list "
+            "them.  [default: refuse the file]",
+        ),
         click.option(
             "--columns",
             multiple=True,

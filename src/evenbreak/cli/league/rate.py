@@ -15,7 +15,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, results_options, scale_option
 from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, number_of, refuse
-from evenbreak.cli.league.rate_options import PointsOr, how_to_rate, rated
+from evenbreak.cli.league.rate_options import NumberOr, how_to_rate, rated
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
@@ -37,14 +37,15 @@ FIT_ONLY = {
 EXAMPLES = """\b
 Examples:
   evenbreak rate season.csv --scale fargo
-  evenbreak rate season.csv --prior best --half-life 180
+  evenbreak rate last.csv this.csv --half-life 180
+  evenbreak rate season.csv --prior 20 --half-life 180
   evenbreak rate season.csv --anchor "Ann Lee=95" --pair "Ann Lee" "Bo Diaz"
   evenbreak rate --system npl --roster last.csv tonight.csv
 """
 
 
 @click.command("rate", epilog=EXAMPLES)
-@click.argument("results", metavar="RESULTS.csv")
+@click.argument("results", metavar="RESULTS.csv...", nargs=-1, required=True)
 @scale_option(fixed=False)
 @click.option(
     "--anchor",
@@ -58,7 +59,7 @@ Examples:
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
-    type=PointsOr("fit", -1e6),
+    type=NumberOr("fit", -1e6),
     help="How many points better the breaker plays; fit: estimate this, where the file says who "
     "broke.  [default: the break does not matter]",
 )
@@ -89,7 +90,7 @@ Examples:
 @results_options
 @faces()
 def command(
-    results: str,
+    results: tuple[str, ...],
     system: handicaps.System | None,
     roster: str | None,
     chart: str | None,
@@ -102,7 +103,8 @@ def command(
     score_b; or winner, loser and score, such as 7-5. Where the score is not known, race and
     winner will do; racks (who won each rack, such as abba) can replace the score. It may
     also be a workbook (.xlsx, .ods) or a tournament saved from CueScore, Challonge or
-    brackets-manager. - reads standard input.
+    brackets-manager. - reads standard input. Several files, such as one for each season, are
+    rated as one.
     """
     if system is not None:
         given = [FIT_ONLY[name] for name, value in options.items() if value not in (None, ())]
@@ -112,7 +114,11 @@ def command(
             refuse("--system needs the ratings before these results; give --roster LAST.csv")
         from evenbreak.cli.league.rate_system import rate_by_system
 
-        return rate_by_system(results, system=system, roster=roster, chart=chart, reading=reading)
+        if len(results) > 1:
+            refuse(f"--system takes one night at a time; leave out {results[1]}")
+        return rate_by_system(
+            results[0], system=system, roster=roster, chart=chart, reading=reading
+        )
     for name, value in (("--roster", roster), ("--chart", chart)):
         if value is not None:
             refuse(f"{name} is for --system; give --system npl too, or leave it out")
@@ -120,7 +126,7 @@ def command(
 
 
 def _rate(
-    path: str,
+    paths: Sequence[str],
     reading: dict[str, Any],
     *,
     scale: Scale | None,
@@ -131,7 +137,7 @@ def _rate(
 ) -> Answer:
     from evenbreak.ratings.scale import scale_of
 
-    file = files.read_results(path, **reading)
+    file = files.read_seasons(paths, **reading)
     ratings, choice = rated(
         file,
         scale or scale_of("npl"),

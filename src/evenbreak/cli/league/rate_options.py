@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from evenbreak.cli.kit.options import Command, Decorator, refuse_both, with_options
+from evenbreak.cli.kit.options import Command, refuse_both, with_options
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.ratings.scale import Scale
 
@@ -21,11 +21,11 @@ RACE_TO = 7
 """The races that are offered unless an option says otherwise."""
 
 
-class PointsOr(Number):
-    """A number of points, or a word in place of it."""
+class NumberOr(Number):
+    """A number, or a word in place of it."""
 
-    def __init__(self, word: str, low: float) -> None:
-        super().__init__(low, 1e6, f"; give a number of points, or {word}")
+    def __init__(self, word: str, low: float, wanted: str = "a number of points") -> None:
+        super().__init__(low, 1e6, f"; give {wanted}, or {word}")
         self.word = word
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
@@ -70,25 +70,23 @@ def _as_of(ctx: click.Context, param: click.Parameter, text: str | None) -> str 
 
 _DAYS_AHEAD = 366
 
-DAYS = Number(0.01, 1e6, "; give a number of days from 0.01 to 1,000,000, such as 180")
+DAYS = NumberOr("none", 0.01, "a number of days from 0.01 to 1,000,000, such as 180")
 
-
-def prior_option(default: str) -> Decorator[Any]:
-    """Return the option --prior; `default` says what applies if it is not given."""
-    return click.option(
-        "--prior",
-        metavar="POINTS|best",
-        type=PointsOr("best", 0.0),
-        help="How far apart players are assumed to be before any result (standard deviation); "
-        f"best: the value that predicts best.  [default: {default}]",
-    )
-
+prior_option = click.option(
+    "--prior",
+    metavar="POINTS|best",
+    type=NumberOr("best", 0.0),
+    help="How far apart players are assumed to be before any result (standard deviation); best: "
+    "what predicts best, and where newcomers, teams, divisions and handicap races start, if that "
+    "helps.  [default: best, if the dates can show it, else what doubles the odds]",
+)
 
 half_life_option = click.option(
     "--half-life",
-    metavar="DAYS",
+    metavar="DAYS|none",
     type=DAYS,
-    help="After this many days a match counts half.  [default: it always counts in full]",
+    help="After this many days a match counts half; none: it always counts in full.  [default: "
+    "what clearly predicts better, unless --prior gives points]",
 )
 
 
@@ -103,7 +101,7 @@ def how_to_rate(command: Command) -> Command:
             help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
-        prior_option("what doubles the odds"),
+        prior_option,
     )
 
 
@@ -112,7 +110,7 @@ def rated(
     scale: Scale,
     *,
     prior: float | str | None,
-    half_life: float | None,
+    half_life: float | str | None,
     as_of: str | None,
     anchor: float | dict[str, float] | None = None,
     break_advantage: float | str | None = None,
@@ -127,20 +125,22 @@ def rated(
     from evenbreak.errors import DataError
     from evenbreak.ratings.fit import PRIOR_SD, fit
 
+    days = None if half_life == "none" or half_life is None else float(half_life)
     choice = None
-    if prior == "best":
-        choice = _best_prior(file, scale, half_life, as_of, break_advantage)
-        prior_sd = choice.prior_sd
+    how: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": days}
+    if isinstance(prior, float):
+        how["prior_sd"] = prior_in_log_odds(prior, scale)
     else:
-        prior_sd = PRIOR_SD if prior is None else prior_in_log_odds(float(prior), scale)
+        choice = _best_prior(file, scale, half_life, as_of, break_advantage, asked=prior == "best")
+    if choice is not None:
+        how = {"prior_sd": choice.prior_sd, "half_life": choice.half_life, "levels": choice.levels}
     ratings = fit(
         file.results,
-        prior_sd=prior_sd,
         scale=scale,
         anchor=anchor,
-        half_life=half_life,
         as_of=as_of,
         break_advantage=break_advantage,
+        **how,
     )
     if not ratings.matches:
         why = "was played; add matches with games"
@@ -164,22 +164,36 @@ def prior_in_log_odds(points: float, scale: Scale) -> float:
 def _best_prior(
     file: ResultsFile,
     scale: Scale,
-    half_life: float | None,
+    half_life: float | str | None,
     as_of: str | None,
     break_advantage: float | str | None,
-) -> PriorChoice:
+    *,
+    asked: bool,
+) -> PriorChoice | None:
+    """Return the prior that predicts best; None where the dates cannot show it and nobody asked."""
     from evenbreak.cli.kit.progress import Progress
     from evenbreak.ratings.decay import day_of, until
     from evenbreak.ratings.prior import best_prior
+    from evenbreak.ratings.stretches import can_be_predicted
 
     results = file.results
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
-    with Progress("stretches predicted") as progress:
-        return best_prior(
+    if not asked and not can_be_predicted(results):
+        return None
+    with Progress("steps") as progress:
+        choice = best_prior(
             results,
-            half_life=half_life,
+            half_life=half_life_to_choose(half_life),
             break_advantage=break_advantage,
             scale=scale,
             progress=progress,
         )
+    return choice if asked or choice.learnt else None
+
+
+def half_life_to_choose(given: float | str | None) -> float | Literal["best"] | None:
+    """Return the half-life as `best_prior` takes it: what --half-life gives, or the best."""
+    if given is None:
+        return "best"
+    return None if given == "none" else float(given)

@@ -42,7 +42,7 @@ Examples:
   evenbreak report season.csv --out sheet --scale fargo --race-to 9
   evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
   evenbreak report season.csv --out sheet --html --excel
-  evenbreak report season.csv --out sheet --prior best --half-life 365
+  evenbreak report season.csv --out sheet --prior 20 --half-life 365
 """
 
 
@@ -96,7 +96,7 @@ def command(
     out: str,
     scale: Scale,
     prior: float | str | None,
-    half_life: float | None,
+    half_life: float | str | None,
     as_of: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,

@@ -11,7 +11,12 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import results_options, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.league.rate_options import half_life_option, prior_in_log_odds, prior_option
+from evenbreak.cli.league.rate_options import (
+    half_life_option,
+    half_life_to_choose,
+    prior_in_log_odds,
+    prior_option,
+)
 from evenbreak.ratings.scale import Scale
 
 EXAMPLES = """\b
@@ -23,8 +28,8 @@ Examples:
 
 
 @click.command("validate", epilog=EXAMPLES)
-@click.argument("results", metavar="RESULTS.csv")
-@prior_option("best")
+@click.argument("results", metavar="RESULTS.csv...", nargs=-1, required=True)
+@prior_option
 @half_life_option
 @scale_option()
 @seed_option("The seed of the intervals and simulated seasons.")
@@ -32,9 +37,9 @@ Examples:
 @plot_option
 @faces()
 def command(
-    results: str,
+    results: tuple[str, ...],
     prior: float | str | None,
-    half_life: float | None,
+    half_life: float | str | None,
     scale: Scale,
     seed: int,
     reading: dict[str, Any],
@@ -42,18 +47,23 @@ def command(
 ) -> Answer:
     """Find out whether the ratings of a league can be trusted.
 
-    RESULTS.csv is a file as for `rate`, with dates; - reads standard input. Each date is
+    RESULTS.csv is a file as for `rate`, with dates; - reads standard input; several are read
+    as one. Each date is
     predicted from the results of earlier dates alone, and then compared with what happened.
     """
     from evenbreak.cli.kit.progress import Progress
     from evenbreak.errors import DataError, InputError
 
     prior_sd = prior_in_log_odds(prior, scale) if isinstance(prior, float) else None
-    file = files.read_results(results, **reading)
+    file = files.read_seasons(results, **reading)
     try:
         with Progress("steps") as progress:
             found = ratings.validate(
-                file.results, prior_sd=prior_sd, half_life=half_life, seed=seed, progress=progress
+                file.results,
+                prior_sd=prior_sd,
+                half_life=half_life_to_choose(half_life),
+                seed=seed,
+                progress=progress,
             )
     except InputError as error:  # the options have been checked, so it is the data
         raise DataError([f"{file.source}: {error}"]) from None

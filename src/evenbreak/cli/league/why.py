@@ -71,6 +71,7 @@ def command(
             prior_sd=ratings.prior_sd,
             scale=scale,
             half_life=ratings.half_life,
+            levels=ratings.levels,
             as_of=day,
         )
 

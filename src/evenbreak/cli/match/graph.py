@@ -110,8 +110,28 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     try:
         title, played = game_of_catalogue(name, *chances)
     except InputError as error:
+        if chances:
+            refuse(str(error))
         refuse(f"{error}; or a match, such as 7:5; or a chart: {', '.join(CHARTS)}")
-    return f"{title[0].upper()}{title[1:]}{_with(chances)}", played
+    shown = chances or _example_chances(played)
+    return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
+
+
+def _example_chances(game: Any) -> tuple[float, ...]:
+    """Return the chances with which the catalogue has a game.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> _example_chances(Race(3, 1, Race(3, 3, Rack(0.6))))
+    (0.6,)
+    """
+    if hasattr(game, "rack"):
+        return _example_chances(game.rack)
+    if hasattr(game, "p1"):
+        return (game.p1,) if game.p2 is None else (game.p1, game.p2)
+    if hasattr(game, "shots"):
+        return tuple(game.shots)
+    # The first chance of a drill, except for the level that never fails.
+    return next(((chance,) for chance in getattr(game, "success", ()) if chance < 1.0), ())
 
 
 def _ladder(name: str) -> tuple[str, Game]:
@@ -142,6 +162,11 @@ def _match(played: MatchFormat, chances: tuple[float, ...]) -> tuple[str, Game]:
             f"{played} has about {played.scores:,} scores; give a match of up to {MOST_STATES:,}"
         )
     kind = "" if played.ahead or played.set_ else "Race "
+    if len(chances) == 2 and not played.breaks:
+        refuse(
+            f"with --p1 and --p2 the break of {played} matters; add winner breaks, loser breaks or "
+            "alternate breaks, or give --p alone"
+        )
     return f"{kind}{played}{_with(chances)}".capitalize(), played.match(Rack(*chances))
 
 

@@ -69,9 +69,18 @@ def command(
     likelier from a sandbagger than from an honest player; at 1 / alpha the player is flagged.
     It is evidence, not a verdict.
     """
-    from evenbreak.answers.sandbag_watch import sandbag_player_answer, sandbag_watch_answer
+    from evenbreak.answers.sandbag_watch import (
+        sandbag_player_answer,
+        sandbag_watch_answer,
+        unrated_doubts,
+    )
     from evenbreak.answers.scale_doubts import league_doubts
-    from evenbreak.answers.season_nights import events_marked, events_to_try, nights_of_files
+    from evenbreak.answers.season_nights import (
+        events_marked,
+        events_to_try,
+        nights_of_files,
+        with_even_races,
+    )
 
     if [results, roster, chart, reading["aliases"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
@@ -80,8 +89,12 @@ def command(
     refuse_other_scale(first, system.scale, f"the system {system.name}", "give another --system")
     warnings += [*first.warnings, *season.warnings]
     warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
+    if honest == "established":
+        warnings += unrated_doubts(first.roster, season.results)
+    if chart is None:
+        season, assumed = with_even_races(season)
+        warnings += assumed
     marked = events_marked(season.results, events) if events else None
-    # Without --chart the results must state the races or the winners.
     nights = nights_of_files(system, first, season, chart=ladder.chart if chart else None)
     found = league.watch(
         nights,

@@ -1,0 +1,197 @@
+"""What a file knows about players before their results: newcomers, teams, divisions, handicaps.
+
+Whoever has played little tends to be weaker than those who have played much; players of one
+team or division tend to be alike; and the races of a handicap league say how strong the league
+takes its players to be. `Levels` says how much each of these counts; `Knowledge` gathers, match by
+match, what a file says about each player, and makes the means of their priors of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import number
+from evenbreak.ratings.prior_means import PriorMeans
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
+
+SETTLED = 50.0
+"""Games after which half of a newcomer's disadvantage is gone."""
+
+GROUPS = {"team": ("team_a", "team_b"), "division": ("division", "division")}
+"""The columns that hold the group of player a and of player b."""
+
+
+@dataclass(frozen=True)
+class Levels:
+    """How much is known about players before their results, in natural log-odds.
+
+    Parameters
+    ----------
+    newcomers
+        how far below an experienced player somebody without a game is expected to be. Of this
+        the part 1 / (1 + games / 50) is left after some games.
+    race
+        what part of the difference that a stated race implies is taken as real: 1 where the
+        races are right.
+    team_sd, division_sd
+        how far apart teams, or divisions, are on average (standard deviation); 0 where they
+        do not matter.
+
+    Raises
+    ------
+    InputError
+        if a number is not finite, or a standard deviation is not in 0 to 100.
+
+    >>> Levels(newcomers=0.4, team_sd=0.2)
+    Levels(newcomers=0.4, race=0.0, team_sd=0.2, division_sd=0.0)
+    """
+
+    newcomers: float = 0.0
+    race: float = 0.0
+    team_sd: float = 0.0
+    division_sd: float = 0.0
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            low = 0.0 if one.name.endswith("_sd") else -100.0
+            number(getattr(self, one.name), one.name, low=low, high=100.0)
+
+    def __bool__(self) -> bool:
+        """Return whether anything is known."""
+        return any(getattr(self, one.name) for one in fields(self))
+
+
+def newness(games: Floats | Ints) -> Floats:
+    """Return what part of a newcomer's disadvantage is left after some games.
+
+    >>> newness(np.array([0, 50, 450]))
+    array([1. , 0.5, 0.1])
+    """
+    return np.asarray(SETTLED / (SETTLED + games))
+
+
+class Knowledge:
+    """What is known about each player of a league so far.
+
+    Parameters
+    ----------
+    results
+        the matches that will be seen and played, of which nothing is known yet.
+    levels
+        which of it matters.
+    """
+
+    def __init__(self, results: Results, levels: Levels) -> None:
+        self._levels = levels
+        self._players = len(results.players)
+        self._sides = results.player_a, results.player_b
+        self._games = games_of(results)
+        self._behind = np.zeros(self._players)
+        self._stated = StatedStrength(results) if levels.race else None
+        self._groups = [
+            _Groups(results, kind)
+            for kind in GROUPS
+            if getattr(levels, f"{kind}_sd") and has_groups(results, kind)
+        ]
+
+    def see(self, rows: Any) -> None:
+        """Take in the races, teams and divisions of matches, known before they are played."""
+        if self._stated is not None:
+            self._stated.see(rows)
+        for groups in self._groups:
+            groups.see(rows)
+
+    def play(self, rows: Any) -> None:
+        """Take in how many games were played in some matches."""
+        for players in self._sides:
+            self._behind += np.bincount(players[rows], self._games[rows], self._players)
+
+    def means(self) -> PriorMeans:
+        """Return the means of the players' priors, 0 on average over those who have played."""
+        design = [groups.design for groups in self._groups]
+        sds = [
+            np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd")) for one in self._groups
+        ]
+        mean = -self._levels.newcomers * newness(self._behind)
+        if self._stated is not None:
+            mean += self._levels.race * self._stated.strength()
+        whole = PriorMeans(
+            mean,
+            np.hstack([np.zeros((self._players, 0)), *design]),
+            np.concatenate([np.zeros(0), *sds]),
+            tuple((one.kind, name) for one in self._groups for name in one.names),
+        )
+        return whole.centred((self._behind > 0).astype(float))
+
+
+class _Groups:
+    """The teams, or divisions, of a league, and how often each player was seen in which."""
+
+    def __init__(self, results: Results, kind: str) -> None:
+        self.kind = kind
+        texts = [np.asarray(getattr(results, name)).astype(str) for name in GROUPS[kind]]
+        names, code = np.unique(np.concatenate(texts), return_inverse=True)
+        self.names = tuple(names[names != ""].tolist())
+        stated = code - int(names[0] == "")
+        self._code: tuple[Ints, Ints] = tuple(np.split(stated, 2))  # type: ignore[assignment]
+        self._sides = results.player_a, results.player_b
+        self._seen = np.zeros((len(results.players), len(self.names)))
+
+    def see(self, rows: Any) -> None:
+        for players, code in zip(self._sides, self._code, strict=True):
+            stated = code[rows] >= 0
+            np.add.at(self._seen, (players[rows][stated], code[rows][stated]), 1.0)
+
+    @property
+    def design(self) -> Floats:
+        """The share of each player's matches in each group, 0 where no group was stated."""
+        total = self._seen.sum(1, keepdims=True)
+        return np.asarray(self._seen / np.maximum(total, 1.0))
+
+
+def known_levels(results: Results) -> tuple[str, ...]:
+    """Return the fields of `Levels` about which results say something."""
+    says = {
+        "race": has_handicaps(results),
+        "division_sd": has_groups(results, "division"),
+        "team_sd": has_groups(results, "team"),
+        "newcomers": True,
+    }
+    return tuple(name for name, one in says.items() if one)
+
+
+def has_groups(results: Results, kind: str) -> bool:
+    """Return whether results name two teams, or two divisions, at least."""
+    columns = [getattr(results, name) for name in GROUPS[kind]]
+    if any(column is None for column in columns):
+        return False
+    return len({text for column in columns for text in column.tolist()} - {""}) > 1
+
+
+def games_of(results: Results) -> Floats:
+    """Return the games of each match; the longer race where only the winner is known."""
+    games = (results.score_a + results.score_b).astype(float)
+    if results.unscored is not None:
+        games = np.where(results.unscored, np.maximum(*results.races), games)
+    return np.asarray(np.where(results.given_away, 0.0, games))
+
+
+def means_of(results: Results, levels: Levels) -> PriorMeans:
+    """Return the means of the players' priors after all of some results.
+
+    Matches still to be played, at 0-0, say who is in which team.
+
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [50, 0], [50, 0])
+    >>> means_of(season, Levels(newcomers=0.6)).mean.round(3)
+    array([ 0. ,  0. , -0.4])
+    """
+    known = Knowledge(results, levels)
+    rows = slice(None)
+    known.see(rows)
+    known.play(rows)
+    return known.means()

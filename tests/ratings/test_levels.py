@@ -1,0 +1,123 @@
+"""What a file knows about players: design of the prior, and levels of simulated leagues."""
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.ratings import Results, best_prior, fit, walk_forward
+from evenbreak.ratings.levels import Levels, known_levels, means_of
+from simulated_levels import SPREAD, TEAMS, harm, league, race_covered, teams_covered
+
+SEASON = Results.from_names(
+    ["Ann", "Cy", "Ann"],
+    ["Bo", "Di", "Eve"],
+    [7, 5, 0],
+    [5, 7, 0],
+    team_a=["X", "Y", "X"],
+    team_b=["X", "Y", "Y"],
+    date=["2026-01-01", "2026-01-02", "2026-01-03"],
+)
+
+
+def test_a_match_to_come_says_who_is_in_which_team():
+    means = means_of(SEASON, Levels(team_sd=0.3))
+    assert means.names == (("team", "X"), ("team", "Y"))
+    ann, bo, cy, _, eve = means.design
+    np.testing.assert_allclose(ann - cy, [1, -1])
+    np.testing.assert_allclose(ann, bo)
+    np.testing.assert_allclose(eve, cy)
+
+
+def test_ratings_of_those_who_played_have_the_anchor_as_their_mean():
+    for levels in (Levels(newcomers=0.5), Levels(team_sd=0.4)):
+        ratings = fit(SEASON, anchor=500, levels=levels)
+        assert ratings.rating[:4].mean() == pytest.approx(500)
+    assert fit(SEASON, levels=Levels(newcomers=0.5)).rating[4] < 80
+
+
+def test_levels_are_those_of_the_whole_covariance():
+    """Against the mode and the inverse Hessian of the prior without extra unknowns."""
+    levels = Levels(team_sd=0.4)
+    results, *_ = league(np.random.default_rng(3), days=4)
+    ratings = fit(results, prior_sd=SPREAD, levels=levels)
+    design = means_of(results, levels).design
+    prior = SPREAD**2 * np.eye(len(results.players)) + 0.4**2 * design @ design.T
+    skill = np.zeros(len(prior))
+    for _ in range(50):
+        p = 1 / (1 + np.exp(skill[results.player_b] - skill[results.player_a]))
+        games = results.score_a + results.score_b
+        slope, bend = results.score_a - games * p, games * p * (1 - p)
+        contrast = np.zeros((len(results), len(skill)))
+        contrast[np.arange(len(results)), results.player_a] = 1
+        contrast[np.arange(len(results)), results.player_b] = -1
+        hessian = contrast.T @ (bend[:, None] * contrast) + np.linalg.inv(prior)
+        skill = skill + np.linalg.solve(hessian, contrast.T @ slope - np.linalg.solve(prior, skill))
+    covariance = np.linalg.inv(hessian)
+    log_odds = ratings.scale.log_odds
+    np.testing.assert_allclose(log_odds(ratings.rating - 80), skill, atol=1e-6)
+    error = np.sqrt(np.diag(covariance))
+    np.testing.assert_allclose(log_odds(ratings.standard_error), error, rtol=1e-6)
+    difference = covariance[0, 0] + covariance[1, 1] - 2 * covariance[0, 1]
+    found = log_odds(ratings.difference_error(*ratings.players[:2]))
+    assert found == pytest.approx(np.sqrt(difference))
+    quasi = log_odds(ratings.quasi_error) ** 2
+    size = len(quasi)
+    pairs = size * np.trace(covariance) - covariance.sum()
+    assert quasi.sum() * (size - 1) == pytest.approx(pairs)
+
+
+def test_a_walk_with_levels_ends_where_a_fit_begins():
+    results, *_ = league(np.random.default_rng(4), days=6, below=0.5)
+    levels = Levels(newcomers=0.6, team_sd=0.3)
+    walk = walk_forward(results, prior_sd=SPREAD, levels=levels)
+    last = walk.date_of == walk.date_of.max()
+    earlier = walk.results.select(~last).joined(walk.results.select(last).unplayed())
+    ratings = fit(earlier, prior_sd=SPREAD, levels=levels)
+    coming = walk.results.select(last)
+    skill = ratings.scale.log_odds(ratings.rating)
+    expected = skill[coming.player_a] - skill[coming.player_b]
+    np.testing.assert_allclose(walk.difference[last], expected, atol=1e-5)
+
+
+def test_newcomers_who_are_weaker_are_expected_to_be():
+    results, *_ = league(np.random.default_rng(5), below=1.0)
+    found = {one.of: one for one in best_prior(results).evidence}["newcomers"]
+    assert found.used
+    assert found.value > 2 * found.standard_error
+
+
+def test_teams_that_differ_are_found_and_others_are_not():
+    results, truth, _ = league(np.random.default_rng(6), team_sd=0.6)
+    choice = best_prior(results)
+    assert choice.levels.team_sd > 0
+    ratings = fit(results, prior_sd=choice.prior_sd, levels=choice.levels)
+    best = max(ratings.groups, key=lambda one: one.above)
+    assert best.name == f"team {truth.argmax()}"
+
+
+def test_estimated_levels_cover_the_truth():
+    covered = np.concatenate([teams_covered(seed) for seed in range(25)])
+    assert len(covered) == 25 * TEAMS
+    assert 0.9 <= covered.mean() <= 0.99
+
+
+def test_the_real_part_of_stated_races_is_covered():
+    found = [race_covered(seed, 1.0) for seed in range(2)]
+    known = [one for one in found if one is not None]
+    assert sum(known) >= len(known) - 1
+    assert known
+
+
+def test_a_league_without_levels_is_not_made_worse():
+    costs = [harm(seed)[0] for seed in range(2)]
+    assert np.mean(costs) <= 0.0002
+
+
+def test_what_a_file_knows():
+    assert known_levels(SEASON) == ("team_sd", "newcomers")
+    assert known_levels(league(np.random.default_rng(1), days=6, races=1.0)[0])[0] == "race"
+
+
+def test_nonsense_is_refused():
+    with pytest.raises(InputError, match="team_sd"):
+        Levels(team_sd=-1.0)
