@@ -35,7 +35,6 @@ from evenbreak.tournaments.odds.races import PairOdds, pair_odds
 from evenbreak.tournaments.odds.title import title_odds
 
 _SHOWN = 6  # players whose title odds everybody sees
-_SETTLED = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +135,7 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
     >>> answer = night_answer(Night(state, "2025-03-01T19:30:00"))
     >>> print(answer.sentences[0])
     Now play F, Ann against Bo, on table 1.
-    It ends at about 20:00; 8 times out of 10 between 19:51 and 20:12.
+    It ends at about 20:08; 8 times out of 10 between 19:54 and 20:30.
     """
     state = night.state
     heading = f"{source}: {night.heading}" if source else night.heading
@@ -147,7 +146,6 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
     words = list(said)
     parts: list[Part] = []
     to_play = list(state.standing.to_play)
-    champions = [state.order[k] for k in np.flatnonzero(odds.title > 1.0 - _SETTLED).tolist()]
     if to_play:
         found = night.finish(laws)
         tables = _tables(state, found)
@@ -162,8 +160,12 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
             Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
             _next_table(night, tables),
         ]
-    elif champions:
-        words.append(f"{champions[0]} wins the tournament.")
+    else:
+        first = [state.order[k] for k in np.flatnonzero(odds.title > 0.0).tolist()]
+        if len(first) == 1:
+            words.append(f"{first[0]} wins the tournament.")
+        else:
+            words.append(f"First place is tied: {' and '.join(first)}.")
         parts.append(_places(state, odds.p_place, odds.bracket.places))
     if to_play:
         order = np.argsort(-odds.title, kind="stable").tolist()
@@ -178,6 +180,7 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
             {"name": name, "p_title": float(p)}
             for name, p in zip(state.order, odds.title, strict=True)
         ],
+        "odds_exact": odds.exact,
         "set_aside": [as_dict(one.result) for one in state.aside],
     }
     warnings = [_aside_words(state, one.result) for one in state.aside]
@@ -309,12 +312,16 @@ def _colon(score: tuple[int, int]) -> str:
 
 
 def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
-    rows = [
-        [str(place), state.order[k]]
-        for j, place in enumerate(places)
-        for k in np.flatnonzero(p_place[:, j] > 1.0 - _SETTLED).tolist()
-    ]
-    return Table("places", [Column("place", "place"), Column("name", "player", left=True)], rows)
+    """Return who finished where; tied players share all the places they may get."""
+    rows = []
+    for k, name in enumerate(state.order):
+        possible = [places[j] for j in np.flatnonzero(p_place[k] > 0.0).tolist()]
+        if possible:
+            shared = Place(possible[0].first, possible[-1].last, possible[0].event)
+            rows.append((shared, str(shared), name))
+    rows.sort(key=lambda row: (row[0].event, row[0].first, row[0].last))
+    columns = [Column("place", "place"), Column("name", "player", left=True)]
+    return Table("places", columns, [row[1:] for row in rows])
 
 
 def bracket_table(state: Evening) -> Table:
