@@ -28,7 +28,7 @@ def command(*, match: str, score: tuple[int, int], file: str, at: str) -> Answer
     If others move on because of it, later matches that the wrong players have played are open
     again. Their results are kept, and count again if the correction is undone.
     """
-    from evenbreak.answers.tournament_night import happened
+    from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.correct(state, match, score)])

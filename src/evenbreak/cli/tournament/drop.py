@@ -16,7 +16,7 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @faces()
 def command(*, player: str, file: str, at: str) -> Answer:
     """Let PLAYER go home: they forfeit all their matches to come."""
-    from evenbreak.answers.tournament_night import forfeited
+    from evenbreak.answers.tournament_moves import forfeited
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.drop(state, player)])

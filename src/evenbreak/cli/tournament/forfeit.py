@@ -17,7 +17,7 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @faces()
 def command(*, match: str, player: str, file: str, at: str) -> Answer:
     """Let PLAYER forfeit one match; they play on if the format lets them."""
-    from evenbreak.answers.tournament_night import happened
+    from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.forfeit(state, match, player)])

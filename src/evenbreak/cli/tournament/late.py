@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 @faces()
 def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
     """Let PLAYER in: before the draw, or afterwards in place of a bye that is still open."""
-    from evenbreak.answers.tournament_night import entry_words
+    from evenbreak.answers.tournament_moves import entry_words
     from evenbreak.files.player_names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
     from evenbreak.tournaments.evening.events import Entrant

@@ -27,7 +27,7 @@ def command(*, match: str, score: tuple[int, int], file: str, at: str) -> Answer
 
     If a forfeit was meant, use evenbreak tournament forfeit.
     """
-    from evenbreak.answers.tournament_night import happened
+    from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.result(state, match, score)])

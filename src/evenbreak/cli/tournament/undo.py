@@ -15,7 +15,7 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @faces()
 def command(*, file: str, at: str) -> Answer:
     """Take back what happened last; once more takes back what happened before that."""
-    from evenbreak.answers.tournament_night import undone_words
+    from evenbreak.answers.tournament_moves import undone_words
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.undo(state)])
