@@ -34,6 +34,9 @@ from evenbreak.ratings.prior_means import PriorMeans
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""
 
+_SOLVED_UP_TO = 100
+"""Unknowns up to which a Newton step is solved exactly, which is faster than to iterate."""
+
 
 @dataclass(frozen=True, eq=False)
 class Curvature:
@@ -94,8 +97,7 @@ class Curvature:
 
     @cached_property
     def _factor(self) -> Any:
-        whole = np.block([[self.matrix.toarray(), self._across], [self._across.T, self._levels]])
-        return cho_factor(whole, lower=True)
+        return cho_factor(self._whole, lower=True)
 
     @cached_property
     def _border(self) -> Floats | None:
@@ -162,6 +164,16 @@ class Curvature:
             return np.asarray(cho_solve(self._factor, right))
         return self._iterate(right, 1e-12)
 
+    @cached_property
+    def _whole(self) -> Floats:
+        """The Hessian of ratings and levels."""
+        n = self.size
+        whole = np.zeros((n + len(self._levels),) * 2)
+        whole[self.low, self.high] = whole[self.high, self.low] = -self.weight
+        whole[np.arange(n), np.arange(n)] = self._diagonal
+        whole[:n, n:], whole[n:, :n], whole[n:, n:] = self._across, self._across.T, self._levels
+        return whole
+
     def newton_step(self, gradient: Floats, slope: float, accuracy: float) -> tuple[Floats, float]:
         """Return the step that Newton's method takes.
 
@@ -177,15 +189,20 @@ class Curvature:
         tuple
             the step of the ratings and levels, and of the advantage.
         """
-        step = -self._iterate(gradient, accuracy)
+        step = -self._for_step(gradient, accuracy)
         if self._border is None or self.corner is None:
             return step, 0.0
-        bordered = self._iterate(self._border, accuracy)
+        bordered = self._for_step(self._border, accuracy)
         rest = self.corner - float(self._border @ bordered)
         if rest <= 0.0:  # not convex here: down along the slope, as if all of the corner were left
             rest = abs(self.corner) + float(self._border @ bordered)
         shift = -(slope + float(self._border @ step)) / rest
         return step - bordered * shift, shift
+
+    def _for_step(self, right: Floats, accuracy: float) -> Floats:
+        if len(right) <= _SOLVED_UP_TO:
+            return np.asarray(cho_solve(self._factor, right))
+        return self._iterate(right, accuracy)
 
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""

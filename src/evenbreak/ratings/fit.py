@@ -131,8 +131,8 @@ def fit(
         mode = find_mode(pairs, prior_sd**-2)
     else:
         breaks = break_advantage is not None
-        known = _known_advantage(break_advantage, scale) if breaks else 0.0
-        weights = _weights(scored, won_only, half_life, day)
+        known = known_advantage(break_advantage, scale) if breaks else 0.0
+        weights = weights_of(scored, won_only, half_life, day)
         played = terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
         break_games = terms.games_with_breaker if breaks else 0.0
         break_precision = BREAK_SD**-2 if known is None and break_games else None
@@ -186,7 +186,7 @@ def checked_prior(prior_sd: Any) -> float:
     return number(prior_sd, "prior_sd", low=NARROWEST, high=WIDEST, wanted=wanted)
 
 
-def _known_advantage(value: Any, scale: Scale) -> float | None:
+def known_advantage(value: Any, scale: Scale) -> float | None:
     """Return the break advantage in log-odds; None where it is estimated."""
     if value == "fit":
         return None
@@ -223,7 +223,7 @@ def _shifted(
     return rating
 
 
-def _weights(
+def weights_of(
     scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
 ) -> tuple[Floats, Floats]:
     """Return the weight of each match; ages are counted from the last match of all."""

@@ -84,15 +84,19 @@ class Knowledge:
         the matches that will be seen and played, of which nothing is known yet.
     levels
         which of it matters.
+    stated
+        strengths by the same races; None: to be worked out.
     """
 
-    def __init__(self, results: Results, levels: Levels) -> None:
+    def __init__(
+        self, results: Results, levels: Levels, stated: StatedStrength | None = None
+    ) -> None:
         self._levels = levels
         self._players = len(results.players)
         self._sides = results.player_a, results.player_b
         self._games = games_of(results)
         self._behind = np.zeros(self._players)
-        self._stated = StatedStrength(results) if levels.race else None
+        self._stated = (stated or StatedStrength(results)) if levels.race else None
         self._groups = [
             _Groups(results, kind)
             for kind in GROUPS
@@ -181,16 +185,17 @@ def games_of(results: Results) -> Floats:
     return np.asarray(np.where(results.given_away, 0.0, games))
 
 
-def means_of(results: Results, levels: Levels) -> PriorMeans:
+def means_of(results: Results, levels: Levels, stated: StatedStrength | None = None) -> PriorMeans:
     """Return the means of the players' priors after all of some results.
 
-    Matches still to be played, at 0-0, say who is in which team.
+    The parameters are those of `Knowledge`. Matches still to be played, at 0-0, say who is in
+    which team.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [50, 0], [50, 0])
     >>> means_of(season, Levels(newcomers=0.6)).mean.round(3)
     array([ 0. ,  0. , -0.4])
     """
-    known = Knowledge(results, levels)
+    known = Knowledge(results, levels, stated)
     rows = slice(None)
     known.see(rows)
     known.play(rows)

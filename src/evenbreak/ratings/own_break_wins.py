@@ -54,6 +54,8 @@ class BreakWinsTerms(NamedTuple):
 
     def log_sums(self, advantage: float) -> tuple[Floats, Floats, Floats]:
         """Return log Σ c(k) exp(β value) of each term, and its first two derivatives in β."""
+        if not len(self.value):
+            return np.zeros(0), np.zeros(0), np.zeros(0)
         terms = self.log_count + advantage * self.value
         total = logsumexp(terms, axis=1)
         share = np.exp(terms - total[:, None])

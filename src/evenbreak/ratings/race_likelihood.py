@@ -70,6 +70,8 @@ def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes
     if not ((m >= 1).all() and (n >= 1).all()):
         raise InputError("m or n is below 1 somewhere; give the games that each player needs")
     d, m, n = np.broadcast_arrays(d, m, n)
+    if not d.size:
+        return RaceSlopes(d, d, d)
     p, q = expit(d), expit(-d)
     win = betainc(m, n, p)
     density = m * log_expit(d) + n * log_expit(-d) - betaln(m, n)

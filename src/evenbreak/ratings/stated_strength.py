@@ -20,6 +20,9 @@ from evenbreak.ratings.results import Results
 RIDGE = 0.01
 """A weight, in matches, towards 0: it decides between groups that never met."""
 
+_SOLVED_UP_TO = 100
+"""Players up to which the equations are solved exactly, which is faster than to iterate."""
+
 
 def implied_difference(results: Results) -> Floats:
     """Return by how much a is stronger than b if the race is even, in log-odds; NaN without one.
@@ -57,13 +60,18 @@ class StatedStrength:
         self._stated = ~np.isnan(self._implied)
         self._seen = np.zeros(len(results), dtype=bool)
         self._last = np.zeros(self._players)
+        self._up_to_date = False
 
     def see(self, rows: Any) -> None:
         """Take in the races of some matches."""
+        self._up_to_date &= bool(self._seen[rows].all())
         self._seen[rows] = True
 
     def strength(self) -> Floats:
         """Return each player's strength in natural log-odds, 0 where no race says anything."""
+        if self._up_to_date:
+            return self._last
+        self._up_to_date = True
         rows = self._seen & self._stated
         matches, players = int(rows.sum()), self._players
         sign = np.repeat([1.0, -1.0], matches)
@@ -71,5 +79,9 @@ class StatedStrength:
         which = np.tile(np.arange(matches), 2)
         contrast = sparse.coo_array((sign, (which, ends)), shape=(matches, players)).tocsr()
         normal = contrast.T @ contrast + RIDGE * sparse.eye_array(players)
-        self._last, _ = cg(normal, contrast.T @ self._implied[rows], self._last, rtol=1e-8)
+        right = contrast.T @ self._implied[rows]
+        if players <= _SOLVED_UP_TO:
+            self._last = np.linalg.solve(normal.toarray(), right)
+        else:
+            self._last, _ = cg(normal, right, self._last, rtol=1e-8)
         return self._last

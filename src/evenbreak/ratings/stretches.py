@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.ratings.fit import fit
 from evenbreak.ratings.likelihood_terms import likelihood_terms
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.season_so_far import SeasonSoFar
 
 STRETCHES = 30
 """How many stretches a season is divided into, if it has as many days."""
@@ -85,11 +85,9 @@ def stretch_losses(
         weights = np.ones(len(scored)), np.ones(len(won_only))
         terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
         predicted[row] = round(terms.amount)
+        season = SeasonSoFar(before)
         for column, way in enumerate(ways):
-            ratings = fit(before, **way)
-            skill = ratings.scale.log_odds(ratings.rating - ratings.anchor)
-            advantage = ratings.scale.log_odds(ratings.break_advantage or 0.0)
-            losses[row, column] = -terms.log_likelihood(skill, advantage)
+            losses[row, column] = -terms.log_likelihood(*season.skills(**way))
         progress(row + 1, len(stretches))
     return StretchLosses(losses, predicted)
 
