@@ -104,7 +104,7 @@ def _table(
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
     columns += [
-        Column(place_key(place), place_words(place), _share, detail=k >= _SHOWN)
+        Column(place_key(place), place_words(place), share, detail=k >= _SHOWN)
         for k, place in enumerate(places)
     ]
     seats = range(len(odds.title))
@@ -113,7 +113,7 @@ def _table(
         for k in seats
     ]
     if odds is not plug_in:
-        columns.append(Column("p_title_if_sure", "title, if the\nratings are right", _share))
+        columns.append(Column("p_title_if_sure", "title, if the\nratings are right", share))
         for k in seats:
             rows[k].append(float(plug_in.title[k]))
     if not odds.exact:
@@ -129,7 +129,7 @@ def _table(
     return Table("players", columns, [rows[k] for k in order])
 
 
-def _share(p: float) -> str:
+def share(p: float) -> str:
     """Return a chance to four places, without the digits of the hopeless."""
     return "<.0001" if 0.0 < p < 5e-5 else chance(p)
 

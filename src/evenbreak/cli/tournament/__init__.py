@@ -5,6 +5,18 @@ import click
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
+    "new": Entry("tournament.new", "Begin a tournament that is run here."),
+    "draw": Entry("tournament.draw", "Make the draw."),
+    "show": Entry("tournament.show", "Show the bracket."),
+    "next": Entry("tournament.next", "Show who plays next, and on which table."),
+    "call": Entry("tournament.call", "Call matches to tables."),
+    "result": Entry("tournament.result", "Enter the result of a match."),
+    "correct": Entry("tournament.correct", "Correct the result of a match."),
+    "undo": Entry("tournament.undo", "Take back what happened last."),
+    "late": Entry("tournament.late", "Let a late player in."),
+    "drop": Entry("tournament.drop", "Let a player go home."),
+    "forfeit": Entry("tournament.forfeit", "Let a player forfeit a match."),
+    "export": Entry("tournament.export", "List the matches that were played, for the ratings."),
     "odds": Entry("tournament.odds", "Find each player's odds of winning the tournament."),
     "time": Entry("tournament.time", "Find when the tournament ends, and when each match starts."),
 }
@@ -13,4 +25,4 @@ COMMANDS = {
 
 @click.command("tournament", cls=LazyGroup, table=COMMANDS)
 def command() -> None:
-    """Find the odds of tonight's tournament, and when it ends."""
+    """Run tonight's tournament; find its odds, and when it ends."""

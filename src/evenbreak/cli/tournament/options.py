@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import update_wrapper
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -19,6 +19,8 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.tournaments.evening.events import Plan
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of, races_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
@@ -35,11 +37,41 @@ def _race_option(name: str, what: str) -> Any:
     return click.option(name, type=Whole(1, LONGEST), metavar="N", help=what)
 
 
+class Entered(NamedTuple):
+    """What the options say: what is played, and who has entered, in the order of the file."""
+
+    plan: Plan
+    races: tournaments.Races
+    file: files.RosterFile
+    roster: ratings.Roster
+    scale: Scale
+    warnings: list[str]
+    seed: int
+
+
 def tournament_options(command: Command) -> Command:
     """Add the options about the tournament, which the command gets as `tournament`.
 
     It also gets the `warnings` about them, and `seed`.
     """
+
+    def run(*, entered: Entered, **rest: Any) -> Any:
+        from evenbreak.answers.tournament import Tournament
+
+        plan, file, scale = entered.plan, entered.file, entered.scale
+        roster, seeded, lines = drawn_up(entered.roster, plan.seeding, entered.seed)
+        if lines is not None and plan.form not in ELIMINATIONS:
+            refuse(f"--seeding drawn is for eliminations, not {plan.form}")
+        bracket = bracket_of(plan, roster.players, None if lines is None else tuple(lines))
+        tournament: Tournament = Tournament(file, roster, bracket, entered.races, scale, seeded)
+        return command(tournament=tournament, warnings=entered.warnings, seed=entered.seed, **rest)
+
+    wrapped: Any = update_wrapper(run, command)
+    return entry_options(wrapped)  # type: ignore[no-any-return]
+
+
+def entry_options(command: Command) -> Command:
+    """Add the options about the tournament, which the command gets as `entered`."""
 
     def run(
         *,
@@ -68,12 +100,24 @@ def tournament_options(command: Command) -> Command:
         roster = with_starters(file.roster, points, starter, starter_sd)
         if not 2 <= len(roster) <= MOST_PLAYERS:
             refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")
-        roster, seeded, lines = _seeded(roster, seeding, seed)
-        bracket = _bracket(roster.players, form, final, qualifiers, drops, third_place, lines)
-        from evenbreak.answers.tournament import Tournament
-
-        tournament: Tournament = Tournament(file, roster, bracket, races, points, seeded)
-        return command(tournament=tournament, warnings=warnings, seed=seed, **rest)
+        usual = race or race_to
+        plan = Plan(
+            form,
+            usual or 1,
+            final=final,
+            qualifiers=qualifiers,
+            drops=DROPS[drops],
+            third_place=third_place,
+            seeding=seeding,
+            losers_race=losers_race,
+            final_race=final_race,
+            handicapped=race_to is not None,
+            scale=points.text,
+            starter=points.centre if starter is None else starter,
+            starter_error=points.points_per_doubling if starter_sd is None else starter_sd,
+        )
+        entered = Entered(plan, races, file, roster, points, warnings, seed)
+        return command(entered=entered, **rest)
 
     wrapped: Any = update_wrapper(run, command)
     wrapped = seed_option("The seed of the draw, and of what is simulated.", default=0)(wrapped)
@@ -148,11 +192,15 @@ def _races(
         if losers_race is not None or final_race is not None:
             refuse("--chart sets all races; leave out --losers-race and --final-race")
         return tournaments.Races(chart_by_difference("--chart", chart))
-    usual, losers, last = (
-        n if n is None or race_to is None else tournaments.Fairest(n)
-        for n in (race or race_to, losers_race, final_race)
+    return races_of(
+        Plan(
+            "",
+            race or race_to or 1,
+            losers_race=losers_race,
+            final_race=final_race,
+            handicapped=race_to is not None,
+        )
     )
-    return tournaments.Races(usual or 1, losers, last)
 
 
 def _refuse_of_other_formats(
@@ -186,7 +234,7 @@ def _scale(
     return scale, warnings
 
 
-def _seeded(
+def drawn_up(
     roster: ratings.Roster, seeding: str, seed: int
 ) -> tuple[ratings.Roster, str, list[int | None] | None]:
     """Return the players in seed order, in words where it comes from, and the lines if drawn."""
@@ -220,29 +268,3 @@ def _seeded(
         words,
         lines,
     )
-
-
-def _bracket(
-    players: tuple[str, ...],
-    form: str,
-    final: Any,
-    qualifiers: int | None,
-    drops: str,
-    third_place: bool,
-    lines: list[int | None] | None,
-) -> tournaments.Bracket:
-    if lines is not None and form not in ("double", "single", "consolation"):
-        refuse(f"--seeding drawn is for eliminations, not {form}")
-    match form:
-        case "double":
-            pattern: Any = DROPS[drops]
-            return tournaments.double_elimination(
-                players, final=final, qualifiers=qualifiers, drops=pattern, lines=lines
-            )
-        case "single":
-            return tournaments.single_elimination(players, third_place=third_place, lines=lines)
-        case "consolation":
-            return tournaments.consolation(players, lines=lines)
-        case "round-robin":
-            return tournaments.round_robin(players)
-    return tournaments.king_of_the_hill(players)

@@ -1,0 +1,69 @@
+"""The matches of a tournament as they were played, for the ratings."""
+
+from __future__ import annotations
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.wording import count_of
+from evenbreak.tournaments.evening.fold import Evening, Played
+
+
+def tournament_matches_answer(state: Evening, event: str) -> Answer:
+    """Return all matches that were played, those that no longer count in the bracket among them.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    event
+        its name.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> happened = begun, Drawn(("Ann", "Bo"), (0, 1)), Result("F", ("Ann", "Bo"), (5, 3), "Ann")
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> tournament_matches_answer(state, "tonight").to_frame().loc[0, ["player_a", "score_b"]]
+    player_a    Ann
+    score_b       3
+    Name: 0, dtype: object
+    """
+    columns = [
+        Column("date", "date", left=True),
+        Column("event"),
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column(("score_a", "score_b"), "score", lambda score: f"{score[0]}:{score[1]}"),
+        Column(("race_a", "race_b"), "race", lambda race: f"{race[0]}:{race[1]}"),
+        Column("winner", "winner", left=True),
+        Column("forfeit", "forfeit", lambda yes: "yes" if yes else "", left=True),
+    ]
+    rows = []
+    for result, at in sorted(_played(state), key=lambda one: one.at):
+        score = None if result.forfeit else result.score
+        race = state.needed(result.match, result.players)
+        rows.append(
+            [
+                at[:10],
+                event,
+                result.match,
+                result.players,
+                score,
+                race,
+                result.winner,
+                result.forfeit,
+            ]
+        )
+    table = Table("matches", columns, rows)
+    said = f"{count_of(len(rows), 'match was', 'matches were')} played."
+    return Answer(event, [said, table], csv=table)
+
+
+def _played(state: Evening) -> list[Played]:
+    """Return the last result of each two players in each match."""
+    found = {
+        (name, frozenset(one.result.players)): one
+        for name, played in state.records.items()
+        for one in played
+    }
+    return list(found.values())

@@ -1,0 +1,117 @@
+"""What an entry into a tournament under way has changed, in words."""
+
+from __future__ import annotations
+
+from evenbreak.answers.tournament import slot_words
+from evenbreak.answers.wording import some_of
+from evenbreak.tournaments.brackets.bracket import Place, Source
+from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.events import (
+    Called,
+    Drawn,
+    Dropped,
+    Event,
+    Late,
+    Result,
+    What,
+)
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.moves import score_words
+
+
+def happened(before: Evening, after: Evening, event: Event) -> list[str]:
+    """Return in words what a result changed: who moves where, what no longer counts.
+
+    Parameters
+    ----------
+    before, after
+        the state before and after it.
+    event
+        what happened.
+    """
+    if not isinstance(event.what, Result):
+        return []
+    result = event.what
+    said = [f"{score_words(result)} in {result.match}."]
+    said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
+    gone = [name for name in before.winners if name not in after.counted]
+    if gone:
+        said.append(f"Open again: {some_of(gone)}.")
+    return said
+
+
+def _moves(state: Evening, match: str, player: str) -> str:
+    """Return where a player goes from a match."""
+    seat = state.order.index(player)
+    for one in state.bracket.matches:
+        for k, slot in enumerate(one.slots):
+            if not isinstance(slot, Source) or slot.match != match:
+                continue
+            if state.standing.seats[one.name][k] != seat:
+                continue
+            other = state.standing.seats[one.name][1 - k]
+            if other == NOBODY:
+                continue
+            rival = (
+                f"the {slot_words(state.bracket, one.slots[1 - k])}"
+                if other is None
+                else state.order[other]
+            )
+            return f"{player} goes to {one.name} and meets {rival}."
+    place = _place(state, match, player)
+    return f"{player} finishes in place {place}." if place else f"{player} has no match to come."
+
+
+def _place(state: Evening, match: str, player: str) -> Place | None:
+    played = state.bracket.match(match)
+    won = state.winners.get(match) == player
+    return played.winner_place if won else played.loser_place
+
+
+def forfeited(before: Evening, after: Evening) -> list[str]:
+    """Return in words what follows from a player going home."""
+    gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
+    said = [f"{name} has dropped out." for name in sorted(gone)]
+    if after.drawn:
+        said += [
+            f"{score_words(result)} in {name}."
+            for name, result in after.counted.items()
+            if name not in before.counted
+        ]
+    return said
+
+
+def entry_words(state: Evening, name: str) -> str:
+    """Return in words where a late player plays first."""
+    if not state.drawn:
+        return f"{name} has entered."
+    seat = state.order.index(name)
+    for match, seats in state.standing.seats.items():
+        if seat in seats:
+            other = seats[1 - seats.index(seat)]
+            rival = "a player to come" if other is None else state.order[other]
+            return f"{name} has entered in place of a bye and meets {rival} in {match}."
+    return f"{name} has entered."
+
+
+def undone_words(what: What) -> str:
+    """Return what was taken back.
+
+    >>> undone_words(Result("W1.1", ("Ann", "Bo"), (7, 5), "Ann"))
+    'Taken back: Ann beat Bo 7:5 in W1.1.'
+    """
+    match what:
+        case Result(corrects=corrects):
+            kind = "the correction " if corrects else ""
+            words = f"{kind}{score_words(what)} in {what.match}"
+        case Called():
+            words = f"the call of {what.match} to table {what.table}"
+        case Drawn():
+            words = "the draw"
+        case Late():
+            words = f"the entry of {what.entrant.name}"
+        case Dropped():
+            words = f"{what.name} dropping out"
+        case _:
+            words = "nothing"
+    return f"Taken back: {words}."

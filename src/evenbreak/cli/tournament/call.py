@@ -1,0 +1,54 @@
+"""`evenbreak tournament call`: call matches to tables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.events import Called
+    from evenbreak.tournaments.evening.fold import Evening
+
+
+@click.command("call")
+@click.argument("match", required=False)
+@click.option("--table", type=Whole(1, 1000), metavar="N", help="The table.  [default: a free one]")
+@file_option
+@at_option
+@faces()
+def command(*, match: str | None, table: int | None, file: str, at: str) -> Answer:
+    """Call a match to a table; without MATCH, the next matches to all free tables.
+
+    The times of calls and results show how fast this evening is, and so when it ends.
+    """
+    from evenbreak.answers.tournament_night import Night, next_calls
+    from evenbreak.tournaments.evening import moves
+
+    if match is None and table is not None:
+        refuse("--table is for one match; name it, such as W1.1")
+
+    def decide(state: Evening) -> list[Called]:
+        if match is not None:
+            return [moves.call(state, match, table)]
+        called = [moves.call(state, name, k) for k, name in next_calls(Night(state, at))]
+        if not called:
+            refuse("no match can be called: no table is free, or no match is ready")
+        return called
+
+    before, state = add(file, at, decide)
+    return answer_of(
+        file,
+        state,
+        at,
+        [
+            f"Table {one.call.table}: {name}, {' against '.join(one.call.players)}."
+            for name, one in state.on_tables.items()
+            if before.on_tables.get(name) != one
+        ],
+    )

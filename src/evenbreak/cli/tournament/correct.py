@@ -1,0 +1,35 @@
+"""`evenbreak tournament correct`: correct the result of a match."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.values import SCORE
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+
+EXAMPLES = """\b
+Examples:
+  evenbreak tournament correct W1.1 5:7
+  evenbreak tournament correct W1.1 5:7 --at 20:15
+"""
+
+
+@click.command("correct", epilog=EXAMPLES)
+@click.argument("match")
+@click.argument("score", type=SCORE)
+@file_option
+@at_option
+@faces()
+def command(*, match: str, score: tuple[int, int], file: str, at: str) -> Answer:
+    """Correct the result of a match, at any time.
+
+    If others move on because of it, later matches that the wrong players have played are open
+    again. Their results are kept, and count again if the correction is undone.
+    """
+    from evenbreak.answers.tournament_moves import happened
+    from evenbreak.tournaments.evening import moves
+
+    before, state = add(file, at, lambda state: [moves.correct(state, match, score)])
+    return answer_of(file, state, at, happened(before, state, state.events[-1]))

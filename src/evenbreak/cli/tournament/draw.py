@@ -1,0 +1,26 @@
+"""`evenbreak tournament draw`: make the draw."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import seed_option
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+
+
+@click.command("draw")
+@file_option
+@seed_option("The seed of a blind draw.  [default: a new one each time]", default=None)
+@at_option
+@faces()
+def command(*, file: str, seed: int | None, at: str) -> Answer:
+    """Make the draw, in the way that --seeding of evenbreak tournament new said."""
+    import numpy as np
+
+    from evenbreak.tournaments.evening import moves
+
+    rng = np.random.default_rng(seed)
+    _, state = add(file, at, lambda state: [moves.draw(state, rng)])
+    return answer_of(file, state, at, [f"{len(state.order)} players are drawn."])

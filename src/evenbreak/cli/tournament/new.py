@@ -1,0 +1,73 @@
+"""`evenbreak tournament new`: begin a tournament."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.paces import DISCIPLINES
+from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.cli.tournament.evening import answer_of, at_option
+from evenbreak.cli.tournament.options import Entered, drawn_up, entry_options
+
+EXAMPLES = """\b
+Examples:
+  evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4 --seeding blind
+  evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
+"""
+
+
+@click.command("new", epilog=EXAMPLES)
+@entry_options
+@click.option(
+    "--tables", type=Whole(1, 1000), metavar="T", required=True, help="The number of tables."
+)
+@click.option(
+    "--discipline",
+    type=click.Choice(DISCIPLINES),
+    default="9-ball",
+    help="The game, for how long matches take.",
+)
+@click.option(
+    "--out",
+    metavar="FILE.db",
+    default="tonight.db",
+    show_default=True,
+    help="The file of the tournament, which must not exist yet.",
+)
+@at_option
+@faces()
+def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str) -> Answer:
+    """Begin a tournament: write its entrants and what is played to a new file.
+
+    Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
+    place of a bye. The other commands read and write tonight.db unless --file or the environment
+    variable EVENBREAK_TOURNAMENT names another file.
+    """
+    from dataclasses import replace
+
+    import numpy as np
+
+    from evenbreak.files.tournament_store import new_tournament
+    from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened
+    from evenbreak.tournaments.evening.fold import ELIMINATIONS
+
+    if not isinstance(entered.races.race, int) and not entered.plan.handicapped:
+        refuse("--chart is not for a tournament that is run here; give --race or --race-to")
+    plan = replace(entered.plan, tables=tables, discipline=discipline)
+    roster, _, lines = entered.roster, "", None
+    if plan.seeding == "drawn":
+        if plan.form not in ELIMINATIONS:
+            refuse(f"--seeding drawn is for eliminations, not {plan.form}")
+        roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
+    errors = np.nan_to_num(roster.standard_error).tolist()
+    entrants = tuple(
+        Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)
+    )
+    events = [Event(at, Opened(plan, entrants))]
+    if lines is not None:
+        events.append(Event(at, Drawn(roster.players, tuple(lines))))
+    state = new_tournament(out, events)
+    answer = answer_of(out, state, at)
+    return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])

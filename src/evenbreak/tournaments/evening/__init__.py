@@ -1,0 +1,1 @@
+"""An evening as it is run: what happened, one event after another, and the state that follows."""

@@ -1,0 +1,194 @@
+"""What happens on the evening of a tournament: events, which are only ever added.
+
+An event is a frozen value; `as_dict` and `event_of` turn it into plain data and back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any, TypeAlias
+
+from evenbreak.errors import InputError
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is played: the format, the races, the tables.
+
+    Parameters
+    ----------
+    form
+        double, single, consolation, round-robin or king-of-the-hill.
+    final, qualifiers, drops
+        as in `double_elimination`.
+    third_place
+        as in `single_elimination`.
+    seeding
+        listed, rating, blind or drawn: how the draw orders the entrants.
+    race, losers_race, final_race
+        the games of a race, on the losers' side and in the final (None: as the others).
+    handicapped
+        whether the stronger player needs that many games, and the weaker as many as is fairest.
+    scale
+        the scale of the ratings, as `scale_of` reads it.
+    starter, starter_error
+        the rating of a new player and how far off it may be.
+    tables
+        how many tables there are.
+    discipline
+        8-ball, 9-ball or 10-ball: how long matches take.
+    """
+
+    form: str
+    race: int
+    final: str = "true"
+    qualifiers: int | None = None
+    drops: str = "fewest rematches"
+    third_place: bool = False
+    seeding: str = "listed"
+    losers_race: int | None = None
+    final_race: int | None = None
+    handicapped: bool = False
+    scale: str = "npl"
+    starter: float = 0.0
+    starter_error: float = 0.0
+    tables: int = 4
+    discipline: str = "9-ball"
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A player with a rating and how far off it may be."""
+
+    name: str
+    rating: float
+    standard_error: float = 0.0
+
+
+@dataclass(frozen=True)
+class Opened:
+    """The evening begins: what is played, and who has entered."""
+
+    plan: Plan
+    entrants: tuple[Entrant, ...]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The draw: the players in seed order.
+
+    For an elimination also the position of the player on each first-round line (None: a bye).
+    """
+
+    order: tuple[str, ...]
+    lines: tuple[int | None, ...] | None
+
+
+@dataclass(frozen=True)
+class Late:
+    """A late entry: before the draw, or onto the line of a bye."""
+
+    entrant: Entrant
+    line: int | None = None
+
+
+@dataclass(frozen=True)
+class Dropped:
+    """A player goes home; their matches to come are lost by forfeit."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Called:
+    """A match is called to a table."""
+
+    match: str
+    table: int
+    players: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Result:
+    """A match was played by these players, or forfeited by the loser (with the score 0:0).
+
+    A correction is a result too: of two results of one match by the same players the later counts.
+    """
+
+    match: str
+    players: tuple[str, str]
+    score: tuple[int, int]
+    winner: str
+    forfeit: bool = False
+    corrects: bool = False
+
+    @property
+    def loser(self) -> str:
+        """The loser."""
+        return self.players[self.winner == self.players[0]]
+
+    @property
+    def games(self) -> dict[str, int]:
+        """The games that each player won."""
+        return dict(zip(self.players, self.score, strict=True))
+
+
+@dataclass(frozen=True)
+class Undone:
+    """The last event that has not been undone yet is undone."""
+
+
+What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Result | Undone
+KINDS: dict[str, type[What]] = {
+    "opened": Opened,
+    "drawn": Drawn,
+    "late": Late,
+    "dropped": Dropped,
+    "called": Called,
+    "result": Result,
+    "undone": Undone,
+}
+NAMES = {kind: name for name, kind in KINDS.items()}
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened, and when: local time, such as 2025-03-01T19:30:00."""
+
+    at: str
+    what: What
+
+
+def as_dict(what: What) -> dict[str, Any]:
+    """Return what happened as plain data.
+
+    >>> as_dict(Called("W1.1", 2, ("Ann", "Bo")))
+    {'match': 'W1.1', 'table': 2, 'players': ('Ann', 'Bo')}
+    """
+    return asdict(what)
+
+
+def event_of(kind: str, data: Mapping[str, Any]) -> What:
+    """Return what happened from plain data.
+
+    Raises
+    ------
+    InputError
+        if it is no event.
+
+    >>> event_of("dropped", {"name": "Bo"})
+    Dropped(name='Bo')
+    """
+    try:
+        values: Any = {name: tuple(v) if isinstance(v, list) else v for name, v in data.items()}
+        if kind == "opened":
+            entrants = tuple(Entrant(**one) for one in values["entrants"])
+            return Opened(Plan(**values["plan"]), entrants)
+        if kind == "late":
+            return Late(Entrant(**values["entrant"]), values["line"])
+        make: Any = KINDS[kind]
+        made: What = make(**values)
+        return made
+    except (AttributeError, KeyError, TypeError) as error:
+        raise InputError(f"{kind!r} with {data!r} is not an event of a tournament") from error

@@ -1,0 +1,294 @@
+"""The state of an evening, as the fold of its events.
+
+A result counts if its two players are those who sit in the match. So when a correction sends
+somebody else into a later match, the result of that match no longer counts but is kept, and counts
+again if the correction is undone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.double import double_elimination
+from evenbreak.tournaments.brackets.groups import round_robin
+from evenbreak.tournaments.brackets.knockout import (
+    consolation,
+    king_of_the_hill,
+    single_elimination,
+)
+from evenbreak.tournaments.brackets.standing import Standing, standing
+from evenbreak.tournaments.evening.events import (
+    Called,
+    Drawn,
+    Dropped,
+    Entrant,
+    Event,
+    Late,
+    Opened,
+    Plan,
+    Result,
+    Undone,
+)
+from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
+
+ELIMINATIONS = ("double", "single", "consolation")
+
+
+class Played(NamedTuple):
+    """A result, and when it came in."""
+
+    result: Result
+    at: str
+
+
+class OnTable(NamedTuple):
+    """A match that has been called, and when."""
+
+    call: Called
+    at: str
+
+
+@dataclass(frozen=True, eq=False)
+class Evening:
+    """The state of an evening.
+
+    Parameters
+    ----------
+    plan
+        what is played.
+    entrants
+        the players by name, in the order in which they entered.
+    order
+        the players in seed order; empty before the draw.
+    lines
+        the player on each first-round line; None for a format without lines.
+    records
+        all results of each match that were not undone, in the order in which they came in.
+    dropped
+        the players who have gone home.
+    calls
+        the last call of each match.
+    events
+        the events that were not undone.
+    """
+
+    plan: Plan
+    entrants: Mapping[str, Entrant]
+    order: tuple[str, ...]
+    lines: tuple[int | None, ...] | None
+    records: Mapping[str, tuple[Played, ...]]
+    dropped: tuple[str, ...]
+    calls: Mapping[str, OnTable]
+    events: tuple[Event, ...]
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the draw has been made."""
+        return bool(self.order)
+
+    @cached_property
+    def bracket(self) -> Bracket:
+        """The bracket.
+
+        Raises
+        ------
+        InputError
+            if the draw has not been made.
+        """
+        if not self.order:
+            raise InputError(
+                "the draw has not been made yet; make it with evenbreak tournament draw"
+            )
+        return bracket_of(self.plan, self.order, self.lines)
+
+    @property
+    def scale(self) -> Scale:
+        """The scale of the ratings."""
+        return scale_of(self.plan.scale)
+
+    @property
+    def races(self) -> Races:
+        """What is raced to."""
+        return races_of(self.plan)
+
+    @cached_property
+    def ratings(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """The ratings in seed order."""
+        return np.array([self.entrants[name].rating for name in self.order])
+
+    @cached_property
+    def counted(self) -> dict[str, Result]:
+        """The result of each decided match, forfeits of players who went home among them."""
+        return self._settled[0]
+
+    @cached_property
+    def standing(self) -> Standing:
+        """Who is in which match, and what can be played now."""
+        return self._settled[1]
+
+    @property
+    def winners(self) -> dict[str, str]:
+        """The winner of each decided match."""
+        return {name: result.winner for name, result in self.counted.items()}
+
+    @cached_property
+    def aside(self) -> tuple[Played, ...]:
+        """Matches that were played by players who no longer belong in them."""
+        return tuple(
+            played[-1] for name, played in self.records.items() if name not in self.counted
+        )
+
+    @cached_property
+    def on_tables(self) -> dict[str, OnTable]:
+        """The matches that are being played."""
+        return {
+            name: one
+            for name, one in self.calls.items()
+            if name in self.standing.to_play and set(self.pair(name)) == set(one.call.players)
+        }
+
+    def pair(self, match: str) -> tuple[str, str]:
+        """Return the players of a match that can be played or was."""
+        one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
+        return one, other
+
+    def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
+        """Return the games that each of two players needs in a match."""
+        one, other = (self.entrants[name].rating for name in players)
+        race = self.races.of(self.bracket.match(match))
+        m, n = games_needed(np.array([one - other]), race, self.scale)
+        return int(m[0]), int(n[0])
+
+    @cached_property
+    def _settled(self) -> tuple[dict[str, Result], Standing]:
+        counted: dict[str, Result] = {}
+        while True:
+            now = standing(self.bracket, {name: one.winner for name, one in counted.items()})
+            found = {}
+            for name in now.to_play:
+                one, other = now.seats[name]
+                pair = self.order[one or 0], self.order[other or 0]
+                result = self._result(name, pair)
+                if result is not None:
+                    found[name] = result
+            if not found:
+                return counted, now
+            counted |= found
+
+    def _result(self, match: str, pair: tuple[str, str]) -> Result | None:
+        for played in reversed(self.records.get(match, ())):
+            if set(played.result.players) == set(pair):
+                return played.result
+        gone = [name for name in self.dropped if name in pair]
+        if not gone:
+            return None
+        return Result(match, pair, (0, 0), pair[gone[-1] == pair[0]], forfeit=True)
+
+
+def evening(events: Iterable[Event]) -> Evening:
+    """Return the state after events.
+
+    Raises
+    ------
+    InputError
+        if they are not those of an evening.
+
+    >>> ann, bo = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
+    >>> happened = [Opened(Plan("single", 5), (ann, bo)), Drawn(("Ann", "Bo"), (0, 1))]
+    >>> happened += [Result("F", ("Ann", "Bo"), (3, 5), "Bo")]
+    >>> happened += [Result("F", ("Ann", "Bo"), (5, 3), "Ann"), Undone()]
+    >>> evening([Event("2025-03-01T19:30:00", what) for what in happened]).winners
+    {'F': 'Bo'}
+    """
+    first, kept = _kept(events)
+    entrants = {entrant.name: entrant for entrant in first.entrants}
+    order: list[str] = []
+    lines: list[int | None] | None = None
+    records: dict[str, list[Played]] = {}
+    dropped: list[str] = []
+    calls: dict[str, OnTable] = {}
+    for event in kept[1:]:
+        match event.what:
+            case Result() as result:
+                records.setdefault(result.match, []).append(Played(result, event.at))
+            case Called() as call:
+                calls[call.match] = OnTable(call, event.at)
+            case Drawn(order=drawn, lines=drawn_lines):
+                order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
+            case Late(entrant=entrant, line=line):
+                entrants[entrant.name] = entrant
+                if line is not None and lines is not None:
+                    lines[line] = len(order)
+                    order.append(entrant.name)
+            case Dropped(name=name):
+                if order:
+                    dropped.append(name)
+                else:
+                    del entrants[name]
+    return Evening(
+        first.plan,
+        entrants,
+        tuple(order),
+        None if lines is None else tuple(lines),
+        {name: tuple(played) for name, played in records.items()},
+        tuple(dropped),
+        calls,
+        tuple(kept),
+    )
+
+
+def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
+    """Return the first event, and all those that were not undone."""
+    kept: list[Event] = []
+    for event in events:
+        if not isinstance(event.what, Undone):
+            kept.append(event)
+        elif len(kept) > 1:
+            kept.pop()
+        else:
+            raise InputError("there is nothing to undo")
+    if not kept or not isinstance(first := kept[0].what, Opened):
+        raise InputError("the first event does not open a tournament")
+    return first, kept
+
+
+def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
+    """Return the bracket of a draw.
+
+    >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
+    (('W1.1', 0),)
+    """
+    pattern: Any = plan.drops
+    final: Any = plan.final
+    match plan.form:
+        case "double":
+            return double_elimination(
+                order, final=final, qualifiers=plan.qualifiers, drops=pattern, lines=lines
+            )
+        case "single":
+            return single_elimination(order, third_place=plan.third_place, lines=lines)
+        case "consolation":
+            return consolation(order, lines=lines)
+        case "round-robin":
+            return round_robin(order)
+    return king_of_the_hill(order)
+
+
+def races_of(plan: Plan) -> Races:
+    """Return the races of a plan.
+
+    >>> races_of(Plan("double", 7, losers_race=5)).losers
+    5
+    """
+    if not plan.handicapped:
+        return Races(plan.race, plan.losers_race, plan.final_race)
+    losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
+    return Races(Fairest(plan.race), losers, last)

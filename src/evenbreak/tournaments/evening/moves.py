@@ -1,0 +1,228 @@
+"""What can happen next: each function checks a move against the state and returns its event."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from difflib import get_close_matches
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import some_of
+from evenbreak.tournaments.brackets.seeding import (
+    blind_draw,
+    by_rating,
+    seeded_lines,
+)
+from evenbreak.tournaments.evening.events import (
+    Called,
+    Drawn,
+    Dropped,
+    Entrant,
+    Late,
+    Result,
+    Undone,
+)
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+
+MOST_PLAYERS = 256
+
+
+def draw(state: Evening, rng: np.random.Generator) -> Drawn:
+    """Make the draw, in the way that the plan says.
+
+    Raises
+    ------
+    InputError
+        if it has been made, or there are too few players.
+    """
+    if state.drawn:
+        raise InputError("the draw has been made already; undo takes it back")
+    names = list(state.entrants)
+    if len(names) < 2:
+        raise InputError(f"{len(names)} players have entered; a tournament takes 2 to 256")
+    if state.plan.seeding == "rating":
+        names = by_rating(names, [state.entrants[name].rating for name in names])
+    elif state.plan.seeding == "blind":
+        names = blind_draw(names, rng)
+    lines = tuple(seeded_lines(len(names))) if state.plan.form in ELIMINATIONS else None
+    return Drawn(tuple(names), lines)
+
+
+def result(state: Evening, match: str, score: tuple[int, int]) -> Result:
+    """Enter the result of a match that has not been decided."""
+    name = known_match(state, match)
+    if (before := state.counted.get(name)) is not None:
+        words = "was forfeited" if before.forfeit else f"has a result, {score_words(before)}"
+        raise InputError(f"{name} {words}; change it with correct {name}")
+    _refuse_waiting(state, name)
+    pair = state.pair(name)
+    return Result(name, pair, score, _winner(state, name, pair, score))
+
+
+def correct(state: Evening, match: str, score: tuple[int, int]) -> Result:
+    """Correct the result of a match."""
+    name = known_match(state, match)
+    if name not in state.counted:
+        raise InputError(f"{name} has no result to correct; enter it with result {name}")
+    pair = state.pair(name)
+    found = Result(name, pair, score, _winner(state, name, pair, score), corrects=True)
+    before = state.counted[name]
+    if not before.forfeit and before.games == found.games:
+        raise InputError(f"{name} has that result already: {score_words(before)}")
+    return found
+
+
+def forfeit(state: Evening, match: str, player: str) -> Result:
+    """Let a player forfeit a match."""
+    name, loser = known_match(state, match), known_player(state, player)
+    if name in state.counted:
+        raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
+    _refuse_waiting(state, name)
+    pair = state.pair(name)
+    if loser not in pair:
+        raise InputError(f"{loser} is not in {name}, which is {pair[0]} against {pair[1]}")
+    return Result(name, pair, (0, 0), pair[loser == pair[0]], forfeit=True)
+
+
+def drop(state: Evening, player: str) -> Dropped:
+    """Let a player go home."""
+    name = known_player(state, player)
+    if name in state.dropped:
+        raise InputError(f"{name} has dropped out already")
+    if not state.drawn and len(state.entrants) <= 1:
+        raise InputError(f"{name} is the only player")
+    return Dropped(name)
+
+
+def late(state: Evening, entrant: Entrant) -> Late:
+    """Let a late player in: before the draw, or in place of the lowest seed's bye still open.
+
+    A bye is open as long as filling it changes no match that was played or called.
+    """
+    names = {name.casefold(): name for name in state.entrants}
+    if entrant.name.casefold() in names:
+        raise InputError(f"{names[entrant.name.casefold()]} has entered already")
+    if len(state.entrants) >= MOST_PLAYERS:
+        raise InputError(f"a tournament takes {MOST_PLAYERS} players at most")
+    if not state.drawn:
+        return Late(entrant)
+    byes = [k for k, seat in enumerate(state.lines or ()) if seat is None]
+    for line in sorted(byes, key=lambda k: -_rival(state, k)):
+        if _fits(state, entrant, line):
+            return Late(entrant, line)
+    if state.lines is None:
+        reason = f"{state.plan.form} has no byes"
+    else:
+        reason = "all byes have been played past" if byes else "the bracket has no bye"
+    raise InputError(f"{entrant.name} cannot enter after the draw: {reason}")
+
+
+def call(state: Evening, match: str, table: int | None) -> Called:
+    """Call a match to a table; None: the first that is free."""
+    name = known_match(state, match)
+    if name in state.counted:
+        raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
+    _refuse_waiting(state, name)
+    if name in state.on_tables:
+        raise InputError(f"{name} is on table {state.on_tables[name].call.table} already")
+    free = free_tables(state)
+    if table is None and not free:
+        raise InputError(f"no table is free; there are {state.plan.tables}")
+    chosen = free[0] if table is None else table
+    if not 1 <= chosen <= state.plan.tables:
+        raise InputError(f"table {chosen} does not exist; there are {state.plan.tables}")
+    if chosen not in free:
+        there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
+        raise InputError(f"table {chosen} is taken by {there}")
+    return Called(name, chosen, state.pair(name))
+
+
+def undo(state: Evening) -> Undone:
+    """Take back what happened last."""
+    if len(state.events) < 2:
+        raise InputError("there is nothing to undo")
+    return Undone()
+
+
+def free_tables(state: Evening) -> list[int]:
+    """Return the tables on which no called match is played."""
+    taken = {one.call.table for one in state.on_tables.values()}
+    return [table for table in range(1, state.plan.tables + 1) if table not in taken]
+
+
+def known_match(state: Evening, text: str) -> str:
+    """Return the name of a match, in whatever case it was written."""
+    names = {name.casefold(): name for name in state.bracket.by_name}
+    if text.casefold() not in names:
+        raise InputError(f"match {text!r} does not exist; give one of {some_of([*names.values()])}")
+    return names[text.casefold()]
+
+
+def known_player(state: Evening, text: str) -> str:
+    """Return the name of a player, in whatever case and spacing it was written."""
+    wanted = " ".join(text.split()).casefold()
+    names = {name.casefold(): name for name in state.entrants}
+    if wanted not in names:
+        near = get_close_matches(wanted, names, 1)
+        hint = f"; did you mean {names[near[0]]}?" if near else ""
+        raise InputError(f"{text!r} is not in this tournament{hint}")
+    return names[wanted]
+
+
+def score_words(found: Result) -> str:
+    """Return a result in words.
+
+    >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
+    'Bo beat Ann 7:5'
+    """
+    if found.forfeit:
+        return f"{found.loser} forfeited to {found.winner}"
+    won, lost = found.games[found.winner], found.games[found.loser]
+    return f"{found.winner} beat {found.loser} {won}:{lost}"
+
+
+def _refuse_waiting(state: Evening, name: str) -> None:
+    if name in state.standing.to_play:
+        return
+    if name in state.standing.winners:
+        raise InputError(f"{name} is not needed")
+    slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
+    waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
+    raise InputError(f"{name} is not ready: it waits for {' and '.join(dict.fromkeys(waits))}")
+
+
+def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int]) -> str:
+    """Return the winner; refuse a score that does not end the race."""
+    one, other = score
+    m, n = state.needed(name, pair)
+    if one == m and other < n:
+        return pair[0]
+    if other == n and one < m:
+        return pair[1]
+    needs = f"to {m}" if m == n else f"{m}:{n}"
+    raise InputError(
+        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race {needs}"
+    )
+
+
+def _rival(state: Evening, line: int) -> int:
+    """Return the seed of the player on the other line of a first match; -1 for a bye."""
+    there = (state.lines or ())[line ^ 1]
+    return -1 if there is None else there
+
+
+def _fits(state: Evening, entrant: Entrant, line: int) -> bool:
+    """Return whether all that was played and called stays as it is with a bye filled."""
+    lines = list(state.lines or ())
+    lines[line] = len(state.order)
+    tried = replace(
+        state,
+        entrants={**state.entrants, entrant.name: entrant},
+        order=(*state.order, entrant.name),
+        lines=tuple(lines),
+    )
+    return (
+        all(tried.counted.get(name) == one for name, one in state.counted.items())
+        and tried.on_tables.keys() >= state.on_tables.keys()
+    )

@@ -1,0 +1,233 @@
+"""Evenings as they are run: replaying the events gives the state; corrections lose nothing."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import (
+    NAMES,
+    Entrant,
+    Event,
+    Opened,
+    Plan,
+    Result,
+    Undone,
+    What,
+    as_dict,
+    event_of,
+)
+from evenbreak.tournaments.evening.fold import Evening, evening
+
+AT = "2025-03-01T19:30:00"
+
+
+def opened(players: int, form: str = "double") -> list[Event]:
+    entrants = tuple(Entrant(f"P{k}", 600.0 - 10.0 * k) for k in range(1, players + 1))
+    return [Event(AT, Opened(Plan(form, 5, scale="fargo", starter=500.0), entrants))]
+
+
+def drawn(players: int, form: str = "double") -> list[Event]:
+    events = opened(players, form)
+    return [*events, Event(AT, moves.draw(evening(events), np.random.default_rng(1)))]
+
+
+def facts(state: Evening) -> object:
+    found: list[object] = [state.plan, dict(state.entrants), state.order, state.lines]
+    found += [state.dropped, dict(state.calls), dict(state.records)]
+    return [*found, state.counted, state.standing.seats] if state.drawn else found
+
+
+class Night(RuleBasedStateMachine):
+    """Any sequence of moves, with the states before each kept aside to compare undo with."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.events: list[Event] = []
+        self.states: list[Evening] = []
+        self.newcomers = 0
+
+    @initialize(
+        players=st.integers(4, 13), form=st.sampled_from(["double", "single", "consolation"])
+    )
+    def begin(self, players: int, form: str) -> None:
+        self.events = drawn(players, form)
+        self.states = [evening(self.events)]
+
+    @property
+    def state(self) -> Evening:
+        return self.states[-1]
+
+    def add(self, what: What) -> None:
+        self.events.append(Event(AT, what))
+        self.states.append(evening(self.events))
+
+    @precondition(lambda self: self.state.standing.to_play)
+    @rule(data=st.data(), lost=st.integers(0, 4), first=st.booleans())
+    def result(self, data: st.DataObject, lost: int, first: bool) -> None:
+        name = data.draw(st.sampled_from(self.state.standing.to_play))
+        self.add(moves.result(self.state, name, (5, lost) if first else (lost, 5)))
+
+    @precondition(lambda self: self.state.counted)
+    @rule(data=st.data(), lost=st.integers(0, 4), first=st.booleans())
+    def correct(self, data: st.DataObject, lost: int, first: bool) -> None:
+        name = data.draw(st.sampled_from(sorted(self.state.counted)))
+        before = self.state
+        try:
+            what = moves.correct(before, name, (5, lost) if first else (lost, 5))
+        except InputError:  # the score that it has
+            return
+        self.add(what)
+        for match, played in before.records.items():
+            assert self.state.records[match][: len(played)] == played
+
+    @precondition(lambda self: self.state.standing.to_play)
+    @rule(data=st.data())
+    def forfeit(self, data: st.DataObject) -> None:
+        name = data.draw(st.sampled_from(self.state.standing.to_play))
+        loser = data.draw(st.sampled_from(self.state.pair(name)))
+        self.add(moves.forfeit(self.state, name, loser))
+
+    @precondition(lambda self: self.state.standing.to_play and moves.free_tables(self.state))
+    @rule(data=st.data())
+    def call(self, data: st.DataObject) -> None:
+        ready = [n for n in self.state.standing.to_play if n not in self.state.on_tables]
+        if ready:
+            self.add(moves.call(self.state, data.draw(st.sampled_from(ready)), None))
+
+    @rule(data=st.data())
+    def drop(self, data: st.DataObject) -> None:
+        name = data.draw(st.sampled_from(self.state.order))
+        if name not in self.state.dropped:
+            self.add(moves.drop(self.state, name))
+            assert not any(name in self.state.pair(n) for n in self.state.standing.to_play)
+
+    @rule()
+    def late(self) -> None:
+        self.newcomers += 1
+        before = self.state
+        try:
+            what = moves.late(before, Entrant(f"New {self.newcomers}", 500.0))
+        except InputError:
+            return
+        self.add(what)
+        assert self.state.counted.items() >= before.counted.items()
+
+    @precondition(lambda self: len(self.states) > 1)
+    @rule()
+    def undo(self) -> None:
+        self.events.append(Event(AT, moves.undo(self.state)))
+        self.states.pop()
+
+    @invariant()
+    def replayed_events_give_the_state(self) -> None:
+        if self.states:
+            plain = [
+                Event(one.at, event_of(NAMES[type(one.what)], as_dict(one.what)))
+                for one in self.events
+            ]
+            assert facts(evening(plain)) == facts(self.state)
+
+
+Night.TestCase.settings = settings(max_examples=25, stateful_step_count=25, deadline=None)
+TestNight = Night.TestCase
+
+
+def played(events: list[Event], **scores: tuple[int, int]) -> list[Event]:
+    for name, score in scores.items():
+        what = moves.result(evening(events), name.replace("_", "."), score)
+        events = [*events, Event(AT, what)]
+    return events
+
+
+def test_a_correction_keeps_matches_of_the_wrong_players_until_it_is_undone() -> None:
+    events = played(drawn(4), W1_1=(5, 0), W1_2=(5, 1), W2_1=(5, 2), L1_1=(5, 3))
+    wrong = [*events, Event(AT, moves.correct(evening(events), "W1.1", (0, 5)))]
+    now = evening(wrong)
+    assert sorted(now.counted) == ["W1.1", "W1.2"]
+    assert sorted(one.result.match for one in now.aside) == ["L1.1", "W2.1"]
+    assert now.pair("W2.1") == ("P4", "P2")
+    again = evening([*wrong, Event(AT, Undone())])
+    assert sorted(again.counted) == ["L1.1", "W1.1", "W1.2", "W2.1"]
+    assert not again.aside
+
+
+def test_a_correction_that_sends_nobody_elsewhere_opens_nothing() -> None:
+    events = played(drawn(4), W1_1=(5, 0), W1_2=(5, 1), W2_1=(5, 2))
+    now = evening([*events, Event(AT, moves.correct(evening(events), "W1.1", (5, 4)))])
+    assert sorted(now.counted) == ["W1.1", "W1.2", "W2.1"]
+    assert now.counted["W1.1"].score == (5, 4)
+
+
+def test_a_handicapped_race_is_won_by_the_games_that_each_needs() -> None:
+    plan = Plan("single", 7, handicapped=True, scale="fargo")
+    entrants = Entrant("Ann", 600.0), Entrant("Bo", 500.0)
+    events = [Event(AT, Opened(plan, entrants))]
+    events.append(Event(AT, moves.draw(evening(events), np.random.default_rng())))
+    state = evening(events)
+    assert state.needed("F", ("Ann", "Bo")) == (7, 4)
+    assert moves.result(state, "F", (5, 4)).winner == "Bo"
+    with pytest.raises(InputError, match="7:4"):
+        moves.result(state, "F", (7, 5))
+
+
+def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
+    state = evening(drawn(7))
+    joined = moves.late(state, Entrant("New", 500.0))
+    events = [*drawn(7), Event(AT, joined)]
+    assert evening(events).pair("W1.1") == ("P1", "New")
+    events = played(drawn(7), W1_2=(5, 0), W2_1=(5, 0))
+    with pytest.raises(InputError, match="bye"):
+        moves.late(evening(events), Entrant("New", 500.0))
+    with pytest.raises(InputError, match="bye"):
+        moves.late(evening(drawn(8)), Entrant("New", 500.0))
+
+
+@pytest.mark.parametrize(
+    ("refused", "said"),
+    [
+        (lambda s: moves.result(s, "W9.9", (5, 0)), "W9.9"),
+        (lambda s: moves.result(s, "W1.1", (5, 5)), "5:5"),
+        (lambda s: moves.result(s, "W2.1", (5, 0)), "not ready"),
+        (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
+        (lambda s: moves.forfeit(s, "W1.1", "P2"), "P2 is not in W1.1"),
+        (lambda s: moves.drop(s, "P9"), "P9"),
+        (lambda s: moves.late(s, Entrant("p1", 1.0)), "P1 has entered"),
+        (lambda s: moves.call(s, "W1.1", 5), "table 5"),
+        (lambda s: moves.draw(s, np.random.default_rng()), "draw"),
+    ],
+)
+def test_what_cannot_happen_is_refused(refused: object, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        refused(evening(drawn(4)))  # type: ignore[operator]
+
+
+def test_the_same_match_cannot_be_called_twice_nor_a_taken_table_used() -> None:
+    events = drawn(8)
+    events.append(Event(AT, moves.call(evening(events), "W1.1", 2)))
+    with pytest.raises(InputError, match="on table 2"):
+        moves.call(evening(events), "W1.1", None)
+    with pytest.raises(InputError, match=r"taken by W1\.1"):
+        moves.call(evening(events), "W1.2", 2)
+
+
+def test_ten_thousand_events_fold_in_a_fifth_of_a_second() -> None:
+    base = drawn(16)
+    first = moves.result(evening(base), "W1.1", (5, 0))
+    changes = [Event(AT, replace(first, score=(5, k % 5), corrects=True)) for k in range(9_998)]
+    events = [*base, *changes]
+    best = min(_seconds(events) for _ in range(3))
+    assert best <= 0.2
+
+
+def _seconds(events: list[Event]) -> float:
+    started = time.perf_counter()
+    state = evening(events)
+    assert isinstance(state.counted["W1.1"], Result)
+    return time.perf_counter() - started
