@@ -341,7 +341,8 @@ def test_more_than_a_page_holds_is_refused_with_the_remedy(run, roster, tmp_path
 def fargo_list(run, tmp_path):
     """Return the list that `report --scale fargo` writes of the demo league."""
     assert run(
-        *("report", str(DATA / "demo_league.csv"), "--out", str(tmp_path), "--scale", "fargo")
+        *("report", str(DATA / "demo_league.csv"), "--out", str(tmp_path), "--scale", "fargo"),
+        *("--prior", "100"),
     ).exit_code == 0  # fmt: skip
     return tmp_path / "ratings.csv"
 

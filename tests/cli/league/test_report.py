@@ -16,6 +16,7 @@ from places import ROOT
 
 DEMO = ROOT / "data" / "demo_league.csv"
 SEASON = ROOT.parent / "shared" / "data" / "snooker_2016_17_results.csv"
+FIXED = ("--prior", "30")  # where the choice of a prior, which takes a second, does not matter
 FILES = ["matchups.csv", "ratings.csv", "sheet.pdf", "summary.csv"]
 MORE_FILES = ["sheet.html", "sheet.xlsx"]
 HEADER = "date,player_a,player_b,score_a,score_b\n"
@@ -133,7 +134,7 @@ def test_the_pairs_of_a_report_are_those_of_matchups_with_its_ratings(run, demo)
 
 def test_of_a_large_league_those_who_played_most_are_paired(run, tmp_path, monkeypatch):
     monkeypatch.setattr("evenbreak.cli.league.report.MOST_ON_SHEET", 10)
-    result = run("report", str(DEMO), "--out", str(tmp_path))
+    result = run("report", str(DEMO), *FIXED, "--out", str(tmp_path))
     assert "--top" in result.stderr
     folder = tmp_path
     matchups = rows(folder, "matchups.csv")
@@ -177,7 +178,7 @@ def test_the_scale_only_rescales(run, demo, tmp_path):
 
 
 def test_races_may_be_limited_in_length(run, tmp_path):
-    result = run("report", str(DEMO), "--out", str(tmp_path), "--games", "5..9")
+    result = run("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--games", "5..9")
     assert result.exit_code == 0
     longest = {int(r["race_a"]) + int(r["race_b"]) - 1 for r in rows(tmp_path, "matchups.csv")}
     assert longest <= set(range(5, 10))
@@ -186,7 +187,7 @@ def test_races_may_be_limited_in_length(run, tmp_path):
 
 def test_players_may_be_named(run, tmp_path):
     result = run(
-        *("report", str(DEMO), "--out", str(tmp_path), "--race-to", "9"),
+        *("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--race-to", "9"),
         *("--players", "zoë kestleman, Finn O'Garrow", "--players", "Ines Valbrecht"),
     )
     assert result.exit_code == 0
@@ -209,7 +210,7 @@ def test_a_name_with_a_comma_may_be_named_alone(run, tmp_path):
 
 
 def test_excel_gets_its_marks(run, tmp_path):
-    assert run("report", str(DEMO), "--out", str(tmp_path), "--excel-csv").exit_code == 0
+    assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--excel-csv").exit_code == 0
     for name, body in content(tmp_path).items():
         if name == "sheet.pdf":
             assert body.startswith(b"%PDF")
@@ -475,7 +476,7 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
 def test_the_results_are_never_overwritten(run, tmp_path, name):
     season = tmp_path / name
     season.write_bytes(DEMO.read_bytes())
-    result = run("report", str(season), "--out", str(tmp_path))
+    result = run("report", str(season), *FIXED, "--out", str(tmp_path))
     assert result.exit_code == 2
     assert name in result.stderr
     assert [file.name for file in tmp_path.iterdir()] == [name]
@@ -495,7 +496,9 @@ def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
 def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     entrants = tmp_path / "entrants.txt"
     entrants.write_text("zoë kestleman\nA Stranger\nInes Valbrecht\n", encoding="utf-8")
-    result = run("report", str(DEMO), "--out", str(tmp_path / "o"), "--players-file", str(entrants))
+    result = run(
+        "report", str(DEMO), *FIXED, "--out", str(tmp_path / "o"), "--players-file", str(entrants)
+    )
     pairs = [(row["player_a"], row["player_b"]) for row in rows(tmp_path / "o", "matchups.csv")]
     assert pairs == [
         ("Ines Valbrecht", "Zoë Kestleman"),
@@ -508,13 +511,13 @@ def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     assert float(new["quasi_error"]) == pytest.approx(prior, rel=1e-4)
     assert "'A Stranger'" in result.stderr
     words = ("--players-file", str(entrants), "--html")
-    assert run("report", str(DEMO), "--out", str(tmp_path / "q"), *words).exit_code == 0
+    assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path / "q"), *words).exit_code == 0
     page = (tmp_path / "q" / "sheet.html").read_text(encoding="utf-8")
     assert "entrants.txt:2" in page
     assert str(tmp_path) not in page
     assert str(DEMO) not in page
     both = ("--players-file", str(entrants), "--top", "3")
-    assert run("report", str(DEMO), "--out", str(tmp_path / "p"), *both).exit_code == 2
+    assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path / "p"), *both).exit_code == 2
 
 
 @pytest.mark.parametrize("words", [("--html", "page.html"), ("--excel", "page.xlsx")])
