@@ -2,7 +2,9 @@
 PYTHON ?= .venv-dev/bin/python
 
 # What breaks first where another library is older: drawing, files, sparse solvers, all commands.
-LEANING = tests/plots tests/sheets tests/files/test_spreadsheet.py tests/cli/league/test_report.py \
+LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.py \
+	tests/files/test_spreadsheet.py \
+	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
 .PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench clean
