@@ -1,7 +1,13 @@
+from .advice import Advice as Advice
+from .advice import Option as Option
+from .advice import Point as Point
+from .advice import advice as advice
 from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
 from .order import order_of as order_of
+from .set_laws import Points as Points
+from .set_laws import set_laws as set_laws
 from .solve import SolvedNight as SolvedNight
 from .solve import solved as solved
 from .squad import Cap as Cap

@@ -7,7 +7,7 @@ narrow as rounding allows, the game is solved again by scipy's linear programs.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -146,6 +146,6 @@ def _by_programs(game: Floats) -> tuple[Floats, Floats]:
     from scipy.optimize import linprog
 
     m, n = game.shape
-    columns = linprog(-np.ones(n), A_ub=game, b_ub=np.ones(m), method="highs")
-    rows = linprog(np.ones(m), A_ub=-game.T, b_ub=-np.ones(n), method="highs")
+    columns: Any = linprog(-np.ones(n), A_ub=game, b_ub=np.ones(m), method="highs")
+    rows: Any = linprog(np.ones(m), A_ub=-game.T, b_ub=-np.ones(n), method="highs")
     return _mixture(rows.x[None])[0], _mixture(columns.x[None])[0]

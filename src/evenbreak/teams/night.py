@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -73,7 +74,7 @@ class TeamNight:
         sizes: int | Sequence[int] = 1,
         tie: float = 0.5,
     ) -> None:
-        given = [laws] * sets if sets is not None else list(laws)  # type: ignore[arg-type]
+        given: list[Any] = [laws] * sets if sets is not None else list(laws)  # type: ignore[arg-type]
         each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
         if len(each) != len(given):
             raise InputError(f"sizes has {len(each)} sets and laws {len(given)}; give one each")
@@ -105,7 +106,7 @@ class TeamNight:
     @property
     def reach(self) -> int:
         """By how much one set can change the lead at most."""
-        return max(law.shape[3] for law in self.laws) // 2
+        return max(int(law.shape[3]) for law in self.laws) // 2
 
     def payoff(self, leads: ArrayLike) -> Floats:
         """Return what each final lead is worth: 1 won, 0 lost, `tie` tied."""

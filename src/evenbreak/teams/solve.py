@@ -173,7 +173,8 @@ def _games(night: TeamNight, k: int, after: Floats, mine: Ints, others: Ints) ->
             a, b = np.flatnonzero(mine[:, i] >= 0), np.flatnonzero(others[:, j] >= 0)
             if a.size and b.size:
                 block = after[np.ix_(mine[a, i], others[b, j])]
-                games[np.ix_(a, b, [i], [j])] = pair_values(night, k, block, i, j)[:, :, None, None]
+                at = np.ix_(a, b)
+                games[:, :, i, j][at] = pair_values(night, k, block, i, j)
     return games
 
 
@@ -185,7 +186,8 @@ def _refuse_large(night: TeamNight) -> None:
         )
     )
     if steps > MOST_STEPS:
+        sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
         raise InputError(
-            f"the squads of {len(night.ours.names)} and {len(night.theirs.names)} players allow too "
-            f"many line-ups of {night.sets} sets; leave out those who will not play tonight"
+            f"squads of {sizes} allow too many line-ups of {night.sets} sets; leave out those who "
+            "will not play tonight"
         )

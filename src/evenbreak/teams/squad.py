@@ -136,10 +136,8 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     picks = [list(itertools.combinations(range(count), size)) for size in sizes]
     used: list[list[Counts]] = [[(0,) * count]]
     for here in picks:
-        states = dict.fromkeys(
-            after for counts in used[-1] for pick in here if (after := _with(squad, counts, pick))
-        )
-        used.append(list(states))
+        each = (_with(squad, counts, pick) for counts in used[-1] for pick in here)
+        used.append(list(dict.fromkeys(filter(None, each))))
     if not used[-1]:
         raise InputError(
             f"{', '.join(squad.names)} cannot fill {len(sizes)} sets; add players, or let them "
@@ -154,12 +152,15 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     for k in reversed(range(len(sizes))):
         places = {counts: place for place, counts in enumerate(used[k + 1])}
         table = np.array(
-            [[places.get(_with(squad, counts, pick), -1) for pick in picks[k]] for counts in used[k]],
+            [
+                [places.get(_with(squad, counts, pick), -1) for pick in picks[k]]
+                for counts in used[k]
+            ],
             dtype=np.int64,
         )
-        open_states = (table >= 0).any(axis=1)
-        used[k] = [counts for counts, kept in zip(used[k], open_states, strict=True) if kept]
-        after.append(table[open_states])
+        kept = np.flatnonzero((table >= 0).any(axis=1))
+        used[k] = [used[k][state] for state in kept]
+        after.append(table[kept])
     return LineUps(picks, used, after[::-1])
 
 
