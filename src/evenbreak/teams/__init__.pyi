@@ -6,7 +6,12 @@ from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
 from .order import order_of as order_of
+from .reliance import best_by_skills as best_by_skills
+from .sealed import SealedLineUp as SealedLineUp
+from .sealed import SealedNight as SealedNight
+from .sealed import sealed as sealed
 from .set_laws import Points as Points
+from .set_laws import law_in_play as law_in_play
 from .set_laws import set_laws as set_laws
 from .solve import SolvedNight as SolvedNight
 from .solve import solved as solved

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -97,6 +98,13 @@ class TeamNight:
             "their_line_ups": others,
         }.items():
             object.__setattr__(self, name, value)
+
+    def with_laws(self, laws: Sequence[ArrayLike]) -> TeamNight:
+        """Return the same night with other laws, one for each set."""
+        changed = copy(self)
+        checked = tuple(_law(law, *old.shape[:2]) for law, old in zip(laws, self.laws, strict=True))
+        object.__setattr__(changed, "laws", checked)
+        return changed
 
     @property
     def sets(self) -> int:

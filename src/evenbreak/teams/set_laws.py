@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import one_of, whole
+from evenbreak.checks import floats, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.given_ratings import averaging_rule
@@ -61,6 +62,7 @@ def set_laws(
     scale: Scale | str | float = "fargo",
     count: Count = "sets",
     size: int = 1,
+    skills: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> Floats:
     """Return what each of our picks can bring against each of theirs.
 
@@ -77,6 +79,8 @@ def set_laws(
         what decides the night.
     size
         1, or 2 for doubles: a pair plays like a player with the mean of the two ratings.
+    skills
+        how our players and theirs really play, where it is not as their ratings say.
 
     Returns
     -------
@@ -104,6 +108,10 @@ def set_laws(
     points, errors = _differences(ours, theirs, size)
     scale = scale_of(scale)
     needs_1, needs_2 = games_needed(points, race, scale)
+    if skills is not None:
+        mine, others = (floats(each, "skills") for each in skills)
+        points = _of_picks(mine, size)[:, None] - _of_picks(others, size)
+        errors = np.zeros(points.shape)
     reach = _reach(needs_1, needs_2, count)
     law = np.zeros((*points.shape, 2, 2 * reach + 1))
     for m, n in set(zip(needs_1.ravel().tolist(), needs_2.ravel().tolist(), strict=True)):
@@ -112,15 +120,72 @@ def set_laws(
         p = scale.win_probability(points[i, j] + nodes[:, None] * errors[i, j])
         won, lost = (weights @ ends for ends in race_endings(m, n, Rack(p), None, 1))
         for who, ends in enumerate((won, lost)):
-            for length, margin in margins(m, n, who, count):
+            for length, margin in _margins(m, n, who, count):
                 law[i, j, who, reach + margin] += ends[length]
     return law
 
 
-def margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]]:
+def law_in_play(
+    ours: Roster,
+    theirs: Roster,
+    race: Race,
+    score: tuple[int, int],
+    *,
+    scale: Scale | str | float = "fargo",
+    count: Count = "sets",
+) -> Floats:
+    """Return what a match that is being played can bring, from its score on.
+
+    Parameters
+    ----------
+    ours, theirs
+        who plays it: one player, or two for doubles, with their ratings.
+    race, scale, count
+        as for `set_laws`.
+    score
+        the games that we and they have won.
+
+    Returns
+    -------
+    numpy.ndarray
+        a law for `Point.in_play`, shape (2, 2 reach + 1).
+
+    Raises
+    ------
+    InputError
+        as `set_laws` does, or if the score cannot be that of a match in play.
+
+    Notes
+    -----
+    Where the ratings have errors, the score says something about them (Bayes).
+
+    >>> law = law_in_play(Roster(["Ann"], [600]), Roster(["Cy"], [560]), 5, (3, 4))
+    >>> law.sum(axis=1).round(3)
+    array([0.324, 0.676])
+    """
+    points, errors = _differences(ours, theirs, len(ours))
+    scale = scale_of(scale)
+    m, n = (int(needs[0, 0]) for needs in games_needed(points, race, scale))
+    a, b = (whole(games, "score") for games in score)
+    if a >= m or b >= n:
+        raise InputError(f"the score {a}:{b} ends a race {m}:{n}; give that of a match in play")
+    nodes, weights = averaging_rule(float(errors[0, 0]), m + n, scale)
+    p = scale.win_probability(points[0, 0] + nodes * errors[0, 0])
+    weights = weights * p**a * (1.0 - p) ** b
+    weights /= weights.sum()
+    reach = _reach(np.array(m), np.array(n), count)
+    law = np.zeros((2, 2 * reach + 1))
+    for who, ends in enumerate(race_endings(m - a, n - b, Rack(p), None, 1)):
+        for length, margin in _margins(m, n, who, count):
+            if 0 < length - a - b < len(ends):
+                law[who, reach + margin] += ends[length - a - b] @ weights
+    return law
+
+
+def _margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]]:
     """Yield each length of a race m:n won by us (0) or by them (1), and what it adds to our lead.
 
-    >>> list(margins(2, 2, 0, "games")), list(margins(2, 2, 1, Points()))
+    >>> list(_margins(2, 2, 0, "games")), list(_margins(2, 2, 1, Points()))
     ([(2, 2), (3, 1)], [(2, -3), (3, -1)])
     """
     needs, other, sign = (m, n, 1) if who == 0 else (n, m, -1)
@@ -150,8 +215,13 @@ def _differences(ours: Roster, theirs: Roster, size: int) -> tuple[Floats, Float
         if np.isnan(roster.rating).any():
             name = roster.players[int(np.isnan(roster.rating).argmax())]
             raise InputError(f"{name!r} has no rating; give one, or leave the player out")
-        picks = np.array(list(itertools.combinations(range(len(roster)), size)))
-        variance = (np.nan_to_num(roster.standard_error) ** 2)[picks].sum(axis=1) / size**2
-        sides.append((roster.rating[picks].mean(axis=1), variance))
+        variance = np.nan_to_num(roster.standard_error) ** 2
+        sides.append((_of_picks(roster.rating, size), _of_picks(variance, size) / size))
     (mine, mine_off), (others, others_off) = sides
     return mine[:, None] - others, np.sqrt(mine_off[:, None] + others_off)
+
+
+def _of_picks(values: Floats, size: int) -> Floats:
+    """Return the mean of each pick of `size` players."""
+    picks = np.array(list(itertools.combinations(range(len(values)), size)), dtype=np.int64)
+    return np.asarray(values[picks.reshape(-1, size)].mean(axis=1))
