@@ -22,6 +22,9 @@ SECTIONS = {
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
     },
+    "Run a team match": {
+        "lineup": Entry("team.lineup", "Whom to put up now, and what each choice is worth."),
+    },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
         "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),

@@ -27,5 +27,7 @@ from .roster import read_roster as read_roster
 from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
 from .several_results import read_seasons as read_seasons
+from .team_list import TeamList as TeamList
+from .team_list import read_team as read_team
 from .text_table import TextTable as TextTable
 from .text_table import read_table as read_table

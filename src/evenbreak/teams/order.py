@@ -40,8 +40,10 @@ def order_of(text: str, sets: int) -> str:
     """
     whole(sets, "sets", at_least=1)
     pattern = NAMED.get(text.strip().lower(), "")[:sets] or text.strip().upper()
-    wanted = "write who names first in each set: A (we), B (they), = (both at once, blind), W or L "
-    wanted += f"(who won or lost the last set); or a name: {', '.join(NAMED)}"
+    wanted = (
+        "write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
+        f"(who won or lost the last set); or a name: {', '.join(NAMED)}"
+    )
     if not pattern or set(pattern) - {OURS, THEIRS, BOTH, WINNER, LOSER}:
         raise InputError(f"order is {text!r}; {wanted}")
     if len(pattern) > sets:

@@ -13,6 +13,9 @@ from evenbreak.arrays import Ints
 from evenbreak.checks import names, number, whole
 from evenbreak.errors import InputError
 
+MOST_STATES = 20_000
+"""The most groups of players used up after a set; more would take minutes."""
+
 Counts = tuple[int, ...]
 """How often each player of a squad has been put up."""
 
@@ -29,7 +32,7 @@ class Cap:
     most
         the largest sum allowed.
     name
-        what the limit is called in messages, such as 'the skill levels'.
+        what is limited, in messages, such as 'the sum of the levels'.
 
     Notes
     -----
@@ -126,7 +129,7 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     Raises
     ------
     InputError
-        if the squad has too few players, or no line-up keeps its caps.
+        if the squad has too few or too many players, or no line-up keeps its caps.
 
     >>> found = line_ups(Squad(("Ann", "Bo", "Cy"), (Cap((7, 5, 3), 10),)), (1, 1))
     >>> found.used[2]
@@ -138,6 +141,11 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     for here in picks:
         each = (_with(squad, counts, pick) for counts in used[-1] for pick in here)
         used.append(list(dict.fromkeys(filter(None, each))))
+        if len(used[-1]) > MOST_STATES:
+            raise InputError(
+                f"{count} players allow too many line-ups of {len(sizes)} sets; leave out those "
+                "who will not play tonight"
+            )
     if not used[-1]:
         raise InputError(
             f"{', '.join(squad.names)} cannot fill {len(sizes)} sets; add players, or let them "
@@ -147,7 +155,10 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
         counts for counts in used[-1] if all(cap.total(counts) <= cap.most for cap in squad.caps)
     ]
     if not used[-1]:
-        raise InputError(f"no line-up of {len(sizes)} sets keeps {_asked(squad)}")
+        raise InputError(
+            f"no line-up of {len(sizes)} sets of {', '.join(squad.names)} keeps {_asked(squad)}; "
+            "raise the limit, or add players who count for less"
+        )
     after: list[Ints] = []
     for k in reversed(range(len(sizes))):
         places = {counts: place for place, counts in enumerate(used[k + 1])}
@@ -175,4 +186,4 @@ def _with(squad: Squad, counts: Counts, pick: Sequence[int]) -> Counts:
 
 
 def _asked(squad: Squad) -> str:
-    return " and ".join(f"{cap.name} at most {cap.most:g}" for cap in squad.caps)
+    return " and ".join(f"{cap.name} to {cap.most:g} or less" for cap in squad.caps)
