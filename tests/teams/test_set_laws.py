@@ -56,7 +56,8 @@ def test_a_pair_plays_like_the_mean_of_its_two_players() -> None:
 def test_a_match_in_play_is_worth_its_live_odds() -> None:
     one, other = Roster(["Ann"], [600.0]), Roster(["Di"], [560.0])
     law = law_in_play(one, other, 7, (3, 5), count="games")
-    live = live_odds(Race(7, 7, Rack(FARGO.win_probability(40.0))), (3, 5)).now.p_win_1
+    match = Race(7, 7, Rack(FARGO.win_probability(40.0)))
+    live = live_odds(match, [1, 1, 1, 2, 2, 2, 2, 2]).now.p_win_1
     assert law[0].sum() == pytest.approx(live, abs=1e-12)
     assert law.sum() == pytest.approx(1.0)
     assert law[0, 7 + 2] > 0.0  # 7:5
