@@ -10,6 +10,15 @@ from .reliance import best_by_skills as best_by_skills
 from .sealed import SealedLineUp as SealedLineUp
 from .sealed import SealedNight as SealedNight
 from .sealed import sealed as sealed
+from .season.chances import SeasonChances as SeasonChances
+from .season.chances import season_chances as season_chances
+from .season.fixtures import circle as circle
+from .season.fixtures import still_to_play as still_to_play
+from .season.rules import TableRules as TableRules
+from .season.season import TeamSeason as TeamSeason
+from .season.strengths import score_chances as score_chances
+from .season.strengths import scores_of as scores_of
+from .season.strengths import team_skills as team_skills
 from .set_laws import Points as Points
 from .set_laws import law_in_play as law_in_play
 from .set_laws import set_laws as set_laws
