@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,87 +10,14 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.sealed_lineup import sealed_answer
+from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
 from evenbreak.answers.wording import chance, count_of, listed, percent
-from evenbreak.arrays import Floats
-from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
-from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.scale import Scale
 from evenbreak.teams.advice import Advice, Option, Point, advice
 from evenbreak.teams.night import TeamNight
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
-from evenbreak.teams.sealed import SealedLineUp, sealed
-from evenbreak.teams.set_laws import Count, set_laws
 from evenbreak.teams.solve import SolvedNight, solved
-from evenbreak.teams.squad import Squad
-
-SEALED = "sealed"
-"""The order in which both line-ups are handed in before the night."""
-
-_LISTED = 10  # sealed line-ups that are listed
-
-
-@dataclass(frozen=True, eq=False)
-class Meeting:
-    """Two squads that meet tonight, and what they play.
-
-    Parameters
-    ----------
-    ours, theirs
-        the rosters, with a rating for everybody.
-    squads
-        the same players with their caps.
-    race
-        what is played in each set.
-    scale
-        the scale of the ratings.
-    sizes
-        the players a side in each set.
-    order
-        who names first, or `SEALED`.
-    count
-        what decides the night.
-    """
-
-    ours: Roster
-    theirs: Roster
-    squads: tuple[Squad, Squad]
-    race: Race
-    scale: Scale
-    sizes: tuple[int, ...]
-    order: str
-    count: Count = "sets"
-
-    def night(self, order: str | None = None) -> TeamNight:
-        """Return the night as a game, in another order if one is given."""
-        asked = self.order if order is None else order
-        return TeamNight(
-            *self.squads,
-            self.laws(),
-            sizes=self.sizes,
-            order="blind" if asked == SEALED else asked,
-        )
-
-    def laws(self, *skills: Floats) -> list[Floats]:
-        """Return what each set can bring, if the players have these skills."""
-        made = {
-            size: set_laws(
-                self.ours,
-                self.theirs,
-                self.race,
-                scale=self.scale,
-                count=self.count,
-                size=size,
-                skills=(skills[0], skills[1]) if skills else None,
-            )
-            for size in set(self.sizes)
-        }
-        return [made[size] for size in self.sizes]
-
-    @property
-    def uncertain(self) -> bool:
-        """Whether a rating has a standard error."""
-        return any(np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs))
 
 
 def lineup_answer(
@@ -115,7 +41,8 @@ def lineup_answer(
     warnings
         about the question.
 
-    >>> from evenbreak.ratings import SCALES
+    >>> from evenbreak.ratings import SCALES, Roster
+    >>> from evenbreak.teams import Squad
     >>> us, them = Roster(["Ann", "Bo"], [600, 500]), Roster(["Cy", "Di"], [560, 540])
     >>> squads = Squad(us.players), Squad(them.players)
     >>> meeting = Meeting(us, them, squads, 5, SCALES["fargo"], (1,), "A")
@@ -123,7 +50,7 @@ def lineup_answer(
     'Put up Ann: you then win the night 67% of the time'
     """
     if meeting.order == SEALED:
-        return _sealed_answer(meeting, warnings)
+        return sealed_answer(meeting, warnings)
     night = meeting.night()
     solution = solved(night)
     found = advice(solution, point)
@@ -187,17 +114,6 @@ def _heading(meeting: Meeting, found: Advice) -> str:
     )
 
 
-def race_words(race: Race) -> str:
-    """Return what is played in a set.
-
-    >>> race_words(5), race_words(Fairest(7))
-    ('races to 5', 'the fairest races to 7')
-    """
-    if isinstance(race, Fairest):
-        return f"the fairest races to {race.race_to}"
-    return f"races to {race}" if isinstance(race, int) else f"races by {race.name}"
-
-
 def _in_words(found: Advice, named: Sequence[str]) -> str:
     best, p = found.best, percent(found.worth)
     if found.blind:
@@ -239,7 +155,7 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
     columns = [
         Column("name", whose, left=True),
         Column("p_win", "you win\nthe night", chance),
-        Column("cost", "worse than\nthe best by", _points),
+        Column("cost", "worse than\nthe best by", cost_words),
     ]
     answers = any(option.answer for option in found.options) and not found.blind
     if answers:
@@ -260,15 +176,6 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
             row.append(sure.get(option.names, 0.0))
         rows.append(row)
     return Table("options", columns, rows)
-
-
-def _points(cost: float) -> str:
-    """Return a difference of chances.
-
-    >>> _points(0.041), _points(0.0)
-    ('4.1%', '')
-    """
-    return f"{100.0 * cost:.1f}%" if cost >= 5e-4 else ""
 
 
 def _can_tie(night: TeamNight) -> bool:
@@ -328,55 +235,15 @@ def _order_words(name: str, order: str) -> str:
 
 
 def _sure_words(found: Advice, sure: dict[tuple[str, ...], float]) -> str:
+    """Return how far the best pick depends on the ratings."""
     if not sure:
         return ""
-    share = sure.get(found.best.names, 0.0)
+    best, share = _name(found.best), sure.get(found.best.names, 0.0)
     others = [names for names in sure if names != found.best.names]
     if share > 0.95 or not others:
-        return (
-            f"That holds even if the ratings are off by what their errors allow ({percent(share)})."
-        )
+        return f"{best} is the best pick even if the ratings are off by what their errors allow."
     return (
-        f"If the ratings are off by what their errors allow, {_name(found.best)} is the best pick "
-        f"{percent(share)} of the time, and {names_words(others[0])} {percent(sure[others[0]])}."
+        f"With ratings that are off by what their errors allow, {best} is the best pick "
+        f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}; on "
+        f"average it is {best}."
     )
-
-
-def _sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
-    found = sealed(meeting.night())
-    played = [one for one in found.ours if one.mix > 5e-4]
-    if len(played) == 1:
-        words = f"Play {listed(list(played[0].names))}, in an order drawn at random"
-    else:
-        words = "Draw one of the line-ups below by its share, and its order at random"
-    columns = [
-        Column("name", "line-up", left=True),
-        Column("p_win", "you win\nthe night", chance),
-        Column("cost", "worse than\nthe best by", _points),
-        Column("mix", "hand it in", percent),
-    ]
-    listing = found.ours[:_LISTED]
-    rows = [
-        [", ".join(one.names), one.worth, max(0.0, found.worth - one.worth), one.mix]
-        for one in listing
-    ]
-    left = len(found.ours) - len(listing)
-    more = f" {count_of(left, 'more line-up')} not listed." if left else ""
-    table = Table("options", columns, rows)
-    return Answer(
-        f"Sealed line-ups of {count_of(len(meeting.sizes), 'set')}: {len(meeting.ours)} players "
-        f"against {len(meeting.theirs)}, {race_words(meeting.race)}\n{scale_words(meeting.scale)}",
-        [
-            f"{words}: you win the night {percent(found.worth)} of the time, whatever they do.",
-            Quantities([Quantity("p_win", found.worth), Quantity("best", _best(found.ours))]),
-            table,
-            f"Against a random order, every order of theirs is worth the same.{more}",
-        ],
-        data={"toss": None, "blind": True, "ours": True, "set": 1},
-        warnings=warnings,
-        csv=table,
-    )
-
-
-def _best(line_ups: Sequence[SealedLineUp]) -> str:
-    return ", ".join(line_ups[0].names)

@@ -63,7 +63,8 @@ def team_season_answer(
     parts.append(_how(found, known=known))
     matches = count_of(len(season.played), "match", "matches")
     return Answer(
-        f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} to come\n{_rules(season)}",
+        f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} to come\n"
+        f"{_rules(season)}",
         parts,
         details=[_places(found)],
         data={"exact": found.exact, "seasons": found.seasons},

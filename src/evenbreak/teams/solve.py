@@ -113,24 +113,22 @@ def _before(night: TeamNight, k: int, after: Floats) -> Floats:
 
 def _in_turn(night: TeamNight, k: int, after: Floats, first: str) -> Floats:
     """Return the values if one team names first and the other answers."""
-    mine, others = night.our_line_ups.after[k], night.their_line_ups.after[k]
+    mine, others = night.our_line_ups.moves[k], night.their_line_ups.moves[k]
     leads = after.shape[-1] - 2 * night.reach
-    shape = len(mine), len(others), leads
+    shape = len(night.our_line_ups.used[k]), len(night.their_line_ups.used[k]), leads
     ours_first = first == OURS
-    lead_table, reply_table = (mine, others) if ours_first else (others, mine)
+    leading, replying = (mine, others) if ours_first else (others, mine)
     best = np.full(shape, -np.inf if ours_first else np.inf)
-    for named in range(lead_table.shape[1]):
+    for named, (allowed, _) in enumerate(leading):
         worst = np.full(shape, np.inf if ours_first else -np.inf)
-        for reply in range(reply_table.shape[1]):
+        for reply in range(len(replying)):
             i, j = (named, reply) if ours_first else (reply, named)
-            a, b = np.flatnonzero(mine[:, i] >= 0), np.flatnonzero(others[:, j] >= 0)
+            (a, to_a), (b, to_b) = mine[i], others[j]
             if not a.size or not b.size:
                 continue
-            block = after[np.ix_(mine[a, i], others[b, j])]
-            found = pair_values(night, k, block, i, j)
-            at = np.ix_(a, b)
+            found = pair_values(night, k, after[to_a[:, None], to_b], i, j)
+            at = a[:, None], b
             worst[at] = (np.minimum if ours_first else np.maximum)(worst[at], found)
-        allowed = np.flatnonzero(lead_table[:, named] >= 0)
         if ours_first:
             best[allowed] = np.maximum(best[allowed], worst[allowed])
         else:

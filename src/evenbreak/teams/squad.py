@@ -116,11 +116,14 @@ class LineUps(NamedTuple):
         used[k]: the counts of the players that are possible after k sets.
     after
         after[k][state, pick]: the state after set k, in which the pick plays; -1 if not allowed.
+    moves
+        moves[k][pick]: the states in which the pick is allowed in set k, and those after it.
     """
 
     picks: list[list[tuple[int, ...]]]
     used: list[list[Counts]]
     after: list[Ints]
+    moves: list[list[tuple[Ints, Ints]]]
 
 
 def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
@@ -172,7 +175,14 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
         kept = np.flatnonzero((table >= 0).any(axis=1))
         used[k] = [used[k][state] for state in kept]
         after.append(table[kept])
-    return LineUps(picks, used, after[::-1])
+    after.reverse()
+    moves = [[_move(column) for column in table.T] for table in after]
+    return LineUps(picks, used, after, moves)
+
+
+def _move(after: Ints) -> tuple[Ints, Ints]:
+    allowed = np.flatnonzero(after >= 0)
+    return allowed, after[allowed]
 
 
 def _with(squad: Squad, counts: Counts, pick: Sequence[int]) -> Counts:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak import files, handicaps, teams
+from evenbreak import files, handicaps, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
@@ -110,6 +110,11 @@ Examples:
     type=click.Choice(["won", "lost"]),
     help="Whether you won the last set, where its winner or loser names first.",
 )
+@click.option(
+    "--sure",
+    is_flag=True,
+    help="Take the ratings as right, even if the files state their standard errors.",
+)
 @starter_options
 @scale_option("the one that the files state, else npl", fixed=False)
 @seed_option("The seed of the ratings that are drawn, where they have standard errors.")
@@ -132,6 +137,7 @@ def command(
     playing: tuple[str, ...],
     named: str | None,
     last: str | None,
+    sure: bool,
     starter: float | None,
     starter_sd: float | None,
     scale: Scale | None,
@@ -143,12 +149,15 @@ def command(
     taken to choose as well as they can. After each nomination, ask again with --used, --score and
     --named.
     """
-    from evenbreak.answers.lineup import SEALED, Meeting, lineup_answer
+    from evenbreak.answers.lineup import lineup_answer
     from evenbreak.answers.starters import starters_words
+    from evenbreak.answers.team_meeting import SEALED, Meeting
 
     lists = files.read_team(ours), files.read_team(theirs)
     points = _scale(lists, scale)
     rosters = [with_starters(each.file.roster, points, starter, starter_sd) for each in lists]
+    if sure:
+        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
     played = sets or min(len(each) for each in rosters) * times
     sizes = _sizes(doubles, played)
     squads = [

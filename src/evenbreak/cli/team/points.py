@@ -11,7 +11,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.files.known_names import KnownNames
 
 if TYPE_CHECKING:
-    from evenbreak.answers.lineup import Meeting
+    from evenbreak.answers.team_meeting import Meeting
 
 _PLAYING = re.compile(r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", re.ASCII)
 _SIDES = ("ours", "theirs")

@@ -107,20 +107,20 @@ def command(
 
     if (schedule is None) == (round_robin is None):
         refuse("say which matches are to come: give a schedule, or --round-robin K")
-    if team_file is None:
-        known, start, lines = files.TeamNames([]), None, ()
-    else:
+    warnings: list[str] = []
+    known, start = files.TeamNames([]), None
+    if team_file is not None:
         known, start, lines = files.read_teams(team_file)
+        warnings += lines
     played = files.read_team_results(results, known)
-    warnings = [*lines, *played.warnings]
-    rounds: tuple[str, ...]
+    warnings += played.warnings
+    rounds: tuple[str, ...] = ()
     if schedule is not None:
         ahead = files.read_fixtures(schedule, known)
         to_come, rounds = ahead.pairs, ahead.rounds
         warnings += ahead.warnings
     else:
         to_come = teams.still_to_play(known.names, round_robin or 1, played.pairs)
-        rounds = ()
     count = len(known.names)
     for name, many in (("--up", up), ("--down", down)):
         if many is not None and many >= count:
