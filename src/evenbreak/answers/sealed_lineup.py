@@ -39,14 +39,21 @@ def sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
     else:
         words = "Draw one of the line-ups below by its share, and its order at random"
     columns = [
-        Column("name", "line-up", left=True),
+        Column("name"),
+        Column("sits_out", "sits out", left=True),
         Column("p_win", "you win\nthe night", chance),
         Column("cost", "worse than\nthe best by", cost_words),
         Column("mix", "hand it in", percent),
     ]
     listing = found.ours[:_LISTED]
     rows = [
-        [", ".join(one.names), one.worth, max(0.0, found.worth - one.worth), one.mix]
+        [
+            ", ".join(one.names),
+            ", ".join(name for name in meeting.ours.players if name not in one.names) or "nobody",
+            one.worth,
+            max(0.0, found.worth - one.worth),
+            one.mix,
+        ]
         for one in listing
     ]
     left = len(found.ours) - len(listing)
