@@ -66,7 +66,7 @@ class SeasonSoFar:
             checked_prior(prior_sd) ** -2,
             advantage=known or 0.0,
             break_precision=BREAK_SD**-2 if estimated else None,
-            means=self._means_of(levels or Levels()),
+            means=self._means_of(levels or Levels(), half_life),
             start=self._last,
         )
         self._last = mode.point[: terms.players]
@@ -80,7 +80,10 @@ class SeasonSoFar:
             )
         return self._terms[half_life, breaks]
 
-    def _means_of(self, levels: Levels) -> PriorMeans | None:
+    def _means_of(self, levels: Levels, half_life: float | None) -> PriorMeans | None:
         if levels not in self._means:
             self._means[levels] = means_of(self._results, levels, self._stated) if levels else None
-        return self._means[levels]
+        means = self._means[levels]
+        if means is None or levels.beginning is None:
+            return means
+        return means.faded(levels.beginning.kept(half_life, self._results, None))
