@@ -86,8 +86,9 @@ def stretch_losses(
         terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
         predicted[row] = round(terms.amount)
         season = SeasonSoFar(before)
-        for column, way in enumerate(ways):
-            losses[row, column] = -terms.log_likelihood(*season.skills(**way))
+        skills, advantages = season.skills(ways)
+        for column, (skill, advantage) in enumerate(zip(skills, advantages, strict=True)):
+            losses[row, column] = -terms.log_likelihood(skill, advantage)
         progress(row + 1, len(stretches))
     return StretchLosses(losses, predicted)
 
