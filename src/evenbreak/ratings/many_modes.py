@@ -132,8 +132,7 @@ class _Season:
         # ln(1 + exp(x)) is ln(1 + exp(-x)) + x.
         common = (self._won + self._lost) * np.logaddexp(0.0, games) - self._won * games
         log_win = race_slopes(races, self._terms.race_m, self._terms.race_n).log_win
-        off = skill - self.mean
-        prior = 0.5 * np.einsum("wi,wij,wj->w", off, self._precision, off, optimize=True)
+        prior = 0.5 * ((skill - self.mean) * self._pull(skill)).sum(1)
         return np.asarray(common.sum(1) - (self._race_weight * log_win).sum(1) + prior)
 
     def slopes(self, skill: Floats) -> tuple[Floats, Floats]:
@@ -145,9 +144,13 @@ class _Season:
         pull = np.hstack([played * p - self._won, slope]) @ self._to_pairs
         bend = np.hstack([played * p * (1.0 - p), -self._race_weight * found.curvature])
         bend = bend @ self._to_pairs
-        off = skill - self.mean
-        gradient = pull @ self._ends + np.einsum("wij,wj->wi", self._precision, off)
+        gradient = pull @ self._ends + self._pull(skill)
         return gradient, self._precision + self._laplacians(bend)
+
+    def _pull(self, skill: Floats) -> Floats:
+        """Return the gradient of minus the prior's logarithm."""
+        off = skill - self.mean
+        return np.asarray((self._precision @ off[:, :, None])[:, :, 0])
 
     def _laplacians(self, bend: Floats) -> Floats:
         n = self._players
