@@ -23,7 +23,7 @@ from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import scale_of
 from evenbreak.ratings.stated_strength import StatedStrength
 
-SOLVED_AT_ONCE = 60
+SOLVED_AT_ONCE = 80
 """Players up to which all ways are solved together, which is faster than one after the other."""
 
 
