@@ -80,7 +80,8 @@ class Curvature:
 
     @cached_property
     def _diagonal(self) -> Floats:
-        return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
+        low, high = (np.bincount(ends, self.weight, self.size) for ends in (self.low, self.high))
+        return np.asarray(low + high + self.precision)
 
     @cached_property
     def _across(self) -> Floats:

@@ -16,7 +16,7 @@ from evenbreak.arrays import Floats
 from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
-from evenbreak.ratings.many_modes import WayToRate, find_modes
+from evenbreak.ratings.many_modes import GRADIENT, WayToRate, find_modes
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
 from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.results import Results
@@ -96,6 +96,7 @@ class SeasonSoFar:
             break_precision=BREAK_SD**-2 if estimated else None,
             means=way.means,
             start=self._last,
+            gradient=GRADIENT,
         )
         self._last = mode.point[: self._players]
         return mode.point
