@@ -167,4 +167,4 @@ def _precision_of(means: PriorMeans, precision: float) -> Floats:
     if not len(means.level_sd):
         return precision * one
     spread = means.design * means.level_sd
-    return np.linalg.inv(one / precision + spread @ spread.T)
+    return np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
