@@ -59,15 +59,12 @@ class SeasonSoFar:
         scale, and levels. All ways have a break advantage, or none.
         """
         asked = [self._asked(**way) for way in ways]
-        if self._players <= SOLVED_AT_ONCE and not any(estimated for _, estimated in asked):
-            skill = find_modes([way for way, _ in asked], self._last)
-            self._last = skill[-1]
-            return skill, np.array([way.advantage for way, _ in asked])
-        points = [self._mode(way, estimated) for way, estimated in asked]
-        return (
-            np.array([point[: self._players] for point in points]),
-            np.array([point[-1] for point in points]),
-        )
+        if self._players <= SOLVED_AT_ONCE:
+            skills, advantages = find_modes(asked, self._last)
+            self._last = skills[-1]
+            return skills, advantages
+        points = np.array([self._mode(way) for way in asked])
+        return points[:, :-1], points[:, -1]
 
     def _asked(
         self,
@@ -77,29 +74,33 @@ class SeasonSoFar:
         break_advantage: float | str | None = None,
         scale: Any = "npl",
         levels: Levels | None = None,
-    ) -> tuple[WayToRate, bool]:
-        """Return a way to rate, and whether its break advantage is to be estimated."""
+    ) -> WayToRate:
         breaks = break_advantage is not None
         known = known_advantage(break_advantage, scale_of(scale)) if breaks else 0.0
         terms = self._terms_of(half_life, breaks=breaks)
+        # Without such games there is nothing to estimate.
         some = bool(terms.games_with_breaker)
-        means = self._means_of(levels or Levels())
-        way = WayToRate(terms, checked_prior(prior_sd) ** -2, (known or 0.0) * some, means)
-        return way, known is None and some
+        return WayToRate(
+            terms,
+            checked_prior(prior_sd) ** -2,
+            (known or 0.0) * some,
+            BREAK_SD**-2 if known is None and some else None,
+            self._means_of(levels or Levels()),
+        )
 
-    def _mode(self, way: WayToRate, estimated: bool) -> Floats:
-        """Return the skills and levels, and the break advantage, in one way."""
+    def _mode(self, way: WayToRate) -> Floats:
+        """Return the skills and the break advantage in one way."""
         mode = find_mixed_mode(
             way.terms,
             way.precision,
             advantage=way.advantage,
-            break_precision=BREAK_SD**-2 if estimated else None,
+            break_precision=way.break_precision,
             means=way.means,
             start=self._last,
             gradient=GRADIENT,
         )
         self._last = mode.point[: self._players]
-        return mode.point
+        return np.append(self._last, mode.point[-1])
 
     def _terms_of(self, half_life: float | None, *, breaks: bool) -> LikelihoodTerms:
         if (half_life, breaks) not in self._terms:
