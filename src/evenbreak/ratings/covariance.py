@@ -83,8 +83,9 @@ class Curvature:
 
     @cached_property
     def _diagonal(self) -> Floats:
-        met = sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
-        return met if self.means is None else met + self.means.information
+        low, high = (np.bincount(ends, self.weight, self.size) for ends in (self.low, self.high))
+        known = 0.0 if self.means is None else self.means.information
+        return np.asarray(low + high + self.precision + known)
 
     @cached_property
     def _across(self) -> Floats:

@@ -25,7 +25,7 @@ from evenbreak.ratings.gains import gains_over, is_clear
 from evenbreak.ratings.half_life import half_lives_for
 from evenbreak.ratings.levels import Levels, known_levels
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.stretches import StretchLosses, stretch_losses
+from evenbreak.ratings.stretches import Stretches, StretchLosses
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -223,7 +223,7 @@ class _Search:
     """The steps of a search, each of which goes through the whole season once."""
 
     def __init__(self, results: Results, steps: int, progress: Progress) -> None:
-        self._results = results
+        self._season = Stretches(results)
         self._steps, self._done = steps, 0
         self._progress = progress
 
@@ -233,7 +233,7 @@ class _Search:
         def progress(done: int, stretches: int) -> None:
             self._progress(100 * self._done + 100 * done // stretches, 100 * steps)
 
-        found = stretch_losses(self._results, ways, progress=progress)
+        found = self._season.losses(ways, progress=progress)
         self._done += 1
         return found
 
