@@ -209,8 +209,9 @@ def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
     prior = precision * one
     if len(means.level_sd):
         spread = means.design * means.level_sd
-        prior = np.linalg.inv(one / precision + spread @ spread.T)
+        prior = np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
     if means.known is None:
         return means.mean, prior
     both = prior + np.diag(means.known.information)
-    return np.linalg.solve(both, prior @ means.mean + means.known.pull), both
+    mean = np.linalg.solve(both, prior @ means.mean + means.known.pull)
+    return np.asarray(mean, dtype=np.float64), both
