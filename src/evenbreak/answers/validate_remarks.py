@@ -16,6 +16,7 @@ from evenbreak.answers.validate_judgement import (
 )
 from evenbreak.answers.wording import count_of, listed, percent
 from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.first_column import FEWEST_ON_A_DATE
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.race_lengths import RaceLengths
 from evenbreak.ratings.scale import Scale
@@ -182,21 +183,32 @@ def _first_column(found: Validation) -> str:
     won = f"Players in the first column won {percent(column.won / column.matches)} of the matches"
     if column.winners_first:
         return f"{won}: the file seems to list winners first. That does not change the ratings."
+    if column.winners_first_on_some_dates:
+        return (
+            f"On {column.dates_won:,} of {count_of(column.dates, 'date')} with "
+            f"{FEWEST_ON_A_DATE} matches or more, the player in the first column won every match: "
+            "the file seems to list winners first there. That does not change the ratings."
+        )
     way = 0 if found.side is None else clearly_off(found.side, 0.0)
-    predicted = f"{percent(column.expected / column.matches)} predicted"
-    if way > 0:
+    if not way:
+        return ""
+    said = f"{won} ({percent(column.expected / column.matches)} predicted)."
+    if column.varies < UNLIKELY:
         return (
-            f"{won} ({predicted}). If the file lists winners or stronger players first, this means "
-            "nothing. If the first column is the home player, it may be home advantage, which the "
-            "ratings do not know."
+            f"{said} This differs too much from date to date to be an advantage, so it shows only "
+            "how the file was written."
         )
-    if way < 0:
+    if way == column.stronger_first:
+        place = "first" if way > 0 else "second"
         return (
-            f"{won} ({predicted}). If the file lists losers or weaker players first, this means "
-            "nothing. If the first column is the visitor, it may be home advantage, which the "
-            "ratings do not know."
+            f"{said} The file tends to list the stronger player {place}, so this is hardly an "
+            "advantage."
         )
-    return ""
+    player = "home player" if way > 0 else "visitor"
+    return (
+        f"{said} If the first column is the {player}, it may be home advantage, which the ratings "
+        "do not know. If the order has no meaning, ignore it."
+    )
 
 
 def _prior(found: Validation, scale: Scale) -> str:

@@ -10,17 +10,11 @@ from typing import Literal
 import numpy as np
 
 from evenbreak.checks import seed_of
-from evenbreak.ratings.advantages import (
-    FirstBreaks,
-    FirstColumn,
-    break_advantage,
-    first_breaks,
-    first_column,
-    side_advantage,
-)
+from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks
 from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.first_column import FirstColumn, first_column, side_advantage
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
