@@ -188,9 +188,9 @@ class Results:
             with the columns of a results file: `player_a`, `player_b`, `score_a` and
             `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
             `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
-            and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
-            match of which the races and the winner are known. Other columns are not used, which
-            a warning says.
+            and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit
+            may leave its scores empty, and so may a match of which the races and the winner are
+            known. Other columns are not used, which a warning says.
 
         Raises
         ------

@@ -25,6 +25,7 @@ from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scored import How, Of, Predictions, Scored
+from evenbreak.ratings.starts import Starts, starts
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
@@ -78,6 +79,9 @@ class Validation:
         how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
+    starts
+        what the games given take back of the difference between players; None where there are
+        too few.
     experience
         how the less experienced player of a match fared, by the games played before.
     drawn
@@ -105,6 +109,7 @@ class Validation:
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
+    starts: Starts | None
     lengths: tuple[RaceLengths, ...]
     experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
@@ -227,6 +232,7 @@ def validate(
         breaker=break_advantage(walk),
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
+        starts=starts(walk.results),
         lengths=tuple(race_lengths(walk)),
         experience=tuple(by_experience(walk)),
         drawn="dates" if by_dates else "matches",
