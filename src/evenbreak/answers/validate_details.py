@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
 from evenbreak.answers.wording import count_of, decimals, percent
 from evenbreak.ratings.by_experience import ByExperience
@@ -55,6 +56,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
                 "mostly by their own errors, so predictions of matches are of little use."
             )
             yield _by_spot(found)
+    if found.starts is not None:
+        yield starts_table(found.starts, scale)
     if found.experience:
         yield _experience(found, scale)
     new = int(found.forecasts.new.sum())

@@ -48,6 +48,16 @@ def share_of(spot: HandicapFairness) -> Estimate:
     return Estimate(spot.share, spot.low, spot.high)
 
 
+def starts_way(found: Validation) -> int:
+    """Return 1 where starts clearly take back too little, -1 where too much, else 0.
+
+    Where the matches clearly say the opposite, it is 0 too.
+    """
+    way = 0 if found.starts is None else clearly_off(found.starts.share, 1.0)
+    by_matches = clearly_off(share_of(found.spots[-1]), 0.5) if found.spots else 0
+    return 0 if way == -by_matches else way
+
+
 def at_the_edge(found: Validation) -> bool:
     """Return whether the prior that was chosen is the first or the last of those tried."""
     tried = () if found.choice is None or not found.choice.learnt else found.choice.tried
@@ -66,6 +76,15 @@ def any_winner_breaks(found: Validation) -> bool:
     """Return whether any race was played with winner breaks, as far as the file says."""
     breaks = found.forecasts.results.break_format
     return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
+
+
+def percents(ends: tuple[float, float]) -> str:
+    """Return a range of shares.
+
+    >>> percents((0.482, 0.579))
+    '48 to 58%'
+    """
+    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
 
 
 def points_text(prior_sd: float, scale: Scale) -> str:

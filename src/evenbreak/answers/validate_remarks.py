@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from evenbreak.answers.prior_words import level_words, too_few_for_prior_words
+from evenbreak.answers.validate_handicaps import handicap_remarks
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     any_winner_breaks,
@@ -11,10 +12,10 @@ from evenbreak.answers.validate_judgement import (
     best_half_life,
     clearly_off,
     points_text,
-    share_of,
     wrong_chances,
 )
 from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.first_column import FEWEST_ON_A_DATE
 from evenbreak.ratings.fit import PRIOR_SD
@@ -22,61 +23,16 @@ from evenbreak.ratings.race_lengths import RaceLengths
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 
-WIDE = 0.4
-"""The width from which the range of a share says nothing about it."""
 
-
-def remarks(found: Validation, scale: Scale) -> list[str]:
+def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
     levels = level_words(replace(found.ratings, scale=scale), found.choice)
     said = [
-        *(_handicaps(found), _spread(found), _form(found, scale), *levels),
+        *handicap_remarks(found, chart or LeagueChart(), scale),
+        *(_spread(found), _form(found, scale), *levels),
         *(_experience(found, scale), _half_life(found), _first_column(found)),
     ]
     return [text for text in (*said, _prior(found, scale)) if text]
-
-
-def percents(ends: tuple[float, float]) -> str:
-    """Return a range of shares.
-
-    >>> percents((0.482, 0.579))
-    '48 to 58%'
-    """
-    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
-
-
-def _handicaps(found: Validation) -> str:
-    """Return whether handicaps were fair, '' where there were none."""
-    if not found.spots:
-        return ""
-    every = found.spots[-1]
-    figures = (
-        f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
-        f" ({percent(every.share)}; {percents((every.low, every.high))} allowing for luck)"
-    )
-    off = clearly_off(share_of(every), 0.5)
-    if off > 0:
-        return f"The handicaps give too little. {figures}; fair is 50%."
-    if off < 0:
-        return f"The handicaps give too much. {figures}; fair is 50%."
-    if every.high - every.low > WIDE:
-        return (
-            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
-        )
-    if not every.low <= 0.5 <= every.high:
-        more = "little" if every.low > 0.5 else "much"
-        return (
-            f"The handicaps may give too {more}. {figures}; fair is 50%, just outside that range."
-        )
-    way = clearly_off(share_of(every), every.expected)
-    if way:
-        under = "under" if way > 0 else "over"
-        return (
-            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
-            f"they {under}rate players who give games, so do not use them to predict handicap "
-            "matches."
-        )
-    return f"The handicaps look fair. {figures}."
 
 
 def _spread(found: Validation) -> str:

@@ -10,6 +10,7 @@ from evenbreak.answers.validate_judgement import (
     points_text,
     scored_of,
     share_of,
+    starts_way,
     wrong_chances,
 )
 from evenbreak.answers.wording import listed
@@ -134,7 +135,7 @@ def _faults(found: Validation) -> Iterator[str]:
         yield f"the breaker has {'an advantage' if way > 0 else 'a disadvantage'}"
     if found.spots:
         share = share_of(found.spots[-1])
-        if way := clearly_off(share, 0.5):
+        if way := clearly_off(share, 0.5) or starts_way(found):
             yield f"the handicaps give too {'little' if way > 0 else 'much'}"
         if way := clearly_off(share, found.spots[-1].expected):
             yield f"players who give games win {more_or_less(way > 0)} often than predicted"
