@@ -62,13 +62,14 @@ def validate_answer(
 
 def _heading(file: ResultsFile, found: Validation) -> str:
     forecasts = found.forecasts
+    forfeits = count_of(forecasts.forfeits, "forfeit")
     left = {
-        "without a date": forecasts.undated,
-        "forfeits": forecasts.forfeits,
-        "at 0-0": forecasts.empty,
-        "without scores": forecasts.unscored,
+        f"{forecasts.undated:,} without a date": forecasts.undated,
+        forfeits: forecasts.forfeits,
+        f"{forecasts.empty:,} at 0-0": forecasts.empty,
+        f"{forecasts.unscored:,} without scores": forecasts.unscored,
     }
-    out = ", ".join(f"{count:,} {why}" for why, count in left.items() if count)
+    out = ", ".join(words for words, count in left.items() if count)
     return (
         f"{file.source}: {count_of(len(forecasts), 'match', 'matches')} on "
         f"{count_of(_dates(found), 'date')}, each date predicted from the earlier ones"

@@ -7,7 +7,7 @@ from typing import Any
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
-from evenbreak.answers.wording import count_of, decimals, percent
+from evenbreak.answers.wording import count_of, decimals, percent, range_words
 from evenbreak.ratings.by_experience import ByExperience
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
@@ -48,6 +48,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     if found.form is not None:
         yield _form(found.form, scale)
         yield _shapes(found.form)
+    if found.lengths:
+        yield _lengths(found)
     if found.matches:
         yield _matches(found)
         if found.spots:
@@ -176,7 +178,9 @@ def _form(form: MatchForm, scale: Scale) -> str:
     return (
         f"Form of the day: the difference between two players varies from match to match with a "
         f"standard deviation of {points * form.sd:.0f} points (variance {v:.3f} in squared "
-        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end}"
+        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end} It "
+        f"is estimated from {count_of(form.races, 'match', 'matches')} to two games or more, "
+        "without those of the first date."
     )
 
 
@@ -190,6 +194,26 @@ def _shapes(form: MatchForm) -> Table:
     ]
     title = "Scores, with 95% intervals, beside what the ratings expect without and with form:"
     return Table("", columns, form.shapes, title)
+
+
+def _lengths(found: Validation) -> Table:
+    """Return how often favourites won short and long races."""
+    columns = [
+        Column("length", "race to"),
+        Column("matches", "matches"),
+        Column("predicted", "predicted", decimals(3)),
+        Column("share", "won", decimals(3)),
+        Column("range", "95% interval", _range),
+    ]
+    rows = [
+        (
+            range_words(half.shortest, half.longest),
+            *(half.matches, half.predicted, half.share, (half.low, half.high)),
+        )
+        for half in found.lengths
+    ]
+    title = "Matches with a favourite that the favourite won, by the length of the race:"
+    return Table("", columns, rows, title)
 
 
 def _experience(found: Validation, scale: Scale) -> Table:

@@ -28,11 +28,13 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
     if not found.spots:
         return
     yield _fairness(found)
-    fair = _fair_scale(chart.scale)
+    fair, command = _fair_scale(chart.scale)
     if found.starts is not None:
         yield from _worth(found, found.starts, scale, covered=bool(fair))
     if fair:
         yield fair
+    if command:
+        yield command
     if chart.nearest is not None:
         yield _nearest(chart.nearest)
 
@@ -92,6 +94,11 @@ def _worth(found: Validation, starts: Starts, scale: Scale, *, covered: bool) ->
 
 
 def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> str:
+    if not clearly_off(a_class, 0.0):
+        return (
+            f"The classes make no clear difference: a class is worth {_points(a_class, scale)}, "
+            f"give or take {_error(a_class, scale)}."
+        )
     text = (
         f"A class is worth {_points(a_class, scale)}, give or take {_error(a_class, scale)}: the "
         f"players of one win {percent(float(scale.win_probability(scale.points(a_class.value))))} "
@@ -103,7 +110,7 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
     needs = one.race[0]
     text += (
         f" Between neighbouring classes most matches are {race(one.race)}, which takes back "
-        f"{scale.points(one.taken):.0f} points"
+        f"{scale.points(one.taken):.0f} of these points"
     )
     better = needs, even_start(needs, a_class.value)
     if way and better != one.race:
@@ -119,26 +126,25 @@ def _error(estimate: Estimate, scale: Scale) -> str:
     return f"{scale.points(estimate.high - estimate.low) / 3.92:.1f}"
 
 
-def _fair_scale(fair: FairScale | None) -> str:
-    """Return how many points double the odds, '' where the results do not show it."""
+def _fair_scale(fair: FairScale | None) -> tuple[str, str]:
+    """Return how many points double the odds, and what designs a chart for them; '' for none."""
     if fair is None:
-        return ""
+        return "", ""
     points = fair.points
     error = (points.high - points.low) / 3.92
     if not clearly_off(points, fair.assumed):
         if error > SURE * points.value:
-            return ""
+            return "", ""
         return (
-            f"The scale of the handicaps is right: {fair.assumed:.3g} points double the odds of "
-            f"winning a game by the chart, and {points.value:.1f} by the results, give or take "
-            f"{error:.1f}."
-        )
+            f"The chart takes {fair.assumed:.3g} points to double the odds of winning a game. The "
+            f"results agree: they say {points.value:.1f}, give or take {error:.1f}."
+        ), ""
     low, high = fair.games
     return (
         f"{points.value:.1f} points double the odds of winning a game in this league, give or take "
-        f"{error:.1f}; the chart assumes {fair.assumed:.3g}. This makes a chart that fits: "
+        f"{error:.1f}; the chart assumes {fair.assumed:.3g}. This makes a chart that fits:",
         f"evenbreak chart design --games {low}..{high} --least {race(fair.least)} "
-        f"--scale {points.value:.1f}"
+        f"--scale {points.value:.1f}",
     )
 
 
@@ -150,6 +156,12 @@ def _nearest(found: PlayedChart) -> str:
         slips = f" Other races were played in {count_of(others, 'match', 'matches')}."
     if found.same:
         return f"The races are those of the chart {found.title} ({found.name}).{slips}"
+    if found.by == "race" and not any(cell.played for cell in found.changed):
+        never = [race(cell.chart) for cell in found.changed if cell.chart is not None]
+        return (
+            f"All races are in the chart {found.title} ({found.name}); its {listed(never)} "
+            f"{'was' if len(never) == 1 else 'were'} never played."
+        )
     if found.by == "race":
         return f"The races are nearest to the chart {found.title} ({found.name}). {_races(found)}"
     places = count_of(len(found.changed), "place")

@@ -8,17 +8,13 @@ from evenbreak.answers.validate_handicaps import handicap_remarks
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     any_winner_breaks,
-    at_the_edge,
     best_half_life,
     clearly_off,
-    points_text,
-    wrong_chances,
 )
 from evenbreak.answers.wording import count_of, listed, percent
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.first_column import FEWEST_ON_A_DATE
-from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.race_lengths import RaceLengths
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
@@ -26,30 +22,39 @@ from evenbreak.ratings.validate import Validation
 
 def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
+    chart = chart or LeagueChart()
     levels = level_words(replace(found.ratings, scale=scale), found.choice)
     said = [
-        *handicap_remarks(found, chart or LeagueChart(), scale),
-        *(_spread(found), _form(found, scale), *levels),
+        *handicap_remarks(found, chart, scale),
+        *(_spread(found, scale), *levels),
         *(_experience(found, scale), _half_life(found), _first_column(found)),
     ]
-    return [text for text in (*said, _prior(found, scale)) if text]
+    texts = [text for text in (*said, _prior(found, scale)) if text]
+    if chart.scale is None and any(" points" in text for text in texts):
+        texts.append(
+            f"Points are such that {scale.points_per_doubling:.4g} double the odds of winning a "
+            "game; --scale sets others."
+        )
+    return texts
 
 
-def _spread(found: Validation) -> str:
+def _spread(found: Validation, scale: Scale) -> str:
     """Return why scores vary more than they should, '' where they do not."""
+    form = _form(found, scale)
     test = found.dispersion
     if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
-        return ""
-    more = 100.0 * (test.seen / test.by_chance - 1.0)
+        return form
+    more = f"Match scores vary {100.0 * (test.seen / test.by_chance - 1.0):.0f}% more than expected"
+    if form:
+        return " ".join([f"{more}.", form, *_lengths(found)])
     causes = ["players have good and bad days"]
     if best_half_life(found):
         causes.append("the ratings lag behind")
     if any_winner_breaks(found):
         causes.append("the break is strong under winner breaks")
-    if found.spots:
+    if found.spots and not found.forecasts.levels.race:
         causes.append("the handicaps know more than these ratings")
-    text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
-    return " ".join([text, *_lengths(found)])
+    return " ".join([f"{more}. Perhaps {listed(causes, 'or')}.", *_lengths(found)])
 
 
 def _form(found: Validation, scale: Scale) -> str:
@@ -64,11 +69,15 @@ def _form(found: Validation, scale: Scale) -> str:
     shares = [
         f"{percent(shape.seen.value)} {words} ({percent(shape.said)} expected without this, "
         f"{percent(shape.said_with_form)} with it)"
-        for shape, words in ((deciders, "went to the last game"), (sweeps, "were sweeps"))
+        for shape, words in (
+            (deciders, "of the matches went to the last game"),
+            (sweeps, "were sweeps"),
+        )
     ]
     return (
-        f"From match to match the difference between two players varies by about {points:.0f} "
-        f"points around that of their ratings. Of {form.races:,} matches {listed(shares)}."
+        "Players have good and bad days, or change within the season: from match to match the "
+        f"difference between two of them varies by about {points:.0f} points around that of their "
+        f"ratings. {listed(shares)}."
     )
 
 
@@ -78,14 +87,17 @@ def _lengths(found: Validation) -> Iterator[str]:
         return
     short, long = found.lengths
     shares = [
-        f"{percent(half.share)} of the {half.matches:,} {races} ({percent(half.predicted)} "
-        "predicted)"
+        f"{percent(half.share)} of the {races} ({percent(half.predicted)} predicted)"
         for half, races in ((short, f"races to {short.longest} or less"), (long, "longer ones"))
     ]
-    yield f"Favourites won {listed(shares)}."
     ways = {"short": _way(short), "long": _way(long)}
     if not any(ways.values()):
-        yield "Both differences may be luck."
+        yield (
+            "Short and long races are predicted about equally well: favourites won "
+            f"{listed(shares)}."
+        )
+        return
+    yield f"Favourites won {listed(shares)}."
     for races, way in ways.items():
         if way:
             yield f"So {races} races are {'more' if way > 0 else 'less'} certain than predicted."
@@ -168,19 +180,6 @@ def _first_column(found: Validation) -> str:
 
 
 def _prior(found: Validation, scale: Scale) -> str:
-    """Return which prior suits, '' where the verdict has said so."""
+    """Return that there are too few results to choose a prior, '' where there are enough."""
     choice = found.choice
-    if choice is None:
-        return ""
-    if not choice.learnt:
-        return too_few_for_prior_words(choice, scale)
-    if found.skill.low <= 0.0 or at_the_edge(found):
-        return ""
-    if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
-        return ""
-    if found.prior_sd == PRIOR_SD:
-        return f"The usual prior of {points_text(PRIOR_SD, scale)} points suits this league best."
-    return (
-        f"A prior of {points_text(found.prior_sd, scale)} points suits this league best, and rate "
-        f"and report use it; the usual one of {points_text(PRIOR_SD, scale)} points will do too."
-    )
+    return "" if choice is None or choice.learnt else too_few_for_prior_words(choice, scale)

@@ -48,7 +48,7 @@ def verdict(found: Validation, scale: Scale) -> str:
         held = "Nothing speaks against the ratings, but there are too few matches to be sure."
     else:
         held = "You can trust these ratings: players win as often as they predict."
-    return f"{default} With that prior {held[0].lower()}{held[1:]}" if default else held
+    return f"{held} {default}" if default else held
 
 
 def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
@@ -108,14 +108,14 @@ def _good_and_bad_days(times: float) -> str:
 
 
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
-    """Return which prior to use where the default one is clearly wrong, '' where it is not."""
+    """Return what the default prior would do where it is clearly wrong, '' where it is not."""
     wrong = wrong_chances(found.usual, found)
     if not wrong or found.prior_sd == PRIOR_SD:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        f"Let the results choose the prior, as rate and report do: here it is {use} points. With "
-        f"the usual {default} points, {_too_sure(wrong)}."
+        "These are ratings as rate and report make them, with the prior that the results choose: "
+        f"{use} points. With the usual prior of {default} points, {_too_sure(wrong)}."
     )
 
 

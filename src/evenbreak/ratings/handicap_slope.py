@@ -62,7 +62,8 @@ def handicap_slope(results: Results, x: Floats) -> Estimate | None:
         return None
     slopes = model.at(found)[1][of_row.ravel()][:, free]
     inverse = np.linalg.inv(bend)
-    variance = float((inverse @ _spread(results, slopes) @ inverse)[0, 0])
+    # Few players may make the first come out too small by luck, even below that of pairs alone.
+    variance = max(float((inverse @ one @ inverse)[0, 0]) for one in _spreads(results, slopes))
     # A few players vary more than their sum of squares shows: Student's t, in normal units.
     freedom = max(_players(results) - 2, 1)
     wider = stdtrit(freedom, 0.5 + CONFIDENCE / 2) / ndtri(0.5 + CONFIDENCE / 2)
@@ -96,21 +97,20 @@ class _Model:
         return whole, np.column_stack([pull.sum(1) * self._x[:, 0], pull @ self._points])
 
 
-def _spread(results: Results, slopes: Floats) -> Floats:
-    """Return the covariance of the summed slopes, where matches that share a player vary together.
+def _spreads(results: Results, slopes: Floats) -> tuple[Floats, Floats]:
+    """Return the covariance of the summed slopes, matches varying together that share a player.
 
-    Few players make it come out too small by luck, so it is not smaller than that of pairs alone.
+    The second lets only matches of the same two players vary together.
     """
     a, b = results.player_a, results.player_b
     both = np.minimum(a, b) * len(results.players) + np.maximum(a, b)
     pairs, of_match = np.unique(both, return_inverse=True)
     of_pair = _summed(of_match, slopes, len(pairs))
     of_player = sum(_summed(side, slopes, len(results.players)) for side in (a, b))
-    alone = of_pair.T @ of_pair
-    shared = of_player.T @ of_player - alone
     players = _players(results)
-    larger = shared if shared[0, 0] > alone[0, 0] else alone
-    return np.asarray(larger * players / max(players - 2, 1))
+    few = players / max(players - 2, 1)
+    alone = few * of_pair.T @ of_pair
+    return few * np.asarray(of_player.T @ of_player) - alone, alone
 
 
 def _summed(group: Ints, values: Floats, many: int) -> Floats:

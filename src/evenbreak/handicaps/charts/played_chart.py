@@ -108,7 +108,11 @@ def played_chart(results: Results) -> PlayedChart | None:
         found = _by_race(season)
     near = [one for one in found if one.agree > HALF * one.matches]
     near = [one for one in near if len(one.changed) <= HALF * one.cells or one.by == "race"]
-    return max(near, key=lambda one: one.agree / one.matches, default=None)
+    return max(near, key=_closeness, default=None)
+
+
+def _closeness(one: PlayedChart) -> tuple[float, int]:
+    return one.agree / one.matches, -len(one.changed)
 
 
 def level_numbers_of(results: Results) -> Iterator[Floats]:
