@@ -26,7 +26,15 @@ def test_every_figure_has_its_row(demo):
             "calibration",
         ),
         *("form", "score", "score_with_form", "experience"),
-        *("calibration_plug_in", "no_favourite", "dispersion", "first_break", "side", "spot"),
+        *(
+            "calibration_plug_in",
+            "no_favourite",
+            "dispersion",
+            "first_break",
+            "side",
+            "spot",
+            "start",
+        ),
     }
     (row,) = [r for r in rows if (r["part"], r["of"], r["item"]) == ("slope", "game", "integrated")]
     slope = scored_of(demo, "game").slope

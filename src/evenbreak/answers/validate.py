@@ -47,8 +47,8 @@ def validate_answer(
     >>> print(validate_answer(file, validate(season), scale_of("npl")).sentences[0])
     There are too few matches to say whether these ratings can be trusted.
     """
-    text = verdict(found, scale)
     chart = chart or LeagueChart()
+    text = verdict(found, scale, chart)
     parts: list[Part] = [text, _games(found), *remarks(found, scale, chart)]
     return Answer(
         _heading(file, found),

@@ -27,10 +27,11 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
     """Yield what there is to say about handicaps; nothing where there were none."""
     if not found.spots:
         return
-    yield _fairness(found)
+    way = starts_way(found, chart)
+    yield _fairness(found, way)
     fair, command = _fair_scale(chart.scale)
     if found.starts is not None:
-        yield from _worth(found, found.starts, scale, covered=bool(fair))
+        yield from _worth(found.starts, way, scale, covered=bool(fair))
     if fair:
         yield fair
     if command:
@@ -39,7 +40,7 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
         yield _nearest(chart.nearest)
 
 
-def _fairness(found: Validation) -> str:
+def _fairness(found: Validation, by_games: int) -> str:
     every = found.spots[-1]
     won = (
         f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
@@ -50,7 +51,6 @@ def _fairness(found: Validation) -> str:
     off = clearly_off(share_of(every), 0.5)
     if off:
         return f"The handicaps give too {_little(off)}. {figures}; fair is 50%."
-    by_games = starts_way(found)
     if by_games:
         return (
             f"The handicaps give too {_little(by_games)}, as the games within the matches show. "
@@ -80,9 +80,8 @@ def _little(way: int) -> str:
     return "little" if way > 0 else "much"
 
 
-def _worth(found: Validation, starts: Starts, scale: Scale, *, covered: bool) -> Iterator[str]:
+def _worth(starts: Starts, way: int, scale: Scale, *, covered: bool) -> Iterator[str]:
     """Yield what a class is worth, or else a start where it takes back too little or too much."""
-    way = starts_way(found)
     if starts.a_class is not None:
         yield _class_worth(starts, starts.a_class, way, scale)
     elif way and not covered:

@@ -1,5 +1,6 @@
 """When a figure of a validated season is clearly off, and how figures are written."""
 
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
 from evenbreak.ratings.result_words import FORMATS
@@ -9,6 +10,9 @@ from evenbreak.ratings.validate import Validation
 
 UNLIKELY = 0.01
 """A p-value below which chance is ruled out; it is small because several tests are made."""
+
+NEAR = 0.1
+"""How far off starts may be: the hardest race of a chart serves all larger differences too."""
 
 VAGUE = 0.5
 """An interval of the slope that is wider says too little."""
@@ -48,20 +52,20 @@ def share_of(spot: HandicapFairness) -> Estimate:
     return Estimate(spot.share, spot.low, spot.high)
 
 
-def starts_way(found: Validation) -> int:
+def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
     """Return 1 where starts clearly take back too little, -1 where too much, else 0.
 
-    Where the matches clearly say the opposite, it is 0 too.
+    Where ratings are known, the scale that fits decides. Where the matches clearly say the
+    opposite, it is 0 too.
     """
-    way = 0 if found.starts is None else clearly_off(found.starts.share, 1.0)
+    way = 0
+    if chart is not None and chart.scale is not None:
+        way = -clearly_off(chart.scale.points, chart.scale.assumed)
+    elif found.starts is not None:
+        share = found.starts.share
+        way = int(clearly_off(share, 1.0 + NEAR) > 0) - int(clearly_off(share, 1.0 - NEAR) < 0)
     by_matches = clearly_off(share_of(found.spots[-1]), 0.5) if found.spots else 0
     return 0 if way == -by_matches else way
-
-
-def at_the_edge(found: Validation) -> bool:
-    """Return whether the prior that was chosen is the first or the last of those tried."""
-    tried = () if found.choice is None or not found.choice.learnt else found.choice.tried
-    return bool(tried) and found.prior_sd in (tried[0], tried[-1])
 
 
 def best_half_life(found: Validation) -> float | None:

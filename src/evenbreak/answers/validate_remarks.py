@@ -44,9 +44,7 @@ def _spread(found: Validation, scale: Scale) -> str:
     test = found.dispersion
     if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
         return form
-    more = f"Match scores vary {100.0 * (test.seen / test.by_chance - 1.0):.0f}% more than expected"
-    if form:
-        return " ".join([f"{more}.", form, *_lengths(found)])
+    more = 100.0 * (test.seen / test.by_chance - 1.0)
     causes = ["players have good and bad days"]
     if best_half_life(found):
         causes.append("the ratings lag behind")
@@ -54,7 +52,8 @@ def _spread(found: Validation, scale: Scale) -> str:
         causes.append("the break is strong under winner breaks")
     if found.spots and not found.forecasts.levels.race:
         causes.append("the handicaps know more than these ratings")
-    return " ".join([f"{more}. Perhaps {listed(causes, 'or')}.", *_lengths(found)])
+    text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
+    return " ".join([text, *([form] if form else []), *_lengths(found)])
 
 
 def _form(found: Validation, scale: Scale) -> str:
@@ -75,9 +74,8 @@ def _form(found: Validation, scale: Scale) -> str:
         )
     ]
     return (
-        "Players have good and bad days, or change within the season: from match to match the "
-        f"difference between two of them varies by about {points:.0f} points around that of their "
-        f"ratings. {listed(shares)}."
+        f"From match to match the difference between two players varies by about {points:.0f} "
+        f"points around that of their ratings. {listed(shares)}."
     )
 
 

@@ -14,6 +14,7 @@ from evenbreak.answers.validate_judgement import (
     wrong_chances,
 )
 from evenbreak.answers.wording import listed
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
@@ -26,12 +27,12 @@ PLENTY = 100.0
 """Games a player, on average, from which different strengths would show."""
 
 
-def verdict(found: Validation, scale: Scale) -> str:
+def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> str:
     """Return whether the ratings can be trusted, and what to do."""
     slope = scored_of(found, "game").slope
     if found.skill.low <= 0.0 or slope is None:
         return _no_skill(found, slope, scale)
-    faults = list(_faults(found))
+    faults = list(_faults(found, chart))
     wrong = wrong_chances(found.scored, found)
     if wrong:
         more = f" Also, {listed(faults)}." if faults else ""
@@ -119,7 +120,7 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
     )
 
 
-def _faults(found: Validation) -> Iterator[str]:
+def _faults(found: Validation, chart: LeagueChart | None) -> Iterator[str]:
     """Yield what speaks against the model behind the ratings."""
     spread, runs, first = found.dispersion, found.streaks, found.first_breaks
     if spread is not None and spread.p_value < UNLIKELY:
@@ -135,7 +136,7 @@ def _faults(found: Validation) -> Iterator[str]:
         yield f"the breaker has {'an advantage' if way > 0 else 'a disadvantage'}"
     if found.spots:
         share = share_of(found.spots[-1])
-        if way := clearly_off(share, 0.5) or starts_way(found):
+        if way := clearly_off(share, 0.5) or starts_way(found, chart):
             yield f"the handicaps give too {'little' if way > 0 else 'much'}"
         if way := clearly_off(share, found.spots[-1].expected):
             yield f"players who give games win {more_or_less(way > 0)} often than predicted"

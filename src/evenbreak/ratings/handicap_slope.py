@@ -106,11 +106,12 @@ def _spreads(results: Results, slopes: Floats) -> tuple[Floats, Floats]:
     both = np.minimum(a, b) * len(results.players) + np.maximum(a, b)
     pairs, of_match = np.unique(both, return_inverse=True)
     of_pair = _summed(of_match, slopes, len(pairs))
-    of_player = sum(_summed(side, slopes, len(results.players)) for side in (a, b))
+    many = len(results.players)
+    of_player = _summed(a, slopes, many) + _summed(b, slopes, many)
     players = _players(results)
     few = players / max(players - 2, 1)
     alone = few * of_pair.T @ of_pair
-    return few * np.asarray(of_player.T @ of_player) - alone, alone
+    return few * of_player.T @ of_player - alone, alone
 
 
 def _summed(group: Ints, values: Floats, many: int) -> Floats:

@@ -135,7 +135,7 @@ def _by_race(season: Results, by_chart: Chart) -> Floats:
     place = np.full(len(season), -1)
     for k, (m, n) in enumerate(pairs):
         place[(needs[0] == m) & (needs[1] == n)] = k
-    often = np.bincount(place[place >= 0], minlength=len(pairs))
+    often = np.bincount(place[place >= 0], minlength=len(pairs)).astype(float)
     cuts = np.array([0.0, *(row.difference_from - 0.5 for row in by_chart.rows[1:])])
     mean = _mean_differences(cuts, often)
     mean[0] = 0.0
@@ -169,4 +169,7 @@ def _assumed(season: Results, apart: Floats, by_chart: Chart | None) -> float:
     if scale is not None:
         return scale.points_per_doubling
     implied = implied_difference(season)
-    return math.log(2.0) * float(apart @ apart) / float(apart @ implied)
+    # The hardest race serves all larger differences too.
+    rows = np.abs(implied) < np.abs(implied).max()
+    apart, implied = apart[rows], implied[rows]
+    return math.log(2.0) * float(apart @ implied) / float(implied @ implied)
