@@ -4,9 +4,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.validate_judgement import clearly_off, percents, share_of, starts_way
+from evenbreak.answers.validate_judgement import (
+    clearly_off,
+    percents,
+    scale_way,
+    share_of,
+    starts_way,
+)
 from evenbreak.answers.wording import count_of, listed, percent, race
-from evenbreak.handicaps.charts.fair_scale import FairScale, LeagueChart
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.scale import Scale
@@ -29,7 +35,7 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
         return
     way = starts_way(found, chart)
     yield _fairness(found, way)
-    fair, command = _fair_scale(chart.scale)
+    fair, command = _fair_scale(chart)
     if found.starts is not None:
         yield from _worth(found.starts, way, scale, covered=bool(fair))
     if fair:
@@ -125,13 +131,14 @@ def _error(estimate: Estimate, scale: Scale) -> str:
     return f"{scale.points(estimate.high - estimate.low) / 3.92:.1f}"
 
 
-def _fair_scale(fair: FairScale | None) -> tuple[str, str]:
+def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
     """Return how many points double the odds, and what designs a chart for them; '' for none."""
+    fair = chart.scale
     if fair is None:
         return "", ""
     points = fair.points
     error = (points.high - points.low) / 3.92
-    if not clearly_off(points, fair.assumed):
+    if not scale_way(chart):
         if error > SURE * points.value:
             return "", ""
         return (

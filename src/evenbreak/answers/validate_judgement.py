@@ -60,7 +60,7 @@ def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
     """
     way = 0
     if chart is not None and chart.scale is not None:
-        way = -clearly_off(chart.scale.points, chart.scale.assumed)
+        way = scale_way(chart)
     elif found.starts is not None:
         share = found.starts.share
         way = int(clearly_off(share, 1.0 + NEAR) > 0) - int(clearly_off(share, 1.0 - NEAR) < 0)
@@ -80,6 +80,17 @@ def any_winner_breaks(found: Validation) -> bool:
     """Return whether any race was played with winner breaks, as far as the file says."""
     breaks = found.forecasts.results.break_format
     return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
+
+
+def scale_way(chart: LeagueChart) -> int:
+    """Return 1 where clearly fewer points double the odds than the races assume, -1 where more."""
+    if chart.scale is None:
+        return 0
+    # What a chart that is not known assumes is read off its races.
+    near = 0.0 if chart.nearest is not None else NEAR / 2.0
+    points, assumed = chart.scale.points, chart.scale.assumed
+    fewer = clearly_off(points, assumed * (1.0 - near)) < 0
+    return int(fewer) - int(clearly_off(points, assumed * (1.0 + near)) > 0)
 
 
 def percents(ends: tuple[float, float]) -> str:
