@@ -1,5 +1,7 @@
 """When a figure of a validated season is clearly off, and how figures are written."""
 
+from scipy.special import ndtri
+
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
@@ -18,14 +20,16 @@ VAGUE = 0.5
 """An interval of the slope that is wider says too little."""
 
 
-def clearly_off(estimate: Estimate, right: float) -> int:
+def clearly_off(estimate: Estimate, right: float, *, tests: int = 1) -> int:
     """Return 1 or -1 where an estimate is clearly above or below what is right, else 0.
+
+    The more tests are made alike, the farther off it must be.
 
     >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
     (-1, 0)
     """
     # The interval is of 95%, that is 1.96 standard errors each way; 2.58 leave out 1%.
-    far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
+    far = (estimate.high - estimate.low) / 2.0 * ndtri(1.0 - UNLIKELY / (2.0 * tests)) / 1.960
     middle = (estimate.high + estimate.low) / 2.0
     return int(middle - far > right) - int(middle + far < right)
 

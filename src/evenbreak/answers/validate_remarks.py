@@ -109,7 +109,7 @@ def _way(half: RaceLengths) -> int:
 def _experience(found: Validation, scale: Scale) -> str:
     """Return which players with little experience are overrated or underrated, '' if none are."""
     for one in found.experience:
-        way = clearly_off(one.stronger, 0.0)
+        way = clearly_off(one.stronger, 0.0, tests=len(found.experience))
         if way and one.most is not None:
             who = "before their first game"
             if one.most:
