@@ -93,6 +93,10 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     if column is not None:
         figures = (column.matches, column.expected, float(column.won))
         rows.append(("first_column", "match", "won", *figures, None, None, None))
+        figures = (column.dates, column.dates_expected, float(column.dates_won))
+        rows.append(("first_column_dates", "match", "won", *figures, None, None, None))
+        head = ("first_column_varies", "match", "p", column.matches)
+        rows.append((*head, None, None, None, None, column.varies))
     for name, estimate, count in (
         ("side", found.side, games),
         ("breaker", found.breaker, known_breaks(found.forecasts)),
