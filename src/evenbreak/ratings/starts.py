@@ -7,6 +7,7 @@ start, and for a class, where the results say in which class each player is.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,8 @@ FEWEST = 100
 
 FEWEST_ALIKE = 30
 """Matches from which one size of the start is judged."""
+
+LARGEST_LEVEL = 1e6
 
 MOST_CLASSES = 12
 """A league with more levels than this has ratings rather than classes."""
@@ -168,17 +171,18 @@ def levels(results: Results) -> tuple[NDArray[np.str_], NDArray[np.str_]]:
 
 
 def level_numbers(texts: NDArray[np.str_]) -> Floats:
-    """Return the numbers that texts are, NaN where they are none.
+    """Return the numbers that texts are, NaN where they are none up to a million.
 
-    >>> level_numbers(np.array(["87", "B", "4.5"]))
-    array([87. ,  nan,  4.5])
+    >>> level_numbers(np.array(["87", "B", "4.5", "inf"]))
+    array([87. ,  nan,  4.5,  nan])
     """
 
     def number(text: str) -> float:
         try:
-            return float(text.replace(",", "."))
+            found = float(text.replace(",", "."))
         except ValueError:
-            return float("nan")
+            return math.nan
+        return found if abs(found) <= LARGEST_LEVEL else math.nan
 
     return np.array([number(text) for text in texts.tolist()])
 

@@ -171,5 +171,6 @@ def _assumed(season: Results, apart: Floats, by_chart: Chart | None) -> float:
     implied = implied_difference(season)
     # The hardest race serves all larger differences too.
     rows = np.abs(implied) < np.abs(implied).max()
-    apart, implied = apart[rows], implied[rows]
+    if implied[rows].any():
+        apart, implied = apart[rows], implied[rows]
     return math.log(2.0) * float(apart @ implied) / float(implied @ implied)
