@@ -158,6 +158,10 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
     if first is not None:
         figures = f"{first.won:,}", f"{first.expected:,.1f}"
         yield ("won by the first breaker", first.matches, *figures, None, first.p_value)
+    column = found.first_column
+    if column is not None:
+        figures = f"{column.won:,}", f"{column.expected:,.1f}"
+        yield ("won by player_a", column.matches, *figures, None, None)
     for name, estimate in (("the breaker", found.breaker), ("player_a", found.side)):
         if estimate is not None:
             p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)

@@ -16,9 +16,10 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.special import erf
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, Ints
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.played_chart import (
+    RARE,
     PlayedChart,
     level_numbers_of,
     played_chart,
@@ -29,6 +30,9 @@ from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.starts import FEWEST, MOST_CLASSES
 from evenbreak.ratings.stated_strength import implied_difference
+
+FEWEST_STARTS = 7
+"""Starts of different sizes, to either side, from which races show what they assume."""
 
 
 class FairScale(NamedTuple):
@@ -99,21 +103,26 @@ def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None
         return None
     by_chart = chart(played.name) if played is not None and played.name in CHARTS else None
     apart = _differences(season, by_chart)
-    if apart is None:
+    if apart is None or (by_chart is None and len(np.unique(race_a - race_b)) < FEWEST_STARTS):
         return None
     known = ~np.isnan(apart)
     slope = handicap_slope(season.select(known), apart[known])
     if slope is None or slope.low <= 0.0:
         return None
-    least = int(np.maximum(race_a, race_b).min()), int(np.minimum(race_a, race_b).min())
+    least = _usual(np.maximum(race_a, race_b), RARE), _usual(np.minimum(race_a, race_b), RARE)
     longest = race_a + race_b - 1
     return FairScale(
         Estimate(*(math.log(2.0) / end for end in (slope.value, slope.high, slope.low))),
         _assumed(season.select(known), apart[known], by_chart),
         int(known.sum()),
-        (int(longest.min()), int(longest.max())),
+        (_usual(longest, RARE), _usual(longest, 1.0 - RARE)),
         least,
     )
+
+
+def _usual(games: Ints, share: float) -> int:
+    """Return the games than which no more than this share of the matches needs fewer."""
+    return int(np.quantile(games, share, method="inverted_cdf"))
 
 
 def _differences(season: Results, by_chart: Chart | None) -> Floats | None:
