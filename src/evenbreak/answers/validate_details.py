@@ -228,12 +228,12 @@ def _experience(found: Validation, scale: Scale) -> Table:
         return f"{points * one.value:+.1f}  {points * one.low:+.1f} to {points * one.high:+.1f}"
 
     columns = [
-        Column("before", "games before"),
+        Column("before", "games\nbefore"),
         Column("matches", "matches"),
         Column("predicted", "predicted", percent),
         Column("seen", "won", percent),
-        Column("stronger", "points off, with 95% interval", off),
-        Column("spread", "spread of scores", decimals(2)),
+        Column("stronger", "points off,\n95% interval", off),
+        Column("spread", "spread of\nscores", decimals(2)),
     ]
     rows = [
         (

@@ -207,11 +207,11 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
         return f"{value:.0f}  {low:.0f} to {high:.0f}"
 
     columns = [
-        Column("apart", "classes apart" if starts.classes else "games given"),
+        Column("apart", "classes\napart" if starts.classes else "games\ngiven"),
         Column("matches", "matches"),
-        Column("race", "most played", race),
-        Column("stronger", "points stronger, with 95% interval", stronger),
-        Column("taken", "taken back", lambda one: f"{scale.points(one):.0f}"),
+        Column("race", "most\nplayed", race),
+        Column("stronger", "points stronger,\n95% interval", stronger),
+        Column("taken", "taken\nback", lambda one: f"{scale.points(one):.0f}"),
     ]
     value, low, high = starts.share
     title = (
