@@ -145,6 +145,6 @@ def test_a_real_season():
 
 def test_old_games_count_in_full_where_only_the_first_prior_was_too_wide():
     """Races say nearly all here; with the prior that suits results alone, fading them helps."""
-    choice = best_prior(by_chart(1, levels=False, form=0.0, matches=800))
+    choice = best_prior(by_chart(0, levels=False, off=0.0, form=0.0, matches=500))
     assert choice.levels.race > 0.5
     assert choice.half_life is None

@@ -32,8 +32,8 @@ def test_without_classes_starts_are_judged_by_the_games_given(start, way):
 
 def test_right_starts_are_not_called_wrong():
     # NPL chart 10 gives a little too little beyond 57 points, its last row.
-    shares = [starts(by_chart(seed, levels=False, matches=400)).share for seed in range(20)]
-    assert sum(not one.low < 1.05 < one.high for one in shares) <= 4
+    shares = [starts(by_chart(seed, levels=False, matches=400)).share for seed in range(10)]
+    assert sum(not one.low < 1.05 < one.high for one in shares) <= 2
 
 
 def test_numbers_are_classes_by_their_value():

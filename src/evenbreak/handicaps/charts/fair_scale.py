@@ -25,6 +25,7 @@ from evenbreak.handicaps.charts.played_chart import (
     played_chart,
 )
 from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.handicap_slope import handicap_slope
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
@@ -81,6 +82,7 @@ def league_chart(results: Results) -> LeagueChart:
     >>> league_chart(season)
     LeagueChart(nearest=None, scale=None)
     """
+    check_results(results)
     nearest = played_chart(results)
     return LeagueChart(nearest, fair_scale(results, nearest))
 
