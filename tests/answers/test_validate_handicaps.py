@@ -44,7 +44,7 @@ def test_a_class_has_its_worth_beside_what_a_start_takes_back():
     fair, worth = said(by_class(1, matches=800))
     assert "too little" in fair
     assert re.search(r"A class is worth 2[0-4] points", worth)
-    assert "7:6, which takes back 7 of these points" in worth
+    assert "most often 7:6, take back 7 points" in worth
     assert re.search(r"7:[45] would", worth)
 
 

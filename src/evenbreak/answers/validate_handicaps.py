@@ -99,27 +99,23 @@ def _worth(starts: Starts, way: int, scale: Scale, *, covered: bool) -> Iterator
 
 
 def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> str:
+    one, many = ("level", "levels") if starts.numbered else ("class", "classes")
+    worth = f"{one} is worth {_points(a_class, scale)}, give or take {_error(a_class, scale)}"
     if not clearly_off(a_class, 0.0):
-        return (
-            f"The classes make no clear difference: a class is worth {_points(a_class, scale)}, "
-            f"give or take {_error(a_class, scale)}."
-        )
-    text = (
-        f"A class is worth {_points(a_class, scale)}, give or take {_error(a_class, scale)}: the "
-        f"players of one win {percent(float(scale.win_probability(scale.points(a_class.value))))} "
-        "of their games against those of the class below."
-    )
-    one = next((group for group in starts.groups if group.apart == 1), None)
-    if one is None:
+        return f"The {many} make no clear difference: a {worth}."
+    chance = percent(float(scale.win_probability(scale.points(a_class.value))))
+    text = f"A {worth}: players win {chance} of their games against those of the {one} below."
+    next_to = next((group for group in starts.groups if group.apart == 1), None)
+    if next_to is None:
         return text
-    needs = one.race[0]
+    needs, gets = next_to.race
     text += (
-        f" Between neighbouring classes most matches are {race(one.race)}, which takes back "
-        f"{scale.points(one.taken):.0f} of these points"
+        f" The races between neighbouring {many}, most often {race(next_to.race)}, take back "
+        f"{scale.points(next_to.taken):.0f} points"
     )
-    better = needs, even_start(needs, a_class.value)
-    if way and better != one.race:
-        return f"{text}; {race(better)} would be nearer to even."
+    better = even_start(needs, a_class.value)
+    if way and even_start(needs, next_to.taken) == gets != better:
+        return f"{text}; {race((needs, better))} would be nearer to even."
     return f"{text}."
 
 

@@ -86,6 +86,11 @@ class Starts(NamedTuple):
     a_class: Estimate | None
     groups: tuple[StartGroup, ...]
 
+    @property
+    def numbered(self) -> bool:
+        """Whether the classes are numbers, such as skill levels."""
+        return not np.isnan(level_numbers(np.array(self.classes, dtype=str))).any()
+
 
 def starts(results: Results) -> Starts | None:
     """Return what starts take back; None with fewer than 100 races that are not even.
