@@ -1,6 +1,6 @@
 """Rating systems on one season, all of them given the same results.
 
-    python -m pip install -e . trueskill openskill glicko2 whole-history-rating
+    python -m pip install -e . trueskill openskill glicko2 whole-history-rating  # imported as whr
     python benchmarks/equal_information.py SEASON.csv [SYSTEM ...]
 
 Twice: with every frame (a 5:3 is eight games), and with the winner of each match alone. Each date
