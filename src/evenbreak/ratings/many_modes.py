@@ -123,10 +123,11 @@ class _Season:
         self._estimated = np.array([way.break_precision is not None for way in ways])
         self._break_precision = np.array([way.break_precision or 0.0 for way in ways])
         known = [way.means or PriorMeans.none(self._players) for way in ways]
-        self.mean = np.array([one.mean for one in known])
-        pairs = [(one, way.precision) for one, way in zip(known, ways, strict=True)]
-        self._precision = np.array([_precision_of(one, precision) for one, precision in pairs])
-        most = max(float(terms.race_m.max(initial=0)), terms.amount)
+        priors = [_prior_of(one, way.precision) for one, way in zip(known, ways, strict=True)]
+        self.mean = np.array([mean for mean, _ in priors])
+        self._precision = np.array([precision for _, precision in priors])
+        brought = max(float(one.information.max(initial=0.0)) for one in known)
+        most = max(float(terms.race_m.max(initial=0)), terms.amount, brought)
         self.enough = np.array([tolerance(way.precision, most, GRADIENT) for way in ways])
         many = len(terms.low)
         # Which pair each term is about, and the two players of each pair.
@@ -199,10 +200,18 @@ class _Season:
         return whole
 
 
-def _precision_of(means: PriorMeans, precision: float) -> Floats:
-    """Return the precision of the skills' prior, levels integrated out."""
+def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
+    """Return mean and precision of the skills' prior, levels integrated out.
+
+    What earlier results say is part of it: it is normal in the skills, too.
+    """
     one = np.eye(len(means.mean))
-    if not len(means.level_sd):
-        return precision * one
-    spread = means.design * means.level_sd
-    return np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
+    prior = precision * one
+    if len(means.level_sd):
+        spread = means.design * means.level_sd
+        prior = np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
+    if means.known is None:
+        return means.mean, prior
+    both = prior + np.diag(means.known.information)
+    mean = np.linalg.solve(both, prior @ means.mean + means.known.pull)
+    return np.asarray(mean, dtype=np.float64), both

@@ -103,5 +103,6 @@ def find_mixed_mode(
 
         return whole, step
 
-    most = max(float(terms.race_m.max(initial=0)), terms.amount)
+    known_best = float(known.information.max(initial=0.0))
+    most = max(float(terms.race_m.max(initial=0)), terms.amount, known_best)
     return find_zero(begin, gradient_at, tolerance(precision, most, gradient))

@@ -85,7 +85,7 @@ class SeasonSoFar:
             checked_prior(prior_sd) ** -2,
             (known or 0.0) * some,
             BREAK_SD**-2 if known is None and some else None,
-            self._means_of(levels or Levels()),
+            self._means_of(levels or Levels(), half_life),
         )
 
     def _mode(self, way: WayToRate) -> Floats:
@@ -110,7 +110,10 @@ class SeasonSoFar:
             )
         return self._terms[half_life, breaks]
 
-    def _means_of(self, levels: Levels) -> PriorMeans | None:
+    def _means_of(self, levels: Levels, half_life: float | None) -> PriorMeans | None:
         if levels not in self._means:
             self._means[levels] = means_of(self._results, levels, self._stated) if levels else None
-        return self._means[levels]
+        means = self._means[levels]
+        if means is None or levels.beginning is None:
+            return means
+        return means.faded(levels.beginning.kept(half_life, self._results, None))
