@@ -270,7 +270,7 @@ SYSTEMS = {
         openskill, {"beta": (8.0, 12.5, 25.0, 40.0, 60.0), "tau": (0.0, 0.1)}, "openskill"
     ),
     "whole-history rating": System(
-        whole_history, {"w2": (0.3, 3.0, 14.0), "prior_wins": (3.0, 6.0, 12.0, 24.0)}, "whr"
+        whole_history, {"w2": (0.3, 3.0, 14.0), "prior_wins": (1.5, 3.0, 6.0, 12.0, 24.0)}, "whr"
     ),
 }
 
