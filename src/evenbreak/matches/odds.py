@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from evenbreak.chains.ways import Way, way_of_limit
+from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.matches.parameters import checked_match, rack_in
@@ -48,7 +49,7 @@ class MatchOdds(NamedTuple):
     p_shutout_2: float | None
 
 
-def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
+def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> MatchOdds:
     """Return the odds of `match`: who wins, how long it takes, how close it gets.
 
     Parameters
@@ -60,11 +61,15 @@ def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
         the way to the chances (see `win_probability`). By 'elimination', mean and standard
         deviation of the length come from the same chain; no eigenvector of eigenvalue 1 gives
         a length, so with 'eigen' they come from the kernel, as the quantiles always do.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation); see
+        `final_scores`.
 
     Raises
     ------
     InputError
-        if the probabilities are arrays, `match` is another game, or there is no such way.
+        if the probabilities are arrays, `match` is another game, there is no such way, form is not
+        in 0 to 3, or it is combined with `via`.
 
     Notes
     -----
@@ -76,12 +81,26 @@ def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
     (0.5, 2.5, 2, 0.5, 0.25)
     """
     way = way_of_limit(via)
+    if form:
+        return _with_form(match, via, form)
     odds = _by_kernel(checked_match(match))
     if way is None:
         return odds
     from evenbreak.matches.by_limit import match_odds_by_limit
 
     return odds._replace(**match_odds_by_limit(match, way))
+
+
+def _with_form(match: Match, via: Way | None, form: float) -> MatchOdds:
+    from evenbreak.matches.form import form_of, on_days
+    from evenbreak.matches.mixed_odds import mixed_odds
+
+    if via is not None:
+        raise InputError(
+            "via is for one chain, but with form the answer is an average over many; leave one out"
+        )
+    rack_in(checked_match(match)).of_numbers()
+    return mixed_odds(*on_days(match, form_of(form)))
 
 
 def _by_kernel(match: Match) -> MatchOdds:
