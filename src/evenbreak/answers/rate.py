@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_data, form_details, form_words
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.prior_words import (
     evidence_rows,
@@ -19,6 +20,7 @@ from evenbreak.answers.prior_words import (
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 from evenbreak.files.results import ResultsFile
+from evenbreak.ratings.day_form import DayForm
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 
@@ -35,6 +37,7 @@ def rate_answer(
     ratings: Ratings,
     choice: PriorChoice | None = None,
     *,
+    form: DayForm | None = None,
     pairs: Sequence[tuple[int, int]] = (),
     warnings: Sequence[str] = (),
 ) -> Answer:
@@ -46,6 +49,8 @@ def rate_answer(
         the results, and what `fit` made of them.
     choice
         how the prior was chosen, if it was chosen by prediction.
+    form
+        how much players vary from match to match, where that was estimated.
     pairs
         positions in `ratings.players`; the answer is about them if there are any.
     warnings
@@ -66,10 +71,17 @@ def rate_answer(
         first, table = _highest_in_words(ratings), _players_table(ratings)
     return Answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
-        [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
+        [
+            first,
+            *_fit_in_words(ratings, choice),
+            *form_words(form, ratings.scale),
+            *unlinked_words(ratings),
+            table,
+        ],
         details=[
             *([] if pairs else [_ERRORS_IN_WORDS]),
             *prior_details(ratings, choice),
+            *form_details(form, ratings.scale),
             *groups_table(ratings),
         ],
         csv=table,
@@ -79,7 +91,7 @@ def rate_answer(
             *prior_warnings(file, ratings, choice),
             *warnings,
         ],
-        data=_how(ratings, choice),
+        data={**_how(ratings, choice), "form": form_data(form)},
     )
 
 

@@ -34,7 +34,7 @@ MOST_FORM = 3.0
 """The largest form allowed, in natural log-odds."""
 
 _FEWEST_GAMES = 6  # shorter races need as many nodes as these
-_ROUNDING = 1e-14
+_CLOSE = 1e-7  # a step of Newton's method whose successor is a rounding
 
 
 def form_of(form: Any) -> float:
@@ -102,7 +102,7 @@ def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
         away = np.log(np.where(possible, chance / np.where(possible, wanted, 1.0), 1.0))
         step = np.where(possible, away * chance / np.where(possible, slope, 1.0), 0.0)
         centre = centre - step
-        if np.abs(step).max(initial=0.0) < _ROUNDING:
+        if np.abs(step).max(initial=0.0) < _CLOSE:
             break
     return np.where(possible, -np.sign(mean) * centre, mean)
 

@@ -296,6 +296,16 @@ class Ratings:
         variance = max(float(contrast @ self._curvature.times(contrast)), 0.0)
         return math.sqrt(variance) * self.scale.points_per_log_odds
 
+    def difference_variances(self, first: Ints, second: Ints) -> Floats:
+        """Return the variance of the difference of each two ratings, in squared log-odds.
+
+        Parameters
+        ----------
+        first, second
+            positions in `players`, of at most 2,000.
+        """
+        return np.maximum(self._curvature.difference_variances(first, second), 0.0)
+
     def covariance(self, players: Sequence[str]) -> Floats:
         """Return the covariance matrix of some players' ratings, in squared points.
 

@@ -1,12 +1,13 @@
 """Who plays: two ratings, two names on a list, a chance in a game, or one for each breaker."""
 
 import math
+from dataclasses import replace
 
 import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.options import Command, scale_option, with_options
+from evenbreak.cli.kit.options import Command, form_option, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
@@ -23,6 +24,7 @@ def players_of(
     breaks: str | None,
     first_break: str | None,
     from_file: str | None = None,
+    form: float = 0.0,
 ) -> TwoPlayers:
     """Return the players that the options describe, or refuse options that contradict."""
     by_break = p1 is not None or p2 is not None
@@ -37,20 +39,20 @@ def players_of(
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
         first = first_break or ("b" if breaks == "b" else "a")
-        return TwoPlayers(Rack(p1, p2), breaks, 1 if first == "a" else 2)
+        return TwoPlayers(Rack(p1, p2), breaks, 1 if first == "a" else 2, form=form)
     if breaks is not None or first_break is not None:
         refuse("the break matters only with --p1 and --p2; leave --breaks and --first-break out")
     if p is not None:
-        return TwoPlayers(Rack(p))
+        return TwoPlayers(Rack(p), form=form)
     if from_file is not None:
-        return _named(ratings, from_file, scale)
+        return replace(_named(ratings, from_file, scale), form=form)
     if len(ratings) != 2:
         given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
         refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
     a, b = map(number_of, ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
-    return TwoPlayers.rated(a, b, scale or scale_of("npl"))
+    return replace(TwoPlayers.rated(a, b, scale or scale_of("npl")), form=form)
 
 
 def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers:
@@ -94,6 +96,11 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
 
 def refuse_uncertain(players: TwoPlayers) -> None:
     """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
+    if players.form:
+        refuse(
+            "--via is for one chain, but with --form the answer is an average over many; leave one "
+            "out"
+        )
     if players.error:
         refuse(
             "--via is for one chain, but with --from the answer is an average over how far the "
@@ -113,6 +120,7 @@ def player_options(command: Command) -> Command:
     """Add the arguments and options that describe the players."""
     return with_options(
         command,
+        form_option,
         click.option(
             "--first-break",
             type=click.Choice(["a", "b"]),

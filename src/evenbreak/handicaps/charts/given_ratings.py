@@ -254,7 +254,8 @@ def with_form(difference: Floats, error: Floats, form: float, scale: Scale) -> t
     if form == 0.0:
         return difference, error
     mean, sd = scale.log_odds(difference), scale.log_odds(error)
-    return scale.points(centre_of_form(mean, sd, form)), scale.points(np.hypot(sd, form))
+    centre, around = centre_of_form(mean, sd, form), np.hypot(sd, form)
+    return np.asarray(scale.points(centre)), np.asarray(scale.points(around))
 
 
 def _fairest_race_to(
