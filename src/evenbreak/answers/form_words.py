@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.day_form import DayForm
 from evenbreak.ratings.scale import Scale
 
@@ -13,19 +12,22 @@ from evenbreak.ratings.scale import Scale
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     """Yield what form of the day is worth, where it is established.
 
+    >>> from evenbreak.ratings.calibration import Estimate
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
     Form of the day: from match to match the strength difference of two players varies by 15
-    points, give or take 2, so that sweeps are likelier and hill-hill games rarer. odds, fair,
-    live and matchups allow for it with --form 0.35.
+    points, give or take 2, so sweeps are likelier and hill-hill games rarer than ratings alone
+    would say. This list of ratings states it (0.35 in log-odds), and odds, fair and matchups
+    allow for it.
     """
     if form is None or not form.established:
         return
     points, error = scale.points(form.sd), scale.points(form.sd_error)
     yield (
         f"Form of the day: from match to match the strength difference of two players varies by "
-        f"{points:.0f} points, give or take {error:.0f}, so that sweeps are likelier and hill-hill "
-        f"games rarer. odds, fair, live and matchups allow for it with --form {form.sd:.2f}."
+        f"{points:.0f} points, give or take {error:.0f}, so sweeps are likelier and hill-hill "
+        "games rarer than ratings alone would say. This list of ratings states it "
+        f"({form.sd:.2f} in log-odds), and odds, fair and matchups allow for it."
     )
 
 
@@ -65,13 +67,13 @@ def form_data(form: DayForm | None) -> dict[str, Any] | None:
     """Return form of the day for JSON, in log-odds."""
     if form is None:
         return None
-    value: Estimate = form.variance
+    variance, low, high = form.variance
     return {
         "sd": form.sd,
         "sd_standard_error": form.sd_error if form.sd else None,
-        "variance": value.value,
-        "variance_low": value.low,
-        "variance_high": value.high,
+        "variance": variance,
+        "variance_low": low,
+        "variance_high": high,
         "matches": form.races,
         "established": form.established,
     }

@@ -20,7 +20,6 @@ from evenbreak.answers.prior_words import (
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
 from evenbreak.files.results import ResultsFile
-from evenbreak.ratings.day_form import DayForm
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 
@@ -37,7 +36,6 @@ def rate_answer(
     ratings: Ratings,
     choice: PriorChoice | None = None,
     *,
-    form: DayForm | None = None,
     pairs: Sequence[tuple[int, int]] = (),
     warnings: Sequence[str] = (),
 ) -> Answer:
@@ -49,8 +47,6 @@ def rate_answer(
         the results, and what `fit` made of them.
     choice
         how the prior was chosen, if it was chosen by prediction.
-    form
-        how much players vary from match to match, where that was estimated.
     pairs
         positions in `ratings.players`; the answer is about them if there are any.
     warnings
@@ -74,14 +70,14 @@ def rate_answer(
         [
             first,
             *_fit_in_words(ratings, choice),
-            *form_words(form, ratings.scale),
+            *form_words(ratings.form, ratings.scale),
             *unlinked_words(ratings),
             table,
         ],
         details=[
             *([] if pairs else [_ERRORS_IN_WORDS]),
             *prior_details(ratings, choice),
-            *form_details(form, ratings.scale),
+            *form_details(ratings.form, ratings.scale),
             *groups_table(ratings),
         ],
         csv=table,
@@ -91,7 +87,7 @@ def rate_answer(
             *prior_warnings(file, ratings, choice),
             *warnings,
         ],
-        data={**_how(ratings, choice), "form": form_data(form)},
+        data={**_how(ratings, choice), "form": form_data(ratings.form)},
     )
 
 
@@ -115,12 +111,17 @@ def _players_table(ratings: Ratings) -> Table:
         Column("races_won", "matches won" if by_winner else None),
         Column("races_lost", "matches lost" if by_winner else None),
         Column("component", "group" if ratings.component.max() > 1 else None),
+        *([Column("match_form")] if ratings.match_form else []),
         Column("scale"),
     ]
+    shared = [*([ratings.match_form] if ratings.match_form else []), ratings.scale.text]
     order = ratings.strongest_first()
     order.sort(key=lambda k: ratings.component[k])
-    values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
-    values.append([ratings.scale.text] * len(order))
+    values = [
+        np.asarray(getattr(ratings, str(one.name)))[order].tolist()
+        for one in columns[1 : -len(shared)]
+    ]
+    values += [[value] * len(order) for value in shared]
     names = [ratings.players[k] for k in order]
     return Table("players", columns, list(zip(names, *values, strict=True)))
 

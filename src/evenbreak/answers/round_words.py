@@ -165,6 +165,12 @@ def about_method(tonight: Round) -> Iterator[Remark]:
             "each chance and each length is averaged over it, with the errors of two players taken "
             "as independent and normal",
         )
+    if tonight.form:
+        yield Remark(
+            "Form of the day",
+            "each chance and each length is averaged over it; the chance of a single game stays "
+            "the same",
+        )
     for end in tonight.evening:
         if not end.exact:
             yield Remark(

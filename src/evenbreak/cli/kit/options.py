@@ -112,10 +112,9 @@ form_option = click.option(
     "--form",
     metavar="SD",
     type=Number(0.0, 3.0, "; give a number from 0 to 3, such as 0.35"),
-    default=0.0,
-    show_default=False,
     help="Allow for form of the day: how much the log-odds of a game vary from match to match "
-    "(standard deviation), as `evenbreak rate` finds it, such as 0.35.  [default: none]",
+    "(standard deviation), as `evenbreak rate` finds it, such as 0.35.  [default: what the list of "
+    "ratings states, else 0]",
 )
 """The option --form of the commands that answer for matches."""
 

@@ -135,7 +135,6 @@ def _rate(
     break_advantage: float | str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.ratings.day_form import day_form
     from evenbreak.ratings.scale import scale_of
 
     file = files.read_seasons(paths, **reading)
@@ -153,8 +152,7 @@ def _rate(
             "nothing; add break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
-    form = day_form(file.results, ratings)
-    return answers.rate_answer(file, ratings, choice, form=form, pairs=chosen, warnings=warnings)
+    return answers.rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
 
 
 def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -117,12 +118,15 @@ def rated(
 ) -> tuple[Ratings, PriorChoice | None]:
     """Return the ratings by the options that were given, and how their prior was chosen.
 
+    Form of the day is estimated with them.
+
     Raises
     ------
     DataError
         if no match counts.
     """
     from evenbreak.errors import DataError
+    from evenbreak.ratings.day_form import day_form
     from evenbreak.ratings.fit import PRIOR_SD, fit
 
     days = None if half_life == "none" or half_life is None else float(half_life)
@@ -147,7 +151,7 @@ def rated(
         if ratings.later:
             why = f"was played by {as_of}; give a later day to --as-of"
         raise DataError([f"{file.source}: no match in it {why}"])
-    return ratings, choice
+    return replace(ratings, form=day_form(file.results, ratings)), choice
 
 
 def prior_in_log_odds(points: float, scale: Scale) -> float:
