@@ -33,6 +33,9 @@ from evenbreak.matches.parameters import AnyMatch, checked_match, rack_in, unit_
 MOST_FORM = 3.0
 """The largest form allowed, in natural log-odds."""
 
+MOST_NODES, MOST_NODES_OF_SETS = 1000, 60
+"""Nodes of the average, of a race and of another match: enough for six digits, or for four."""
+
 _FEWEST_GAMES = 6  # shorter races need as many nodes as these
 _CLOSE = 1e-7  # a step of Newton's method whose successor is a rounding
 
@@ -110,7 +113,7 @@ def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
 def _game(mean: Floats, sd: Floats) -> tuple[Floats, Floats]:
     """Return the chance of a game of which the log-odds are N(mean, sd²), and its slope."""
     chance, slope = np.zeros(mean.shape), np.zeros(mean.shape)
-    for node, weight in zip(*normal_rule(float(sd.max(initial=0.0)), 2, 1000), strict=True):
+    for node, weight in zip(*normal_rule(float(sd.max(initial=0.0)), 2, MOST_NODES), strict=True):
         p = expit(mean + sd * node)
         chance += weight * p
         slope += weight * p * (1.0 - p)
@@ -145,7 +148,7 @@ def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:
     """
     match = checked_match(match)
     rack = rack_in(match)
-    nodes, weights = normal_rule(form, longest_of(match), 1000)
+    nodes, weights = rule_for(match, form)
     # A good day of player 1 is a bad one of player 2.
     both = zip((rack.p1, rack.p2), (nodes, -nodes), strict=True)
     many = with_rack(match, Rack(*(_on_days(p, form, e) for p, e in both if p is not None)))
@@ -161,10 +164,11 @@ def _on_days(p: Any, form: float, nodes: Floats) -> Floats:
     return np.where(sure[..., None], np.asarray(p)[..., None], days)
 
 
-def longest_of(match: Match) -> int:
-    """Return how many games `normal_rule` has to allow for."""
-    plain = isinstance(match.rack, Rack) and getattr(match, "win_by", 0) == 1
-    return match.m + match.n if plain else (match.m + match.n) ** 2
+def rule_for(match: Match, sd: float) -> tuple[Floats, Floats]:
+    """Return the rule that averages the odds of a match over log-odds that vary by `sd`."""
+    if isinstance(match.rack, Rack) and getattr(match, "win_by", 0) == 1:
+        return normal_rule(sd, match.m + match.n, MOST_NODES)
+    return normal_rule(sd, (match.m + match.n) ** 2, MOST_NODES_OF_SETS)
 
 
 def given_score(match: Match, weights: Floats) -> Floats:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.matches.parameters import checked_match, rack_in
+from evenbreak.games.rack import Rack
+from evenbreak.matches.parameters import checked_match, rack_in, with_rack
 from evenbreak.matches.races import race_odds
+
+if TYPE_CHECKING:
+    from evenbreak.arrays import Floats
 
 
 class MatchOdds(NamedTuple):
@@ -91,9 +95,32 @@ def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> Ma
     return odds._replace(**match_odds_by_limit(match, way))
 
 
+def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
+    """Return the odds of a match whose chances are drawn from some that may be right.
+
+    Parameters
+    ----------
+    match
+        the match, with arrays of chances of the length of `weights`.
+    weights
+        how likely each of them is; they sum to 1.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> mixed_odds(Race(2, 2, Rack([0.25, 0.75])), [0.5, 0.5]).p_hill_hill
+    0.375
+    """
+    import numpy as np
+
+    from evenbreak.matches.mixed_odds import mixture_of_odds
+
+    rack = rack_in(match)
+    chances = [np.atleast_1d(p).tolist() for p in (rack.p1, rack.p2) if p is not None]
+    each = [_by_kernel(with_rack(match, Rack(*both))) for both in zip(*chances, strict=True)]
+    return MatchOdds(**mixture_of_odds(match, each, np.asarray(weights)))
+
+
 def _with_form(match: Match, via: Way | None, form: float) -> MatchOdds:
     from evenbreak.matches.form import form_of, on_days
-    from evenbreak.matches.mixed_odds import mixed_odds
 
     if via is not None:
         raise InputError(

@@ -137,7 +137,8 @@ class Ratings:
         races_lost, where there are matches of which only the winner is known; component: players
         with the same number are linked by a chain of opponents, and only their ratings can be
         compared; match_form, where it is established: how much the log-odds of a game vary from
-        match to match; and scale, the same in each row: its name, or the points that double the odds.
+        match to match; and scale, its name or the points that double the odds. These two are the
+        same in each row.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")

@@ -7,7 +7,7 @@ import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.options import Command, form_option, scale_option, with_options
+from evenbreak.cli.kit.options import Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale, scale_of
@@ -123,7 +123,6 @@ def player_options(command: Command) -> Command:
     """Add the arguments and options that describe the players."""
     return with_options(
         command,
-        form_option,
         click.option(
             "--first-break",
             type=click.Choice(["a", "b"]),

@@ -9,7 +9,13 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both, via_option
+from evenbreak.cli.kit.options import (
+    PlainCommand,
+    form_option,
+    race_limit_options,
+    refuse_both,
+    via_option,
+)
 from evenbreak.cli.kit.players import player_options, players_of, refuse_uncertain
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
 from evenbreak.ratings.scale import Scale
@@ -46,6 +52,7 @@ Examples:
     default=5,
     help="How many races to list.",
 )
+@form_option
 @via_option
 @faces()
 def command(

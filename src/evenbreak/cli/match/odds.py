@@ -7,7 +7,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, via_option
+from evenbreak.cli.kit.options import PlainCommand, form_option, via_option
 from evenbreak.cli.kit.players import player_options, refuse_uncertain
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
@@ -28,6 +28,7 @@ Examples:
 @click.command("odds", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
 @match_options
+@form_option
 @click.option(
     "--exact",
     is_flag=True,

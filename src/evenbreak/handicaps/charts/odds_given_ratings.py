@@ -9,17 +9,12 @@ import numpy as np
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match
-from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.given_ratings import averaging_rule, error_of, with_form
-from evenbreak.matches.form import form_of, given_score, longest_of
-from evenbreak.matches.mixed_odds import mixed_odds
-from evenbreak.matches.odds import MatchOdds, match_odds
+from evenbreak.handicaps.charts.given_ratings import error_of, with_form
+from evenbreak.matches.form import form_of, given_score, rule_for
+from evenbreak.matches.odds import MatchOdds, match_odds, mixed_odds
 from evenbreak.matches.parameters import checked_match, with_rack
 from evenbreak.ratings.scale import scale_of
-
-MOST_NODES, MOST_NODES_OF_SETS = 1000, 60
-"""Nodes of the average, of a race and of another match: enough for six digits, or for four."""
 
 
 def odds_given_ratings(
@@ -66,8 +61,6 @@ def odds_given_ratings(
     if standard_error == 0.0 and not form:
         return match_odds(with_rack(match, Rack(scale.win_probability(difference))))
     gap, error = with_form(np.asarray(difference), np.asarray(standard_error), form, scale)
-    plain = isinstance(match, Race) and match.win_by == 1 and isinstance(match.rack, Rack)
-    most = MOST_NODES if plain else MOST_NODES_OF_SETS
-    nodes, weights = averaging_rule(float(error), longest_of(match), scale, most)
+    nodes, weights = rule_for(match, scale.log_odds(float(error)))
     many = with_rack(match, Rack(scale.win_probability(gap + nodes * error)))
     return mixed_odds(many, given_score(many, weights) if form else weights)
