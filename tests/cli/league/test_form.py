@@ -73,14 +73,15 @@ def test_matchups_take_form_from_the_list(ask, ratings, tmp_path):
 
 def test_a_report_has_the_races_of_its_list(run, ask, tmp_path):
     sheet = tmp_path / "sheet"
-    result = run("report", LEAGUE, "--prior", "30", "--top", "5", "--out", str(sheet), "--json")
+    result = run("report", LEAGUE, "--prior", "30", "--top", "2", "--out", str(sheet), "--json")
     told = json.loads(result.stdout)
     assert float(told["summary"]["match_form_log_odds"]) > 0.4
-    again = ask("matchups", str(sheet / "ratings.csv"), "--race-to", "7")["pairs"]
-    listed = {(row["player_a"], row["player_b"]): row for row in again}
-    for row in told["matchups"]:
-        other = listed[row["player_a"], row["player_b"]]
-        assert row["p_win_a"] == pytest.approx(other["p_win_a"], abs=1e-9)
+    (row,) = told["matchups"]
+    who = row["player_a"], row["player_b"]
+    again = ask("fair", *who, "--from", str(sheet / "ratings.csv"), "--race-to", "7", "--top", "1")
+    (race,) = again["races"]
+    assert (race["race_a"], race["race_b"]) == (row["race_a"], row["race_b"])
+    assert race["p_win_a"] == pytest.approx(row["p_win_a"], abs=1e-9)
 
 
 def test_form_by_hand(ask):
