@@ -1,3 +1,4 @@
+from .beginning import Beginning as Beginning
 from .consistency import Problem as Problem
 from .consistency import find_problems as find_problems
 from .day_form import DayForm as DayForm
