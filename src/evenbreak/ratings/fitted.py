@@ -134,11 +134,9 @@ class Ratings:
 
         Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
         points of the scale; games, won and lost in the matches that were used; races_won and
-        races_lost, where there are matches of which only the winner is known; component: players
-        with the same number are linked by a chain of opponents, and only their ratings can be
-        compared; match_form, where it is established: how much the log-odds of a game vary from
-        match to match; and scale, its name or the points that double the odds. These two are the
-        same in each row.
+        races_lost, if of some matches only the winner is known; component, the same for players who
+        are linked by a chain of opponents, so that they can be compared; match_form, if it is not
+        0; and scale: its name, or the points that double the odds.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
@@ -164,10 +162,7 @@ class Ratings:
 
     @property
     def match_form(self) -> float:
-        """How much the log-odds of a game vary from match to match, 0 where it is not established.
-
-        Rounded as in files, so that answers are the same from the ratings and from their list.
-        """
+        """The established `form`, or 0: the standard deviation, rounded as in lists of ratings."""
         return round(self.form.sd, 4) if self.form is not None and self.form.established else 0.0
 
     @property
@@ -331,13 +326,7 @@ class Ratings:
         return math.sqrt(variance) * self.scale.points_per_log_odds
 
     def difference_variances(self, first: Ints, second: Ints) -> Floats:
-        """Return the variance of the difference of each two ratings, in squared log-odds.
-
-        Parameters
-        ----------
-        first, second
-            positions in `players`, of at most 2,000.
-        """
+        """Return the variances of differences, in squared log-odds, by places in `players`."""
         return np.maximum(self._curvature.difference_variances(first, second), 0.0)
 
     def covariance(self, players: Sequence[str]) -> Floats:
