@@ -11,6 +11,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
 from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
@@ -71,9 +72,10 @@ def tournament_odds_answer(
             Quantity("ratings_averaged", odds is not plug_in),
         ]
     )
-    table = _table(tournament, plug_in, odds, prizes)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes)
     parts: list[Part] = [_in_words(tournament, odds, rematches.mean), quantities, table]
-    parts += filter(None, [tournament.byes, _how(plug_in, odds, walkovers)])
+    unrated = tournament.unrated_words(spread=not sure)
+    parts += filter(None, [tournament.byes, unrated, how_words(plug_in, odds, walkovers)])
     return Answer(
         tournament.heading,
         parts,
@@ -98,9 +100,21 @@ def _odds(
     return both.as_if_sure, both.averaged
 
 
-def _table(
-    tournament: Tournament, plug_in: TitleOdds, odds: TitleOdds, prizes: Sequence[float]
+def odds_table(
+    ratings: Floats, plug_in: TitleOdds, odds: TitleOdds, prizes: Sequence[float] = ()
 ) -> Table:
+    """Return each player's chance of each place, beside those that take the ratings as right.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating, in the bracket's order.
+    plug_in, odds
+        the odds if the ratings are right, and averaged over how far off they may be; the same
+        if they are not averaged.
+    prizes
+        the money for each place.
+    """
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
     columns += [
@@ -109,7 +123,7 @@ def _table(
     ]
     seats = range(len(odds.title))
     rows: list[list[Any]] = [
-        [k + 1, odds.bracket.players[k], float(tournament.ratings[k]), *odds.p_place[k].tolist()]
+        [k + 1, odds.bracket.players[k], float(ratings[k]), *odds.p_place[k].tolist()]
         for k in seats
     ]
     if odds is not plug_in:
@@ -156,15 +170,24 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
+def favourite_words(odds: TitleOdds) -> str:
+    """Return who is likely to win."""
     players, title = odds.bracket.players, odds.title
-    best, *others = np.argsort(-title, kind="stable")[:3].tolist()
-    following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+    alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
+    best, *others = alive
     text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
-        f"time; next {'are' if len(others) > 1 else 'is'} {following}.\n"
-        f"An equal share would be {percent(1.0 / len(players))}. "
+        "time"
     )
+    if others:
+        following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+        text += f"; next {'are' if len(others) > 1 else 'is'} {following}"
+    return f"{text}."
+
+
+def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
+    players = odds.bracket.players
+    text = f"{favourite_words(odds)}\nAn equal share would be {percent(1.0 / len(players))}. "
     matches = odds.matches_mean
     if abs(matches - round(matches)) < 1e-9:
         text += f"{count_of(round(matches), 'match is', 'matches are')} played"
@@ -177,18 +200,19 @@ def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
     return f"{text}."
 
 
-def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
+def how_words(plug_in: TitleOdds, odds: TitleOdds, walkovers: float = 0.0) -> str:
     """Return how exact the odds are, and what they assume."""
     lines = []
     if odds is not plug_in:
         lines.append(
             f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
-            f"by their standard errors; chance moves them by {_off(odds)} at most."
+            f"by their standard errors; other draws would move no figure by more than about "
+            f"{_off(odds)}."
         )
     elif not odds.exact:
         lines.append(
             f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
-            f"exactly; chance moves the odds by {_off(odds)} at most."
+            f"exactly; other samples would move no figure by more than about {_off(odds)}."
         )
     else:
         lines.append("The odds are exact, if the ratings are right.")
@@ -198,4 +222,5 @@ def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
 
 
 def _off(odds: TitleOdds) -> str:
-    return percent(2.0 * float(odds.error.max()))
+    points = 200.0 * float(odds.error.max())
+    return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"

@@ -53,8 +53,6 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened
     from evenbreak.tournaments.evening.fold import ELIMINATIONS
 
-    if not isinstance(entered.races.race, int) and not entered.plan.handicapped:
-        refuse("--chart is not for a tournament that is run here; give --race or --race-to")
     plan = replace(entered.plan, tables=tables, discipline=discipline)
     roster, _, lines = entered.roster, "", None
     if plan.seeding == "drawn":
@@ -69,5 +67,17 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = new_tournament(out, events)
-    answer = answer_of(out, state, at)
+    answer = answer_of(out, state, at, _unrated(entered))
     return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
+
+
+def _unrated(entered: Entered) -> list[str]:
+    """Return what is assumed of players without a rating, as a sentence if there are any."""
+    import numpy as np
+
+    from evenbreak.answers.tournament import unrated_words
+
+    read = entered.file.roster
+    names = [read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist()]
+    plan = entered.plan
+    return [unrated_words(names, plan.starter, plan.starter_error)] if names else []

@@ -32,16 +32,18 @@ class InPlay(NamedTuple):
     match
         its name.
     started
-        when it began, in minutes since the first start of the event; if its score is known,
-        when it stood so.
+        when it began, in minutes since the first start of the event.
     games
-        the games that had been played by then. The odds of the match must then be those from
-        this score (`from_score`).
+        the games played so far, if its score is known. The odds of the match must then be those
+        from this score (`from_score`).
+    scored
+        when it had this score; None: none is known.
     """
 
     match: str
     started: float
     games: int = 0
+    scored: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,9 +184,10 @@ def _under_way(
     one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
     if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
         raise InputError(f"playing has {match.match!r}; give matches whose players are known")
-    elapsed = clock - match.started
+    since = match.started if match.scored is None else match.scored
+    elapsed = clock - since
     if elapsed < 0.0:
-        raise InputError(f"{match.match} started at {match.started:g}; it is {clock:g} now")
+        raise InputError(f"{match.match} started at {since:g}; it is {clock:g} now")
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
     usual = np.maximum(pace.mean_minutes(games) - pace.mean_minutes(match.games), 1e-9)

@@ -90,9 +90,16 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     return Scored(name, pair, score)
 
 
-def forfeit(state: Evening, match: str, player: str) -> Result:
-    """Let a player forfeit a match."""
-    name, loser = known_match(state, match), known_player(state, player)
+def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
+    """Let a player forfeit a match; None: the only one that they can play now."""
+    loser = known_player(state, player)
+    if match is None:
+        ready = [name for name in state.standing.to_play if loser in state.pair(name)]
+        if len(ready) != 1:
+            which = f"say which: {', '.join(ready)}" if ready else "it can be forfeited when it is"
+            raise InputError(f"{loser} has {len(ready) or 'no'} matches ready; {which}")
+        match = ready[0]
+    name = known_match(state, match)
     if name in state.counted:
         raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
     _refuse_waiting(state, name)

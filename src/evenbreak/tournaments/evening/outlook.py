@@ -85,6 +85,11 @@ class Outlook:
             laws[name] = from_score(laws[name], seats, needs, score, p)
         return laws
 
+    @property
+    def scores(self) -> dict[str, tuple[int, int]]:
+        """The scores of the matches in play, the first player's games first."""
+        return {name: score for name, _, _, score in self._in_score}
+
     @cached_property
     def _in_score(self) -> list[_InScore]:
         """The matches in play whose score is known."""
@@ -147,8 +152,7 @@ class Outlook:
         everything += [one.result for one in played_matches(state) if not one.result.forfeit]
         seat = state.order.index
         return [
-            Games(seat(what.players[0]), seat(what.players[1]), *what.score)
-            for what in everything
+            Games(seat(what.players[0]), seat(what.players[1]), *what.score) for what in everything
         ]
 
     def leverages(self) -> list[Leverage]:
@@ -185,14 +189,14 @@ class Outlook:
             results=state.results,
             played=self.timed,
             playing=playing,
-            now=max([self.minutes(self.now), *(one.started for one in playing)]),
+            now=max([self.minutes(self.now), *(one.scored or one.started for one in playing)]),
         )
 
     def _in_play(self, name: str, at: str) -> InPlay:
         live = self.state.live.get(name)
         if live is None or live.at < at or not any(live.what.score):
             return InPlay(name, self.minutes(at))
-        return InPlay(name, self.minutes(live.at), sum(live.what.score))
+        return InPlay(name, self.minutes(at), sum(live.what.score), self.minutes(live.at))
 
     @property
     def timed(self) -> list[Timed]:
