@@ -85,7 +85,8 @@ class Tournament:
     def unrated(self) -> tuple[str, ...]:
         """The players who have no rating on the list."""
         read = self.file.roster
-        return tuple(read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist())
+        names = (read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist())
+        return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
     def unrated_words(self, *, spread: bool = True) -> str:
         """Return what is assumed of players without a rating, as a sentence; '' if all have one."""

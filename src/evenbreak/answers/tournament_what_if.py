@@ -39,8 +39,8 @@ def what_if(
     changes = {"one_more_table": (tables + 1, races)}
     if tables > 1:
         changes["one_table_fewer"] = tables - 1, races
-    if (shorter := _shorter(races)) is not None:
-        changes["races_one_shorter"] = tables, shorter
+    if (fewer := shorter(races)) is not None:
+        changes["races_one_shorter"] = tables, fewer
     losers = _one_less(races.race if races.losers is None else races.losers)
     if losers is not None and any(match.side == "losers" for match in bracket.matches):
         changes["losers_races_one_shorter"] = tables, replace(races, losers=losers)
@@ -83,7 +83,7 @@ def _moves(minutes: float) -> str:
     return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"
 
 
-def _shorter(races: Races) -> Races | None:
+def shorter(races: Races) -> Races | None:
     """Return all races one game shorter; None where they come from a chart, or one game is all."""
     found = [_one_less(race) for race in (races.race, races.losers, races.final)]
     given = [race for race in (races.race, races.losers, races.final) if race is not None]
