@@ -32,6 +32,7 @@ from evenbreak.tournaments.evening.events import (
     Opened,
     Plan,
     Result,
+    Scored,
     What,
 )
 from evenbreak.tournaments.evening.fold import bracket_of, evening
