@@ -74,13 +74,13 @@ def of_cuescore(data: Mapping[str, Any]) -> SavedBracket:
     raw = data["matches"]
     pairs = [tuple(name_of(one.get(f"player{s}"), f"player {s}") for s in "AB") for one in raw]
     everybody = data.get("format") == 8
-    keys = [one.get("matchno") or one.get("matchId") for one in raw]
-    key_of = dict(zip([one.get("matchId") for one in raw], keys, strict=True))
+    keys = [str(one.get("matchno") or one.get("matchId")) for one in raw]
+    key_of = dict(zip([str(one.get("matchId")) for one in raw], keys, strict=True))
     key_of |= {key: key for key in keys}
     coming: dict[Any, list[From]] = {}
     for one, key in zip(raw, keys, strict=True):
         for field, outcome in (("winnerNext", "winner"), ("loserNext", "loser")):
-            if (there := key_of.get(one.get(field))) is not None and one.get(field):
+            if (there := key_of.get(str(one.get(field)))) is not None:
                 coming.setdefault(there, []).append((key, outcome))
     people = dict(zip(keys, pairs, strict=True))
     matches = []
@@ -150,12 +150,11 @@ def of_challonge(data: Mapping[str, Any]) -> SavedBracket:
                 slots.append((before, "loser" if lost else "winner"))
         where = "losers" if number < 0 else "winners"
         ids = one.get("player1_id"), one.get("player2_id")
-        won = ids.index(one["winner_id"]) + 1 if one.get("winner_id") in ids[:2] else 0
-        if None in ids or one.get("state") != "complete":
-            won = 0
-        began, over = (str(one.get(key) or "") for key in ("started_at", "completed_at"))
+        over = one.get("state") == "complete" and None not in ids
+        won = ids.index(one["winner_id"]) + 1 if over and one.get("winner_id") in ids else 0
+        began, ended = (str(one.get(key) or "") for key in ("started_at", "completed_at"))
         matches.append(
-            SavedMatch(one["id"], where, abs(number), tuple(slots), won, started=began, ended=over)
+            SavedMatch(one["id"], where, abs(number), tuple(slots), won, started=began, ended=ended)
         )
     if kind == "double elimination" and not tournament.get("grand_finals_modifier"):
         matches += _second_final(matches)

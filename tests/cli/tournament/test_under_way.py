@@ -5,6 +5,9 @@ import json
 
 import pytest
 
+from places import TESTS
+
+SAVED = TESTS / "files" / "saved"
 ENTRANTS = "player,rating,scale\nAnn,640,fargo\nBo,600,fargo\nCy,,fargo\nDi,520,fargo\n"
 
 
@@ -111,3 +114,18 @@ def test_without_entrants_or_a_tournament(run, tmp_path):
     result = run("tournament", "odds", "--file", str(tmp_path / "none.db"))
     assert result.exit_code == 2
     assert "none.db" in result.stderr
+
+
+def test_a_tournament_of_another_program_goes_on(night, tmp_path):
+    saved = SAVED / "brackets_manager_single8.json"
+    listed = tmp_path / "ratings.csv"
+    listed.write_text("player,rating,scale\nPlayer 2,640,fargo\nPlayer 6,520,fargo\n")
+    words = (str(saved), "--ratings", str(listed), "--race", "5", "--tables", "2")
+    result = night.run("tournament", "import", *words, "--out", night.file, "--text")
+    assert "8 players and 5 results are imported." in result.stdout
+    assert "6 players without a rating" in result.stdout
+    (one,) = night("next")["next"]
+    assert {one["player_a"], one["player_b"]} == {"Player 2", "Player 6"}
+    assert night("result", one["match"], "5:0")["next"]
+    wrong = night.run("tournament", "import", str(listed), "--out", str(tmp_path / "b.db"))
+    assert (wrong.exit_code, "ratings.csv" in wrong.stderr) == (3, True)

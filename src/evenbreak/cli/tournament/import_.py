@@ -96,10 +96,8 @@ def command(
     )
     events = read_saved_tournament(saved, plan, known, at)
     state = new_tournament(out, events)
-    played = count_of(len(state.winners), "match", "matches")
-    said = [
-        f"Imported: {count_of(len(state.order), 'player')} and {played} that have been decided."
-    ]
+    players, played = len(state.order), len(state.winners)
+    said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
     unrated = [name for name in state.order if name not in known]
     if unrated:
         said.append(unrated_words(unrated, plan.starter, plan.starter_error))
