@@ -168,11 +168,23 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class Changed:
+    """Other tables or races from now on, in the matches that have not begun; None: as before."""
+
+    tables: int | None = None
+    race: int | None = None
+    losers_race: int | None = None
+    final_race: int | None = None
+
+
+@dataclass(frozen=True)
 class Undone:
     """The last event that has not been undone yet is undone."""
 
 
-What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | Undone
+What: TypeAlias = (
+    Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | Changed | Undone
+)
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
@@ -182,6 +194,7 @@ KINDS: dict[str, type[What]] = {
     "scored": Scored,
     "result": Result,
     "ranked": Ranked,
+    "changed": Changed,
     "undone": Undone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}

@@ -8,7 +8,7 @@ again if the correction is undone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -29,6 +29,7 @@ from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Entrant,
@@ -246,6 +247,7 @@ def evening(events: Iterable[Event]) -> Evening:
     {'F': 'Bo'}
     """
     first, kept = _kept(events)
+    plan = first.plan
     entrants = {entrant.name: entrant for entrant in first.entrants}
     order: list[str] = []
     lines: list[int | None] | None = None
@@ -260,6 +262,9 @@ def evening(events: Iterable[Event]) -> Evening:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
                 calls[call.match] = OnTable(call, event.at)
+            case Changed() as change:
+                drawn_up = tuple(order), None if lines is None else tuple(lines)
+                plan = _changed(plan, change, drawn_up, {*records, *calls})
             case Scored() as scored:
                 scores[scored.match] = LiveScore(scored, event.at)
             case Ranked() as tie:
@@ -277,7 +282,7 @@ def evening(events: Iterable[Event]) -> Evening:
                 else:
                     del entrants[name]
     return Evening(
-        first.plan,
+        plan,
         entrants,
         tuple(order),
         None if lines is None else tuple(lines),
@@ -324,6 +329,23 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
     return first, kept
 
 
+def _changed(
+    plan: Plan,
+    change: Changed,
+    drawn: tuple[tuple[str, ...], tuple[int | None, ...] | None],
+    begun: Iterable[str],
+) -> Plan:
+    """Return a plan with other tables or races; matches that have begun keep their race."""
+    given = {name: value for name, value in asdict(change).items() if value is not None}
+    races, by_match = races_of(plan), dict(plan.by_match)
+    if drawn[0] and set(given) - {"tables"}:
+        bracket = bracket_of(plan, *drawn)
+        for name in begun:
+            race = races.of(bracket.match(name))
+            by_match[name] = race.race_to if isinstance(race, Fairest) else int(race)  # type: ignore[arg-type]
+    return replace(plan, **given, by_match=by_match)
+
+
 def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
     """Return the bracket of a draw.
 
@@ -359,4 +381,5 @@ def races_of(plan: Plan) -> Races:
     if not plan.handicapped:
         return Races(plan.race, plan.losers_race, plan.final_race, plan.by_match)
     losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
-    return Races(Fairest(plan.race), losers, last)
+    by_match = {name: Fairest(games) for name, games in plan.by_match.items()}
+    return Races(Fairest(plan.race), losers, last, by_match)
