@@ -8,7 +8,7 @@ again if the correction is undone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -42,7 +42,8 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
-from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
+from evenbreak.tournaments.evening.races_of_plan import changed, races_of
+from evenbreak.tournaments.odds.races import Races, games_needed
 
 ELIMINATIONS = ("double", "single", "consolation")
 
@@ -263,8 +264,10 @@ def evening(events: Iterable[Event]) -> Evening:
             case Called() as call:
                 calls[call.match] = OnTable(call, event.at)
             case Changed() as change:
+                begun = {*records, *calls}
                 drawn_up = tuple(order), None if lines is None else tuple(lines)
-                plan = _changed(plan, change, drawn_up, {*records, *calls})
+                bracket = bracket_of(plan, *drawn_up) if order else None
+                plan = changed(plan, change, bracket, begun)
             case Scored() as scored:
                 scores[scored.match] = LiveScore(scored, event.at)
             case Ranked() as tie:
@@ -329,23 +332,6 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
     return first, kept
 
 
-def _changed(
-    plan: Plan,
-    change: Changed,
-    drawn: tuple[tuple[str, ...], tuple[int | None, ...] | None],
-    begun: Iterable[str],
-) -> Plan:
-    """Return a plan with other tables or races; matches that have begun keep their race."""
-    given = {name: value for name, value in asdict(change).items() if value is not None}
-    races, by_match = races_of(plan), dict(plan.by_match)
-    if drawn[0] and set(given) - {"tables"}:
-        bracket = bracket_of(plan, *drawn)
-        for name in begun:
-            race = races.of(bracket.match(name))
-            by_match[name] = race.race_to if isinstance(race, Fairest) else int(race)  # type: ignore[arg-type]
-    return replace(plan, **given, by_match=by_match)
-
-
 def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
     """Return the bracket of a draw.
 
@@ -368,18 +354,3 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
         case "round-robin":
             return round_robin(order)
     return king_of_the_hill(order)
-
-
-def races_of(plan: Plan) -> Races:
-    """Return the races of a plan.
-
-    >>> races_of(Plan("double", 7, losers_race=5)).losers
-    5
-    """
-    if plan.chart is not None:
-        return Races(plan.chart)
-    if not plan.handicapped:
-        return Races(plan.race, plan.losers_race, plan.final_race, plan.by_match)
-    losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
-    by_match = {name: Fairest(games) for name, games in plan.by_match.items()}
-    return Races(Fairest(plan.race), losers, last, by_match)
