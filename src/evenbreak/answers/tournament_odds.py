@@ -175,6 +175,8 @@ def favourite_words(odds: TitleOdds) -> str:
     players, title = odds.bracket.players, odds.title
     alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
     best, *others = alive
+    if not others:
+        return f"{players[best]} wins the tournament."
     text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
         "time"
@@ -223,4 +225,6 @@ def how_words(plug_in: TitleOdds, odds: TitleOdds, walkovers: float = 0.0) -> st
 
 def _off(odds: TitleOdds) -> str:
     points = 200.0 * float(odds.error.max())
+    if points < 0.05:
+        return "0.1 percentage points"
     return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"

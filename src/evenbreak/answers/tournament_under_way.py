@@ -23,6 +23,8 @@ from evenbreak.tournaments.clock.finish import Finish
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
 
+_WORTH_SAYING = 3.0  # minutes
+
 
 def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
     """Return each player's chance of each place, given the results and scores so far.
@@ -58,7 +60,7 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     parts: list[Part] = [favourite_words(odds), quantities, table]
     if state.standing.to_play:
         parts.append(_at_stake(outlook))
-    parts.append(how_words(sure, odds))
+        parts.append(how_words(sure, odds))
     if odds is not sure and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
@@ -89,6 +91,8 @@ def _at_stake(outlook: Outlook) -> Table:
 
 
 def _later(minutes: float) -> str:
+    if abs(minutes) < _WORTH_SAYING:
+        return ""
     return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
 
 
