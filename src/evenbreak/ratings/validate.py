@@ -10,27 +10,23 @@ from typing import Literal
 import numpy as np
 
 from evenbreak.checks import seed_of
-from evenbreak.ratings.advantages import (
-    FirstBreaks,
-    FirstColumn,
-    break_advantage,
-    first_breaks,
-    first_column,
-    side_advantage,
-)
+from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks
+from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.first_column import FirstColumn, first_column, side_advantage
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
-from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.levels import Levels, begun
 from evenbreak.ratings.match_form import MatchForm, match_form
 from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scored import How, Of, Predictions, Scored
+from evenbreak.ratings.starts import Starts, starts
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
@@ -84,6 +80,9 @@ class Validation:
         how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
+    starts
+        what the games given take back of the difference between players; None where there are
+        too few.
     experience
         how the less experienced player of a match fared, by the games played before.
     drawn
@@ -111,6 +110,7 @@ class Validation:
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
+    starts: Starts | None
     lengths: tuple[RaceLengths, ...]
     experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
@@ -121,6 +121,7 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | Literal["best"] | None = "best",
+    beginning: Beginning | None = None,
     seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
@@ -136,6 +137,8 @@ def validate(
     half_life
         days after which a game counts half; None: games never age. 'best': chosen with the
         prior, or where that is given, games never age, and it is tested whether that is right.
+    beginning
+        ratings that players bring along; None: there are none.
     seed
         of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
@@ -168,11 +171,12 @@ def validate(
         results,
         prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
         half_life=never,
+        levels=None if prior_sd is None else begun(beginning),
         progress=next(parts),
     )
     dated = results.select(~np.isnat(np.asarray(results.date)))
     if prior_sd is None:
-        choice = best_prior(dated, half_life=half_life, progress=next(parts))
+        choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=next(parts))
         half_lives = _tested(choice)
         if (choice.prior_sd, choice.half_life, choice.levels) != (PRIOR_SD, never, Levels()):
             walk = walk_forward(
@@ -233,6 +237,7 @@ def validate(
         breaker=break_advantage(walk),
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
+        starts=starts(walk.results),
         lengths=tuple(race_lengths(walk)),
         experience=tuple(by_experience(walk)),
         drawn="dates" if by_dates else "matches",
