@@ -22,7 +22,7 @@ def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str]]:
             number,
             event.at,
             NAMES[type(event.what)],
-            json.dumps(as_dict(event.what), ensure_ascii=False),
+            json.dumps(as_dict(event.what)),
         )
         for number, event in enumerate(events, 1)
     ]
