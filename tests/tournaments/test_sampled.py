@@ -90,6 +90,16 @@ def test_what_would_be_too_large_is_not_begun() -> None:
     assert plan_of(double_elimination(8)).states < 2000
 
 
+@pytest.mark.parametrize(
+    ("players", "drops", "most"),
+    [(8, "usual", 672), (16, "usual", 73_728), (32, "straight", 115_200)],
+)
+def test_few_joint_states_are_open(players: int, drops, most: int) -> None:
+    """No more than with a plain dictionary of states."""
+    plan = plan_of(double_elimination(players, drops=drops))
+    assert max(step.size for step in plan.steps) <= most
+
+
 def test_the_estimate_is_on_the_safe_side() -> None:
     for bracket in (double_elimination(16), double_elimination(32, drops="straight")):
         plan = plan_of(bracket)
