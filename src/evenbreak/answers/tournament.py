@@ -35,6 +35,9 @@ class Tournament:
         what the points mean.
     seeding
         where the order of the seeds comes from, in words.
+    to_draw
+        what is drawn later: '' (nothing), the 'lines' of everybody, the 'qualifiers' of the
+        losers' side, or the 'rounds' of a Swiss.
     """
 
     file: RosterFile
@@ -43,6 +46,7 @@ class Tournament:
     races: Races
     scale: Scale
     seeding: str
+    to_draw: str = ""
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:

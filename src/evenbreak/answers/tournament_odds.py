@@ -10,12 +10,11 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
+from evenbreak.answers.tournament_solved import how_solved, solved
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.tournaments.brackets.bracket import Place
-from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
-from evenbreak.tournaments.odds.title import TitleOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import over_ratings
+from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds
 
 _NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
 _SHOWN = 3  # places that everybody sees; the others are details
@@ -59,21 +58,26 @@ def tournament_odds_answer(
     An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
     who have met before; a second final is needed 41% of the time.
     """
-    plug_in, odds = _odds(tournament, sure=sure, walkovers=walkovers, seed=seed)
-    rng = np.random.default_rng(seed)
-    rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng)
-    quantities = Quantities(
-        [
+    found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
+    plug_in, odds = found
+    quantities = [
+        Quantity("exact", plug_in.exact and not found.averaged),
+        Quantity("ratings_averaged", found.averaged),
+    ]
+    words = _in_words(odds)
+    if isinstance(odds, TitleOdds):
+        rng = np.random.default_rng(seed)
+        rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng).mean
+        quantities = [
             Quantity("p_second_final", odds.p_second_final),
             Quantity("matches_mean", odds.matches_mean),
-            Quantity("rematches_mean", rematches.mean),
-            Quantity("exact", plug_in.exact and odds is plug_in),
-            Quantity("ratings_averaged", odds is not plug_in),
+            Quantity("rematches_mean", rematches),
+            *quantities,
         ]
-    )
+        words += f" {_matches_words(odds, rematches)}"
     table = _table(tournament, plug_in, odds, prizes)
-    parts: list[Part] = [_in_words(tournament, odds, rematches.mean), quantities, table]
-    parts += filter(None, [tournament.byes, _how(plug_in, odds, walkovers)])
+    parts: list[Part] = [words, Quantities(quantities), table]
+    parts += filter(None, [tournament.byes, how_solved(tournament, found, walkovers)])
     return Answer(
         tournament.heading,
         parts,
@@ -82,24 +86,8 @@ def tournament_odds_answer(
     )
 
 
-def _odds(
-    tournament: Tournament, *, sure: bool, walkovers: float, seed: int
-) -> tuple[TitleOdds, TitleOdds]:
-    """Return the odds if the ratings are right, and averaged over their errors if they have any."""
-    asked: Any = {"walkovers": walkovers, "rng": np.random.default_rng(seed)}
-    errors = np.nan_to_num(tournament.roster.standard_error)
-    if sure or not errors.any():
-        odds = title_odds(tournament.bracket, tournament.laws, **asked)
-        return odds, odds
-    win_of = chances_given(
-        tournament.bracket, tournament.ratings, tournament.races, scale=tournament.scale
-    )
-    both = over_ratings(tournament.bracket, win_of, tournament.ratings, errors, **asked)
-    return both.as_if_sure, both.averaged
-
-
 def _table(
-    tournament: Tournament, plug_in: TitleOdds, odds: TitleOdds, prizes: Sequence[float]
+    tournament: Tournament, plug_in: PlaceOdds, odds: PlaceOdds, prizes: Sequence[float]
 ) -> Table:
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
@@ -156,46 +144,25 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
+def _in_words(odds: PlaceOdds) -> str:
     players, title = odds.bracket.players, odds.title
     best, *others = np.argsort(-title, kind="stable")[:3].tolist()
     following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
-    text = (
+    return (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
         f"time; next {'are' if len(others) > 1 else 'is'} {following}.\n"
-        f"An equal share would be {percent(1.0 / len(players))}. "
+        f"An equal share would be {percent(1.0 / len(players))}."
     )
+
+
+def _matches_words(odds: TitleOdds, rematches: float) -> str:
     matches = odds.matches_mean
     if abs(matches - round(matches)) < 1e-9:
-        text += f"{count_of(round(matches), 'match is', 'matches are')} played"
+        text = f"{count_of(round(matches), 'match is', 'matches are')} played"
     else:
-        text += f"On average {matches:.1f} matches are played"
+        text = f"On average {matches:.1f} matches are played"
     if rematches > 0.0:
         text += f", {rematches:.1f} of them between players who have met before"
-    if "F2" in tournament.bracket.by_name:
+    if "F2" in odds.bracket.by_name:
         text += f"; a second final is needed {percent(odds.p_second_final)} of the time"
     return f"{text}."
-
-
-def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
-    """Return how exact the odds are, and what they assume."""
-    lines = []
-    if odds is not plug_in:
-        lines.append(
-            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
-            f"by their standard errors; chance moves them by {_off(odds)} at most."
-        )
-    elif not odds.exact:
-        lines.append(
-            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
-            f"exactly; chance moves the odds by {_off(odds)} at most."
-        )
-    else:
-        lines.append("The odds are exact, if the ratings are right.")
-    if walkovers:
-        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
-    return " ".join(lines)
-
-
-def _off(odds: TitleOdds) -> str:
-    return percent(2.0 * float(odds.error.max()))

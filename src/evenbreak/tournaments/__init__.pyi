@@ -19,6 +19,7 @@ from .brackets.swiss import Pairing as Pairing
 from .brackets.swiss import Swiss as Swiss
 from .brackets.swiss import SwissRank as SwissRank
 from .brackets.swiss import swiss as swiss
+from .brackets.swiss import swiss_bracket as swiss_bracket
 from .brackets.swiss import swiss_round as swiss_round
 from .brackets.swiss import swiss_standings as swiss_standings
 from .chips.chip_charts import CHIP_CHARTS as CHIP_CHARTS
@@ -66,7 +67,6 @@ from .odds.races import pair_odds as pair_odds
 from .odds.redraws import redraw_odds as redraw_odds
 from .odds.rematches import Rematches as Rematches
 from .odds.rematches import expected_rematches as expected_rematches
-from .odds.swiss_odds import SwissOdds as SwissOdds
 from .odds.swiss_odds import swiss_odds as swiss_odds
 from .odds.title import WALKOVERS as WALKOVERS
 from .odds.title import PlaceOdds as PlaceOdds

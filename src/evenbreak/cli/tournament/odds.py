@@ -32,6 +32,11 @@ Examples:
     help="Take the ratings as right, even if the file states their standard errors.",
 )
 @click.option(
+    "--before-draw",
+    is_flag=True,
+    help="The odds before a blind draw: every draw is equally likely.",
+)
+@click.option(
     "--walkovers",
     metavar="P",
     type=WALKOVERS,

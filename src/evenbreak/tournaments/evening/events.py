@@ -19,9 +19,15 @@ class Plan:
     Parameters
     ----------
     form
-        double, single, consolation, round-robin or king-of-the-hill.
-    final, qualifiers, drops
+        double, single, pods, consolation, groups, round-robin, swiss or king-of-the-hill.
+    final, drops
         as in `double_elimination`.
+    qualifiers
+        how many a double elimination leads to, or how many go on from each group or pod.
+    placement
+        how qualifiers of a double elimination are paired: half shift or redraw.
+    groups, pod_size, rounds
+        how many groups, the lines of a pod, the rounds of a Swiss.
     third_place
         as in `single_elimination`.
     seeding
@@ -55,6 +61,10 @@ class Plan:
     starter_error: float = 0.0
     tables: int = 4
     discipline: str = "9-ball"
+    placement: str = "half shift"
+    groups: int | None = None
+    pod_size: int = 8
+    rounds: int | None = None
 
 
 @dataclass(frozen=True)

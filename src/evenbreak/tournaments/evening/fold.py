@@ -17,14 +17,15 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.brackets.double import double_elimination
-from evenbreak.tournaments.brackets.groups import round_robin
+from evenbreak.tournaments.brackets.double import double_elimination, pods
+from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
 from evenbreak.tournaments.brackets.knockout import (
     consolation,
     king_of_the_hill,
     single_elimination,
 )
 from evenbreak.tournaments.brackets.standing import Standing, standing
+from evenbreak.tournaments.brackets.swiss import Swiss, swiss, swiss_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
     Drawn,
@@ -39,7 +40,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
 
-ELIMINATIONS = ("double", "single", "consolation")
+ELIMINATIONS = ("double", "single", "pods", "consolation")
 
 
 class Played(NamedTuple):
@@ -277,9 +278,35 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
             return single_elimination(order, third_place=plan.third_place, lines=lines)
         case "consolation":
             return consolation(order, lines=lines)
+        case "pods":
+            each: Any = plan.qualifiers or 1
+            return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
+        case "groups":
+            many = groups_of(plan, len(order))
+            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
         case "round-robin":
             return round_robin(order)
+        case "swiss":
+            return swiss_bracket(swiss_of(plan, order))
     return king_of_the_hill(order)
+
+
+def groups_of(plan: Plan, players: int) -> int:
+    """Return the number of groups: unless given, groups of four, or of three and four.
+
+    >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
+    [2, 3, 4, 4]
+    """
+    return plan.groups or max(2, -(-players // 4))
+
+
+def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
+    """Return the Swiss of a plan: unless given, with as many rounds as a single elimination.
+
+    >>> swiss_of(Plan("swiss", 5), ("Ann", "Bo", "Cy", "Di", "Ed")).rounds
+    3
+    """
+    return swiss(order, plan.rounds or (len(order) - 1).bit_length())
 
 
 def races_of(plan: Plan) -> Races:

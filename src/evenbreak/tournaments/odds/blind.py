@@ -9,7 +9,7 @@ small, and the odds that they are added to are known.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from evenbreak.checks import whole
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.double import Final, double_elimination
 from evenbreak.tournaments.brackets.standing import standing
-from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
+from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of, of_samples
 from evenbreak.tournaments.odds.forward import forward_pass
 from evenbreak.tournaments.odds.meetings import group_meetings, place_odds, plan_meetings
 from evenbreak.tournaments.odds.over_subsets import meetings_before_the_draw
@@ -35,6 +35,7 @@ def blind_draw_odds(
     bracket: Bracket,
     win: Wins,
     *,
+    walkovers: float | Mapping[str, float] = 0.0,
     samples: int = 400,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
@@ -46,6 +47,9 @@ def blind_draw_odds(
         the bracket into which the players are drawn: who is on which line of it does not
         matter.
     win
+        as in `title_odds`. Tables may have a third axis for samples of the ratings; then each
+        sample has a draw of its own.
+    walkovers
         as in `title_odds`.
     samples
         how many draws are sampled where the odds are not exact.
@@ -62,17 +66,18 @@ def blind_draw_odds(
     >>> blind_draw_odds(single_elimination(3), better).title.round(6)
     array([0.518519, 0.240741, 0.240741])
     """
-    chances = chances_of(standing(bracket), win)
-    law = _exact(bracket, chances)
+    chances = chances_of(standing(bracket), win, walkovers=walkovers)
+    rng = rng or np.random.default_rng(0)
+    many = max(table.shape[2] if table.ndim > 2 else 0 for table in chances.tables.values())
+    known: Floats | float = 0.0
+    law = None if many else _exact(bracket, chances)
     if law is not None:
         return PlaceOdds(bracket, law, np.zeros_like(law), 0)
-    rng = rng or np.random.default_rng(0)
-    many = whole(samples, "samples", at_least=2)
+    straight = None if many else _with_straight_drops(bracket)
+    many = many or whole(samples, "samples", at_least=2)
     players = np.tile(np.arange(len(bracket.players)), (many, 1))
     orders = rng.permuted(players, axis=1)
     laws = np.concatenate(list(_laws(bracket, chances, orders)), axis=2)
-    known: Floats | float = 0.0
-    straight = _with_straight_drops(bracket)
     if straight is not None:
         chances = Chances({match.name: chances.of(match.name) for match in straight.matches})
         law = _exact(straight, chances)
@@ -107,14 +112,14 @@ def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
     """Yield the places of the players, for some draws at a time; they are the last axis."""
     plan = exact_plan(bracket)
     if plan is None:
-        for order in orders:
-            law = odds_now(standing(bracket), _seated(chances, order[:, None])).p_place
+        for k, order in enumerate(orders):
+            law = odds_now(standing(bracket), _seated(chances, order[:, None], k)).p_place
             yield law[np.argsort(order)][:, :, None]
         return
     at_once = max(1, _CELLS // max(step.size for step in plan.steps))
     for start in range(0, len(orders), at_once):
         seated = orders[start : start + at_once].T
-        tables = _seated(chances, seated)
+        tables = _seated(chances, seated, start)
         through = forward_pass(plan, tables)
         meetings = plan_meetings(plan, through) | group_meetings(bracket, tables)
         law = place_odds(bracket, meetings, through.ranks)
@@ -122,14 +127,15 @@ def _laws(bracket: Bracket, chances: Chances, orders: Ints) -> Iterator[Floats]:
         yield np.take_along_axis(law, line[:, None, :], axis=0)
 
 
-def _seated(chances: Chances, players: Ints) -> Chances:
-    """Return the chances of whoever sits on each line, in each draw."""
-    nobody = np.full((1, players.shape[1]), len(players))
-    who = np.concatenate([players, nobody])
+def _seated(chances: Chances, players: Ints, start: int) -> Chances:
+    """Return the chances of whoever sits on each line, in each draw from number `start` on."""
+    many = players.shape[1]
+    who = np.concatenate([players, np.full((1, many), len(players))])
     made: dict[int, Floats] = {}
     tables: dict[str, Floats] = {}
     for name, table in chances.tables.items():
         if id(table) not in made:
-            made[id(table)] = table[who[:, None, :], who[None, :, :]]
+            part = table if table.ndim == 2 else table[:, :, start : start + many]
+            made[id(table)] = of_samples(part, who[:, None, :], who[None, :, :])
         tables[name] = made[id(table)]
     return Chances(tables)
