@@ -132,7 +132,7 @@ def test_qualifiers_drawn_later(odds):
     drawn = odds("--race", "5", *FARGO, "--qualifiers", "4", "--placement", "redraw")
     crossed = odds("--race", "5", *FARGO, "--qualifiers", "4")
     gap = column(drawn, "p_title")[0] - column(crossed, "p_title")[0]
-    assert 0.0 < abs(gap) < 0.02
+    assert 0.0 < abs(gap) < 0.05
     assert drawn["exact"]
 
 
