@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from evenbreak.answers.remarks import Remark
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import count_of, some_of
@@ -14,6 +18,7 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot
+from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 
 
@@ -63,16 +68,6 @@ class Tournament:
         return self.roster.rating
 
     @property
-    def shorter_races(self) -> Races | None:
-        """All races one game shorter; None where they come from a chart, or one game is all."""
-        races = self.races
-        found = [_one_less(race) for race in (races.race, races.losers, races.final)]
-        given = [race for race in (races.race, races.losers, races.final) if race is not None]
-        if found.count(None) > 3 - len(given) or found[0] is None:
-            return None
-        return replace(races, race=found[0], losers=found[1], final=found[2])
-
-    @property
     def heading(self) -> str:
         """What is played by whom."""
         players = count_of(len(self.roster), "player")
@@ -90,14 +85,30 @@ class Tournament:
             return ""
         return f"Byes in the first round: {some_of(names)}."
 
+    @property
+    def unrated(self) -> tuple[str, ...]:
+        """The players who have no rating on the list."""
+        read = self.file.roster
+        names = (read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist())
+        return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
-def _one_less(race: Race | None) -> Race | None:
-    match race:
-        case Fairest(race_to=games) if games > 1:
-            return Fairest(games - 1)
-        case int() if race > 1:
-            return race - 1
-    return None
+    def unrated_words(self, *, spread: bool = True) -> str:
+        """Return what is assumed of players without a rating, as a sentence; '' if all have one."""
+        if not (names := self.unrated):
+            return ""
+        seat = self.roster.players.index(names[0])
+        error = float(self.roster.standard_error[seat]) if spread else 0.0
+        return unrated_words(names, float(self.roster.rating[seat]), error)
+
+
+def unrated_words(names: Sequence[str], rating: float, error: float) -> str:
+    """Return what is assumed of players without a rating.
+
+    >>> unrated_words(["Ann"], 80.0, 30.0)
+    '1 player without a rating (Ann): taken as 80 ± 30.'
+    """
+    taken = f"taken as {rating:g} ± {error:g}" if error > 0.0 else f"taken as {rating:g}"
+    return str(Remark(f"{count_of(len(names), 'player')} without a rating", taken, names))
 
 
 def races_words(races: Races) -> str:
@@ -142,3 +153,12 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
     if isinstance(slot.outcome, int):
         return f"number {slot.outcome} of {slot.match}"
     return f"{slot.outcome} of {slot.match}"
+
+
+def pair_words(now: Standing, match: str) -> tuple[str, str]:
+    """Return who plays a match, as `slot_words` does, with the players who are known by now."""
+    one, other = (
+        slot_words(now.bracket, slot) if seat is None else now.bracket.players[seat]
+        for slot, seat in zip(now.bracket.match(match).slots, now.seats[match], strict=True)
+    )
+    return one, other

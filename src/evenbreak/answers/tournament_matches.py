@@ -5,7 +5,8 @@ from __future__ import annotations
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
-from evenbreak.tournaments.evening.fold import Evening, Played
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.outlook import played_matches
 
 
 def tournament_matches_answer(state: Evening, event: str) -> Answer:
@@ -39,7 +40,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
         Column("forfeit", "forfeit", lambda yes: "yes" if yes else "", left=True),
     ]
     rows = []
-    for result, at in sorted(_played(state), key=lambda one: one.at):
+    for result, at in sorted(played_matches(state), key=lambda one: one.at):
         score = None if result.forfeit else result.score
         race = state.needed(result.match, result.players)
         rows.append(
@@ -50,20 +51,10 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
                 result.players,
                 score,
                 race,
-                result.winner,
+                result.loser if result.stands else result.winner,
                 result.forfeit,
             ]
         )
     table = Table("matches", columns, rows)
     said = f"{count_of(len(rows), 'match was', 'matches were')} played."
     return Answer(event, [said, table], csv=table)
-
-
-def _played(state: Evening) -> list[Played]:
-    """Return the last result of each two players in each match."""
-    found = {
-        (name, frozenset(one.result.players)): one
-        for name, played in state.records.items()
-        for one in played
-    }
-    return list(found.values())

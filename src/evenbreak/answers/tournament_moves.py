@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from evenbreak.answers.tournament import slot_words
+from evenbreak.answers.tournament_night import waits_for
 from evenbreak.answers.wording import some_of
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
@@ -12,11 +13,14 @@ from evenbreak.tournaments.evening.events import (
     Dropped,
     Event,
     Late,
+    Ranked,
     Result,
+    Scored,
     What,
 )
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import score_words
+from evenbreak.tournaments.evening.settling import TieBreak
 
 
 def happened(before: Evening, after: Evening, event: Event) -> list[str]:
@@ -34,10 +38,41 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
     result = event.what
     said = [f"{score_words(result)} in {result.match}."]
     said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
-    gone = [name for name in before.winners if name not in after.counted]
+    return [*said, *reopened(before, after, result.match)]
+
+
+def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
+    """Return in words which matches are open again, and which results count again.
+
+    Parameters
+    ----------
+    before, after
+        the state before and after something happened.
+    besides
+        the match in which it happened.
+    """
+    if not (before.drawn and after.drawn):
+        return []
+    said = []
+    gone = [name for name in before.counted if name not in after.counted and name != besides]
     if gone:
-        said.append(f"Open again: {some_of(gone)}.")
+        said.append(f"Open again: {some_of([_open_words(after, name) for name in gone])}.")
+    back = [
+        f"{score_words(result)} in {name}"
+        for name, result in after.counted.items()
+        if name not in before.counted and name != besides and name in after.records
+    ]
+    if back:
+        said.append(f"Counts again: {'; '.join(back)}.")
     return said
+
+
+def _open_words(state: Evening, match: str) -> str:
+    """Return a match with whoever plays it now, or what it waits for."""
+    if match in state.standing.to_play:
+        return f"{match} ({' against '.join(state.pair(match))})"
+    waits = waits_for(state, match)
+    return f"{match} (waits for {waits})" if waits else match
 
 
 def _moves(state: Evening, match: str, player: str) -> str:
@@ -101,9 +136,13 @@ def undone_words(what: What) -> str:
     'Taken back: Ann beat Bo 7:5 in W1.1.'
     """
     match what:
-        case Result(corrects=corrects):
-            kind = "the correction " if corrects else ""
+        case Result(corrects=corrects, stands=stands):
+            kind = "the correction " if corrects and not stands else ""
             words = f"{kind}{score_words(what)} in {what.match}"
+        case Scored(match=match, score=score):
+            words = f"the score {score[0]}:{score[1]} of {match}"
+        case Ranked():
+            words = "the breaking of the ties"
         case Called():
             words = f"the call of {what.match} to table {what.table}"
         case Drawn():
@@ -115,3 +154,13 @@ def undone_words(what: What) -> str:
         case _:
             words = "nothing"
     return f"Taken back: {words}."
+
+
+def tie_words(found: TieBreak) -> list[str]:
+    """Return in words how ties were broken."""
+    said = [f"The order is {', '.join(found.ranked.order)}."]
+    if found.by_lot:
+        said.append(f"Drawn by lot: {', '.join(found.by_lot)}.")
+    else:
+        said.append("Games won minus games lost broke the ties.")
+    return said

@@ -10,8 +10,9 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
-from evenbreak.answers.tournament_solved import how_solved, solved
+from evenbreak.answers.tournament_solved import solved
 from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.odds.rematches import expected_rematches
 from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds
@@ -75,9 +76,11 @@ def tournament_odds_answer(
             *quantities,
         ]
         words += f" {_matches_words(odds, rematches)}"
-    table = _table(tournament, plug_in, odds, prizes)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes)
     parts: list[Part] = [words, Quantities(quantities), table]
-    parts += filter(None, [tournament.byes, how_solved(tournament, found, walkovers)])
+    unrated = tournament.unrated_words(spread=not sure)
+    how = _how_words(tournament, plug_in, odds, walkovers)
+    parts += filter(None, [tournament.byes, unrated, how])
     return Answer(
         tournament.heading,
         parts,
@@ -86,9 +89,21 @@ def tournament_odds_answer(
     )
 
 
-def _table(
-    tournament: Tournament, plug_in: PlaceOdds, odds: PlaceOdds, prizes: Sequence[float]
+def odds_table(
+    ratings: Floats, plug_in: PlaceOdds, odds: PlaceOdds, prizes: Sequence[float] = ()
 ) -> Table:
+    """Return each player's chance of each place, beside those that take the ratings as right.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating, in the bracket's order.
+    plug_in, odds
+        the odds if the ratings are right, and averaged over how far off they may be; the same
+        if they are not averaged.
+    prizes
+        the money for each place.
+    """
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
     columns += [
@@ -97,7 +112,7 @@ def _table(
     ]
     seats = range(len(odds.title))
     rows: list[list[Any]] = [
-        [k + 1, odds.bracket.players[k], float(tournament.ratings[k]), *odds.p_place[k].tolist()]
+        [k + 1, odds.bracket.players[k], float(ratings[k]), *odds.p_place[k].tolist()]
         for k in seats
     ]
     if odds is not plug_in:
@@ -144,15 +159,24 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def _in_words(odds: PlaceOdds) -> str:
+def favourite_words(odds: PlaceOdds) -> str:
+    """Return who is likely to win."""
     players, title = odds.bracket.players, odds.title
-    best, *others = np.argsort(-title, kind="stable")[:3].tolist()
-    following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
-    return (
+    alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
+    best, *others = alive
+    text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
-        f"time; next {'are' if len(others) > 1 else 'is'} {following}.\n"
-        f"An equal share would be {percent(1.0 / len(players))}."
+        "time"
     )
+    if others:
+        following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+        text += f"; next {'are' if len(others) > 1 else 'is'} {following}"
+    return f"{text}."
+
+
+def _in_words(odds: PlaceOdds) -> str:
+    share = percent(1.0 / len(odds.bracket.players))
+    return f"{favourite_words(odds)}\nAn equal share would be {share}."
 
 
 def _matches_words(odds: TitleOdds, rematches: float) -> str:
@@ -166,3 +190,54 @@ def _matches_words(odds: TitleOdds, rematches: float) -> str:
     if "F2" in odds.bracket.by_name:
         text += f"; a second final is needed {percent(odds.p_second_final)} of the time"
     return f"{text}."
+
+
+def _how_words(
+    tournament: Tournament, plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float
+) -> str:
+    """Return how exact the odds are, and what is still to be drawn."""
+    how = how_words(plug_in, odds, walkovers)
+    match tournament.to_draw:
+        case "lines" if odds.exact or odds is not plug_in:
+            return f"These are the odds before the draw; every draw is equally likely. {how}"
+        case "lines":
+            return (
+                "These are the odds before the draw; every draw is equally likely. "
+                f"{odds.samples:,} draws were sampled and each of them calculated; other samples "
+                f"would move no title odds by more than about {_off(odds, title=True)}."
+            )
+        case "qualifiers":
+            return f"The qualifiers of the losers' side are still to be drawn. {how}"
+        case "rounds":
+            drawn = ", each time with other ratings" if odds is not plug_in else ""
+            return (
+                f"The rounds were paired and played {odds.samples:,} times{drawn}; other luck "
+                f"would move no title odds by more than about {_off(odds, title=True)}."
+            )
+    return how
+
+
+def how_words(plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float = 0.0) -> str:
+    """Return how exact the odds are, and what they assume."""
+    lines = []
+    if odds is not plug_in:
+        lines.append(
+            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
+            f"by their standard errors; other draws would move no figure by more than about "
+            f"{_off(odds)}."
+        )
+    elif not odds.exact:
+        lines.append(
+            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
+            f"exactly; other samples would move no figure by more than about {_off(odds)}."
+        )
+    else:
+        lines.append("The odds are exact, if the ratings are right.")
+    if walkovers:
+        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
+    return " ".join(lines)
+
+
+def _off(odds: PlaceOdds, *, title: bool = False) -> str:
+    points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
+    return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.answers.tournament import Tournament
-from evenbreak.answers.wording import percent
 from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.double import losers_qualifiers, redrawn
 from evenbreak.tournaments.brackets.standing import standing
@@ -96,38 +95,3 @@ def _redrawn(tournament: Tournament, win_of: Any, errors: Floats, asked: Any) ->
         variances.append(both.averaged.error**2)
     error = np.sqrt(np.mean(variances, axis=0) / _REDRAWS)
     return PlaceOdds(bracket, np.mean(laws, axis=0), error, 100 * _REDRAWS)
-
-
-def how_solved(tournament: Tournament, found: Solved, walkovers: float) -> str:
-    """Return how exact the odds are, and what they assume."""
-    plug_in, odds = found
-    error = odds.error.max() if not tournament.to_draw else odds.error[:, 0].max()
-    which = "title odds" if tournament.to_draw else "odds"
-    off = f"chance moves the {which} by {percent(2.0 * float(error))} at most"
-    lines = []
-    match tournament.to_draw:
-        case "lines":
-            lines.append("These are the odds before the draw; every draw is equally likely.")
-        case "qualifiers":
-            lines.append("The qualifiers of the losers' side are still to be drawn.")
-        case "rounds":
-            lines.append(f"The rounds were paired and played {odds.samples:,} times; {off}.")
-    if found.averaged:
-        lines.append(
-            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be "
-            f"off, by their standard errors; {off}."
-            if tournament.to_draw != "rounds"
-            else "The ratings were drawn anew each time, by their standard errors."
-        )
-    elif plug_in.exact:
-        lines.append("The odds are exact, if the ratings are right.")
-    elif tournament.to_draw == "lines":
-        lines.append(f"{odds.samples:,} draws were sampled, and each was calculated; {off}.")
-    elif tournament.to_draw != "rounds":
-        lines.append(
-            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
-            f"exactly; {off}."
-        )
-    if walkovers:
-        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
-    return " ".join(lines)

@@ -19,6 +19,7 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of, races_of
 
@@ -83,7 +84,7 @@ def tournament_options(command: Command) -> Command:
         return command(tournament=tournament, warnings=entered.warnings, seed=entered.seed, **rest)
 
     wrapped: Any = update_wrapper(run, command)
-    return entry_options(wrapped)  # type: ignore[no-any-return]
+    return entry_options(wrapped, required=False)  # type: ignore[no-any-return]
 
 
 def _refuse_drawn(plan: Plan) -> None:
@@ -104,8 +105,16 @@ def _to_draw(plan: Plan, before_draw: bool) -> str:
     return "qualifiers" if plan.placement == "redraw" else ""
 
 
-def entry_options(command: Command) -> Command:
-    """Add the options about the tournament, which the command gets as `entered`."""
+def entry_options(command: Command, *, required: bool = True) -> Command:
+    """Add the options about the tournament, which the command gets as `entered`.
+
+    Parameters
+    ----------
+    command
+        the command.
+    required
+        whether ENTRANTS.csv must be named.
+    """
 
     def run(
         *,
@@ -165,6 +174,7 @@ def entry_options(command: Command) -> Command:
             losers_race=losers_race,
             final_race=final_race,
             handicapped=race_to is not None,
+            chart=races.race if isinstance(races.race, Chart) else None,
             scale=points.text,
             starter=points.centre if starter is None else starter,
             starter_error=points.points_per_doubling if starter_sd is None else starter_sd,
@@ -250,7 +260,7 @@ def entry_options(command: Command) -> Command:
             default="double",
             help="The kind of tournament. For chips, see evenbreak tournament chips.",
         ),
-        click.argument("entrants", metavar="ENTRANTS.csv"),
+        click.argument("entrants", metavar="ENTRANTS.csv", required=required),
     )
 
 

@@ -112,6 +112,17 @@ class Finish:
         times = np.where(mine, self.starts, np.inf).min(axis=1, initial=np.inf)
         return _start(times[np.isfinite(times)], times.size)
 
+    def if_won(self, match: str) -> tuple[float, float]:
+        """Return when the evening ends on average, given which slot's player wins a match."""
+        evenings = self._room.evenings
+        k = self.names.index(match)
+        won, played = evenings.first_won[:, k], evenings.needed[:, k]
+        means = [
+            float(self.finishes[played & side].mean()) if (played & side).any() else np.nan
+            for side in (won, ~won)
+        ]
+        return means[0], means[1]
+
     def calls(self) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 

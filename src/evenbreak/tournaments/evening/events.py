@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, TypeAlias
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ class Plan:
         the games of a race, on the losers' side and in the final (None: as the others).
     handicapped
         whether the stronger player needs that many games, and the weaker as many as is fairest.
+    chart
+        races by this chart; then `race` says nothing.
     scale
         the scale of the ratings, as `scale_of` reads it.
     starter, starter_error
@@ -56,6 +59,7 @@ class Plan:
     losers_race: int | None = None
     final_race: int | None = None
     handicapped: bool = False
+    chart: Chart | None = None
     scale: str = "npl"
     starter: float = 0.0
     starter_error: float = 0.0
@@ -120,10 +124,21 @@ class Called:
 
 
 @dataclass(frozen=True)
+class Scored:
+    """The score of a match in play."""
+
+    match: str
+    players: tuple[str, str]
+    score: tuple[int, int]
+
+
+@dataclass(frozen=True)
 class Result:
     """A match was played by these players, or forfeited by the loser (with the score 0:0).
 
     A correction is a result too: of two results of one match by the same players the later counts.
+    After a correction the director may let the matches stand that were played since: then
+    `winner` is the player who moved on, though the score says otherwise.
     """
 
     match: str
@@ -132,6 +147,7 @@ class Result:
     winner: str
     forfeit: bool = False
     corrects: bool = False
+    stands: bool = False
 
     @property
     def loser(self) -> str:
@@ -145,18 +161,28 @@ class Result:
 
 
 @dataclass(frozen=True)
+class Ranked:
+    """A tie was broken: the players of a group in their final order."""
+
+    group: str
+    order: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Undone:
     """The last event that has not been undone yet is undone."""
 
 
-What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Result | Undone
+What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | Undone
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
     "late": Late,
     "dropped": Dropped,
     "called": Called,
+    "scored": Scored,
     "result": Result,
+    "ranked": Ranked,
     "undone": Undone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
@@ -194,7 +220,10 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
         values: Any = {name: tuple(v) if isinstance(v, list) else v for name, v in data.items()}
         if kind == "opened":
             entrants = tuple(Entrant(**one) for one in values["entrants"])
-            return Opened(Plan(**values["plan"]), entrants)
+            plan = dict(values["plan"])
+            if plan.get("chart") is not None:
+                plan["chart"] = Chart(**plan["chart"])
+            return Opened(Plan(**plan), entrants)
         if kind == "late":
             return Late(Entrant(**values["entrant"]), values["line"])
         make: Any = KINDS[kind]

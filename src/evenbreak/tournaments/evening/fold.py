@@ -16,8 +16,9 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.bracket import Bracket, Group
 from evenbreak.tournaments.brackets.double import double_elimination, pods
+from evenbreak.tournaments.brackets.group_ranks import ranked
 from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
 from evenbreak.tournaments.brackets.knockout import (
     consolation,
@@ -35,7 +36,9 @@ from evenbreak.tournaments.evening.events import (
     Late,
     Opened,
     Plan,
+    Ranked,
     Result,
+    Scored,
     Undone,
 )
 from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
@@ -54,6 +57,13 @@ class OnTable(NamedTuple):
     """A match that has been called, and when."""
 
     call: Called
+    at: str
+
+
+class LiveScore(NamedTuple):
+    """The last score of a match in play, and when it came in."""
+
+    what: Scored
     at: str
 
 
@@ -77,6 +87,10 @@ class Evening:
         the players who have gone home.
     calls
         the last call of each match.
+    scores
+        the last live score of each match.
+    ties
+        the last breaking of the ties of each group.
     events
         the events that were not undone.
     """
@@ -88,6 +102,8 @@ class Evening:
     records: Mapping[str, tuple[Played, ...]]
     dropped: tuple[str, ...]
     calls: Mapping[str, OnTable]
+    scores: Mapping[str, LiveScore]
+    ties: Mapping[str, Ranked]
     events: tuple[Event, ...]
 
     @property
@@ -137,8 +153,13 @@ class Evening:
 
     @property
     def winners(self) -> dict[str, str]:
-        """The winner of each decided match."""
+        """Who moved on from each decided match as its winner."""
         return {name: result.winner for name, result in self.counted.items()}
+
+    @property
+    def results(self) -> dict[str, str | tuple[str, ...]]:
+        """The same, and the final order of each group whose ties were broken."""
+        return self._settled[2]
 
     @cached_property
     def aside(self) -> tuple[Played, ...]:
@@ -156,6 +177,15 @@ class Evening:
             if name in self.standing.to_play and set(self.pair(name)) == set(one.call.players)
         }
 
+    @cached_property
+    def live(self) -> dict[str, LiveScore]:
+        """The scores of the matches in play."""
+        return {
+            name: one
+            for name, one in self.scores.items()
+            if name in self.standing.to_play and set(self.pair(name)) == set(one.what.players)
+        }
+
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
@@ -169,10 +199,16 @@ class Evening:
         return int(m[0]), int(n[0])
 
     @cached_property
-    def _settled(self) -> tuple[dict[str, Result], Standing]:
+    def _settled(self) -> tuple[dict[str, Result], Standing, dict[str, str | tuple[str, ...]]]:
         counted: dict[str, Result] = {}
         while True:
-            now = standing(self.bracket, {name: one.winner for name, one in counted.items()})
+            results: dict[str, str | tuple[str, ...]] = {
+                n: one.winner for n, one in counted.items()
+            }
+            now = standing(self.bracket, results)
+            results |= {n: one.order for n, one in self.ties.items() if _breaks_ties(now, one)}
+            if len(results) > len(counted):
+                now = standing(self.bracket, results)
             found = {}
             for name in now.to_play:
                 one, other = now.seats[name]
@@ -181,7 +217,7 @@ class Evening:
                 if result is not None:
                     found[name] = result
             if not found:
-                return counted, now
+                return counted, now, results
             counted |= found
 
     def _result(self, match: str, pair: tuple[str, str]) -> Result | None:
@@ -216,12 +252,18 @@ def evening(events: Iterable[Event]) -> Evening:
     records: dict[str, list[Played]] = {}
     dropped: list[str] = []
     calls: dict[str, OnTable] = {}
+    scores: dict[str, LiveScore] = {}
+    ties: dict[str, Ranked] = {}
     for event in kept[1:]:
         match event.what:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
                 calls[call.match] = OnTable(call, event.at)
+            case Scored() as scored:
+                scores[scored.match] = LiveScore(scored, event.at)
+            case Ranked() as tie:
+                ties[tie.group] = tie
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
             case Late(entrant=entrant, line=line):
@@ -242,8 +284,29 @@ def evening(events: Iterable[Event]) -> Evening:
         {name: tuple(played) for name, played in records.items()},
         tuple(dropped),
         calls,
+        scores,
+        ties,
         tuple(kept),
     )
+
+
+def tied_ranks(now: Standing, group: Group) -> list[int]:
+    """Return how many players are ahead of each member of a group that is played out."""
+    winners = [now.winners[name] for name in group.matches]
+    return ranked(group.members, group.pairs, winners)
+
+
+def _breaks_ties(now: Standing, tie: Ranked) -> bool:
+    """Return whether a final order is one that the results of its group allow."""
+    for group in now.bracket.groups:
+        names = [now.bracket.players[k] for k in group.members]
+        if group.name != tie.group or not all(name in now.winners for name in group.matches):
+            continue
+        if sorted(names) == sorted(tie.order):
+            ahead = dict(zip(names, tied_ranks(now, group), strict=True))
+            ranks = [ahead[name] for name in tie.order]
+            return ranks == sorted(ranks)
+    return False
 
 
 def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
@@ -315,6 +378,8 @@ def races_of(plan: Plan) -> Races:
     >>> races_of(Plan("double", 7, losers_race=5)).losers
     5
     """
+    if plan.chart is not None:
+        return Races(plan.chart)
     if not plan.handicapped:
         return Races(plan.race, plan.losers_race, plan.final_race)
     losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))

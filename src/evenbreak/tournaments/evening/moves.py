@@ -21,6 +21,7 @@ from evenbreak.tournaments.evening.events import (
     Entrant,
     Late,
     Result,
+    Scored,
     Undone,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
@@ -68,14 +69,37 @@ def correct(state: Evening, match: str, score: tuple[int, int]) -> Result:
     pair = state.pair(name)
     found = Result(name, pair, score, _winner(state, name, pair, score), corrects=True)
     before = state.counted[name]
-    if not before.forfeit and before.games == found.games:
+    if not before.forfeit and before.games == found.games and before.winner == found.winner:
         raise InputError(f"{name} has that result already: {score_words(before)}")
     return found
 
 
-def forfeit(state: Evening, match: str, player: str) -> Result:
-    """Let a player forfeit a match."""
-    name, loser = known_match(state, match), known_player(state, player)
+def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
+    """Enter the score of a match in play."""
+    name = known_match(state, match)
+    if (before := state.counted.get(name)) is not None:
+        raise InputError(f"{name} has a result, {score_words(before)}")
+    _refuse_waiting(state, name)
+    pair = state.pair(name)
+    needs = state.needed(name, pair)
+    if score[0] >= needs[0] or score[1] >= needs[1]:
+        raise InputError(
+            f"{score[0]}:{score[1]} ends {name}, a race {_race_words(needs)}; enter it with "
+            f"result {name} {score[0]}:{score[1]}"
+        )
+    return Scored(name, pair, score)
+
+
+def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
+    """Let a player forfeit a match; None: the only one that they can play now."""
+    loser = known_player(state, player)
+    if match is None:
+        ready = [name for name in state.standing.to_play if loser in state.pair(name)]
+        if len(ready) != 1:
+            which = f"say which: {', '.join(ready)}" if ready else "it can be forfeited when it is"
+            raise InputError(f"{loser} has {len(ready) or 'no'} matches ready; {which}")
+        match = ready[0]
+    name = known_match(state, match)
     if name in state.counted:
         raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
     _refuse_waiting(state, name)
@@ -178,6 +202,9 @@ def score_words(found: Result) -> str:
     """
     if found.forfeit:
         return f"{found.loser} forfeited to {found.winner}"
+    if found.stands:
+        beaten = replace(found, winner=found.loser, stands=False)
+        return f"{score_words(beaten)}, but {found.winner} has played on"
     won, lost = found.games[found.winner], found.games[found.loser]
     return f"{found.winner} beat {found.loser} {won}:{lost}"
 
@@ -200,10 +227,14 @@ def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, 
         return pair[0]
     if other == n and one < m:
         return pair[1]
-    needs = f"to {m}" if m == n else f"{m}:{n}"
     raise InputError(
-        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race {needs}"
+        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race "
+        f"{_race_words((m, n))}"
     )
+
+
+def _race_words(needs: tuple[int, int]) -> str:
+    return f"to {needs[0]}" if needs[0] == needs[1] else f"{needs[0]}:{needs[1]}"
 
 
 def _rival(state: Evening, line: int) -> int:

@@ -1,0 +1,156 @@
+"""A tournament under way: everybody's odds from here on, and when it ends from here on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.times_of_day import ends_words, time_of_day
+from evenbreak.answers.tournament import pair_words
+from evenbreak.answers.tournament_night import begun_at, heading
+from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
+from evenbreak.answers.tournament_time import assumed_words, starts_table
+from evenbreak.answers.tournament_what_if import savings_words, what_if
+from evenbreak.answers.wording import percent
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Turnover
+from evenbreak.tournaments.clock.event_pace import event_pace
+from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.odds.races import Races
+
+
+def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
+    """Return each player's chance of each place, given the results and scores so far.
+
+    Parameters
+    ----------
+    outlook
+        the tournament.
+    prizes
+        the money for each place.
+    source
+        the name of its file, for the heading.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
+    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
+    >>> happened += (Scored("F", ("Ann", "Bo"), (4, 3)),)
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> print(odds_under_way(Outlook(state, "2025-03-01T19:40:00")).sentences[0])
+    The favourite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
+    """
+    state, odds, sure = outlook.state, outlook.odds, outlook.as_if_sure
+    table = odds_table(state.ratings, sure, odds, prizes)
+    quantities = Quantities(
+        [
+            Quantity("p_second_final", odds.p_second_final),
+            Quantity("matches_mean", odds.matches_mean),
+            Quantity("exact", sure.exact and odds is sure),
+            Quantity("ratings_averaged", odds is not sure),
+        ]
+    )
+    parts: list[Part] = [favourite_words(odds), quantities, table]
+    if state.standing.to_play:
+        parts.append(_at_stake(outlook))
+    parts.append(how_words(sure, odds))
+    if odds is not sure and outlook.games:
+        parts.append(
+            "Tonight's games are taken into account: they move the ratings and narrow their errors."
+        )
+    return Answer(heading(outlook, source), parts, csv=table)
+
+
+def _at_stake(outlook: Outlook) -> Table:
+    """Return what each match to come changes for the title and the finish."""
+    found = outlook.finish()
+    rows: list[list[Any]] = []
+    for lever in outlook.leverages():
+        name = lever.match
+        first, second = found.if_won(name)
+        moves = None if lever.players is None or np.isnan(first - second) else first - second
+        rows.append(
+            [name, pair_words(outlook.state.standing, name), float(lever.swing.sum()) / 2.0, moves]
+        )
+    rows.sort(key=lambda row: -row[2])
+    ready = [row for row in rows if row[0] in outlook.state.standing.to_play]
+    columns = [
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column("title_at_stake", "title odds\nthat move", percent),
+        Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
+    ]
+    return Table("at_stake", columns, ready, title="What the next matches decide")
+
+
+def _later(minutes: float) -> str:
+    return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
+
+
+def time_under_way(
+    outlook: Outlook,
+    *,
+    tables: int | None = None,
+    turnover: Turnover | None = None,
+    source: str = "",
+) -> Answer:
+    """Return when the tournament ends, and when each match to come starts.
+
+    Parameters
+    ----------
+    outlook
+        the tournament.
+    tables
+        how many tables there are; None: as many as it has.
+    turnover
+        the time between two matches on a table; None: as in real events.
+    source
+        the name of its file, for the heading.
+
+    Raises
+    ------
+    InputError
+        if nothing is left to play.
+    """
+    state = outlook.state
+    if not state.standing.to_play:
+        raise InputError("all matches have been played")
+    usual = state.plan.tables if tables is None else tables
+
+    def ask(tables: int, races: Races) -> Finish:
+        laws = outlook.laws if races is state.races else outlook.laws_of(races)
+        return outlook.finish(laws=laws, tables=tables, turnover=turnover)
+
+    races = state.races
+    found = outlook.finish(tables=usual, turnover=turnover)
+    changes = what_if(found, ask, state.bracket, usual, races)
+    begun = begun_at(outlook)
+    early, middle, late = found.bands
+    keys = ("finish_p10", "finish_p50", "finish_p90")
+    quantities = Quantities(
+        [Quantity(key, value) for key, value in zip(keys, found.bands, strict=True)]
+    )
+    table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
+    words = [ends_words(begun + early, begun + middle, begun + late), savings_words(changes)]
+    parts: list[Part] = ["\n".join(filter(None, words)), quantities, table, changes]
+    parts.append(assumed_words(usual, state.plan.discipline, turnover))
+    if timed := outlook.timed:
+        parts.append(
+            f"Going by the matches called and played so far ({len(timed)}), tonight is "
+            f"{_pace_words(found, state.plan.discipline)}."
+        )
+    return Answer(
+        heading(outlook, source), parts, csv=table, data={"start": outlook.start.isoformat()}
+    )
+
+
+def _pace_words(found: Finish, discipline: str) -> str:
+    factor = found.pace.per_game / event_pace(discipline).per_game
+    if abs(factor - 1.0) < 0.005:
+        return "as fast as usual"
+    return f"{percent(abs(factor - 1.0))} {'slower' if factor > 1.0 else 'faster'} than usual"
