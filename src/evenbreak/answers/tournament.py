@@ -19,6 +19,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot
 from evenbreak.tournaments.brackets.standing import Standing
+from evenbreak.tournaments.evening.later_draws import TO_DRAW
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 
 
@@ -150,6 +151,8 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
     """
     if isinstance(slot, int):
         return bracket.players[slot]
+    if slot.match == TO_DRAW:
+        return "a qualifier to be drawn"
     if isinstance(slot.outcome, int):
         return f"number {slot.outcome} of {slot.match}"
     return f"{slot.outcome} of {slot.match}"

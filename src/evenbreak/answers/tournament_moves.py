@@ -13,12 +13,14 @@ from evenbreak.tournaments.evening.events import (
     Dropped,
     Event,
     Late,
+    LaterDraw,
     Ranked,
     Result,
     Scored,
     What,
 )
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.moves import score_words
 from evenbreak.tournaments.evening.settling import TieBreak
 
@@ -129,6 +131,20 @@ def entry_words(state: Evening, name: str) -> str:
     return f"{name} has entered."
 
 
+def draw_words(before: Evening, after: Evening) -> str:
+    """Return what was drawn."""
+    said = [] if before.drawn else [f"{len(after.order)} players are drawn."]
+    for stage in after.later.keys() - before.later.keys():
+        if stage == KNOCK_OUT:
+            said.append("The losers' qualifiers are drawn.")
+        else:
+            pairs = pairings(after.later)[int(stage[1:]) - 1]
+            byes = [p.first for p in pairs if p.second is None]
+            bye = f"; {byes[0]} has a bye" if byes else ""
+            said.append(f"Round {stage[1:]} is drawn{bye}.")
+    return " ".join(said)
+
+
 def undone_words(what: What) -> str:
     """Return what was taken back.
 
@@ -147,6 +163,9 @@ def undone_words(what: What) -> str:
             words = f"the call of {what.match} to table {what.table}"
         case Drawn():
             words = "the draw"
+        case LaterDraw(stage=stage):
+            round_of = stage != KNOCK_OUT
+            words = f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
         case Late():
             words = f"the entry of {what.entrant.name}"
         case Dropped():

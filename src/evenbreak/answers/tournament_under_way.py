@@ -20,8 +20,10 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace
 from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
+from evenbreak.tournaments.odds.title import TitleOdds
 
 
 def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
@@ -47,17 +49,19 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     """
     state, odds, sure = outlook.state, outlook.odds, outlook.as_if_sure
     table = odds_table(state.ratings, sure, odds, prizes)
-    quantities = Quantities(
-        [
+    quantities = [
+        Quantity("exact", sure.exact and odds is sure),
+        Quantity("ratings_averaged", odds is not sure),
+    ]
+    if isinstance(odds, TitleOdds):
+        quantities = [
             Quantity("p_second_final", odds.p_second_final),
             Quantity("matches_mean", odds.matches_mean),
-            Quantity("exact", sure.exact and odds is sure),
-            Quantity("ratings_averaged", odds is not sure),
+            *quantities,
         ]
-    )
-    parts: list[Part] = [favourite_words(odds), quantities, table]
-    if state.standing.to_play:
-        parts.append(_at_stake(outlook))
+    parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
+    if state.standing.to_play and (at_stake := _at_stake(outlook)).rows:
+        parts.append(at_stake)
     parts.append(how_words(sure, odds))
     if odds is not sure and outlook.games:
         parts.append(
@@ -118,7 +122,7 @@ def time_under_way(
         if nothing is left to play.
     """
     state = outlook.state
-    if not state.standing.to_play:
+    if not state.standing.to_play and stage_to_draw(state) is None:
         raise InputError("all matches have been played")
     usual = state.plan.tables if tables is None else tables
 
@@ -128,7 +132,7 @@ def time_under_way(
 
     races = state.races
     found = outlook.finish(tables=usual, turnover=turnover)
-    changes = what_if(found, ask, state.bracket, usual, races)
+    changes = what_if(found, ask, state.whole, usual, races)
     begun = begun_at(outlook)
     early, middle, late = found.bands
     keys = ("finish_p10", "finish_p50", "finish_p90")

@@ -169,11 +169,30 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class LaterDraw:
+    """Something was drawn in the course of the evening.
+
+    Parameters
+    ----------
+    stage
+        R1, R2, ...: a round of a Swiss; K1: the losers' qualifiers, for the knock-out.
+    order
+        the players of the round in pairs (None: a bye), or the matches that the qualifiers come
+        from, in the order of the matches that they go into.
+    """
+
+    stage: str
+    order: tuple[str | None, ...]
+
+
+@dataclass(frozen=True)
 class Undone:
     """The last event that has not been undone yet is undone."""
 
 
-What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | Undone
+What: TypeAlias = (
+    Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | LaterDraw | Undone
+)
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
@@ -183,6 +202,7 @@ KINDS: dict[str, type[What]] = {
     "scored": Scored,
     "result": Result,
     "ranked": Ranked,
+    "later draw": LaterDraw,
     "undone": Undone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}

@@ -26,7 +26,7 @@ from evenbreak.tournaments.brackets.knockout import (
     single_elimination,
 )
 from evenbreak.tournaments.brackets.standing import Standing, standing
-from evenbreak.tournaments.brackets.swiss import Swiss, swiss, swiss_bracket
+from evenbreak.tournaments.brackets.swiss import swiss_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
     Drawn,
@@ -34,6 +34,7 @@ from evenbreak.tournaments.evening.events import (
     Entrant,
     Event,
     Late,
+    LaterDraw,
     Opened,
     Plan,
     Ranked,
@@ -41,6 +42,7 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
+from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
 from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
@@ -91,6 +93,8 @@ class Evening:
         the last live score of each match.
     ties
         the last breaking of the ties of each group.
+    later
+        what was drawn in the course of the evening, by stage.
     events
         the events that were not undone.
     """
@@ -104,6 +108,7 @@ class Evening:
     calls: Mapping[str, OnTable]
     scores: Mapping[str, LiveScore]
     ties: Mapping[str, Ranked]
+    later: Mapping[str, tuple[str | None, ...]]
     events: tuple[Event, ...]
 
     @property
@@ -124,6 +129,15 @@ class Evening:
             raise InputError(
                 "the draw has not been made yet; make it with evenbreak tournament draw"
             )
+        return bracket_now(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def whole(self) -> Bracket:
+        """The bracket with a stand-in for what is drawn in the course of the evening."""
+        return whole_bracket(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def _drawn_up(self) -> Bracket:
         return bracket_of(self.plan, self.order, self.lines)
 
     @property
@@ -254,6 +268,7 @@ def evening(events: Iterable[Event]) -> Evening:
     calls: dict[str, OnTable] = {}
     scores: dict[str, LiveScore] = {}
     ties: dict[str, Ranked] = {}
+    later: dict[str, tuple[str | None, ...]] = {}
     for event in kept[1:]:
         match event.what:
             case Result() as result:
@@ -264,6 +279,8 @@ def evening(events: Iterable[Event]) -> Evening:
                 scores[scored.match] = LiveScore(scored, event.at)
             case Ranked() as tie:
                 ties[tie.group] = tie
+            case LaterDraw(stage=stage, order=pairs):
+                later[stage] = pairs
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
             case Late(entrant=entrant, line=line):
@@ -286,6 +303,7 @@ def evening(events: Iterable[Event]) -> Evening:
         calls,
         scores,
         ties,
+        later,
         tuple(kept),
     )
 
@@ -361,15 +379,6 @@ def groups_of(plan: Plan, players: int) -> int:
     [2, 3, 4, 4]
     """
     return plan.groups or max(2, -(-players // 4))
-
-
-def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
-    """Return the Swiss of a plan: unless given, with as many rounds as a single elimination.
-
-    >>> swiss_of(Plan("swiss", 5), ("Ann", "Bo", "Cy", "Di", "Ed")).rounds
-    3
-    """
-    return swiss(order, plan.rounds or (len(order) - 1).bit_length())
 
 
 def races_of(plan: Plan) -> Races:

@@ -79,7 +79,9 @@ def swiss_odds(
         order = sorted(rows, key=lambda row: (-row.score, -row.buchholz, lots[seat[row.player]]))
         for place, row in enumerate(order):
             law[seat[row.player], place] += 1.0 / many
-    return PlaceOdds(swiss_bracket(event), law, np.sqrt(law * (1.0 - law) / many), many)
+    return PlaceOdds(
+        swiss_bracket(event), law, np.sqrt(np.maximum(law * (1.0 - law), 0.0) / many), many
+    )
 
 
 def _begun(
