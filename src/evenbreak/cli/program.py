@@ -21,6 +21,7 @@ SECTIONS = {
     },
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
+        "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
     },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),

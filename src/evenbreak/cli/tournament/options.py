@@ -258,7 +258,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             "form",
             type=click.Choice(FORMATS),
             default="double",
-            help="The kind of tournament. For chips, see evenbreak tournament chips.",
+            help="The kind of tournament. For chips, see evenbreak chips.",
         ),
         click.argument("entrants", metavar="ENTRANTS.csv", required=required),
     )
