@@ -42,6 +42,7 @@ docs:             ## HTML pages in docs/_build, a warning is an error
 reports:          ## make again every committed output that a script makes
 	$(PYTHON) data/make_demo_league.py
 	$(PYTHON) data/make_demo_season.py
+	$(PYTHON) data/make_demo_teams.py
 	$(PYTHON) data/make_drill_log.py
 	$(PYTHON) data/make_practice.py
 	$(PYTHON) docs/images/make_images.py

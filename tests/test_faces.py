@@ -121,6 +121,12 @@ ASKED = {
     "sandbag_player": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--player 'Vito Drago'",
     "reproduce": "reproduce --out OUT",
+    "lineup": "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --order ABABA",
+    "lineup_blind": "lineup data/demo_team.csv data/demo_opponents.csv --race-to 7 --sets 3 "
+    "--order blind --sure",
+    "lineup_sealed": "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --order sealed "
+    "--cap 23 --sure",
+    "season": "season data/demo_team_results.csv data/demo_team_schedule.csv --up 2 --down 1",
     "tournament_odds": "tournament odds data/demo_entrants.csv --race 7 --losers-race 5 "
     "--final-race 9 --prizes 400,240,120,80",
     "tournament_odds_sure": "tournament odds data/demo_entrants.csv --format single --third-place "

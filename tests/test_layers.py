@@ -33,7 +33,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "handicaps.ladders",
         "handicaps",
         "league",
-        "tournaments",
+        "teams tournaments",
         "files",
         "answers",
         "plots",

@@ -12,6 +12,7 @@ from . import ratings as ratings
 from . import sheets as sheets
 from . import source_text as source_text
 from . import stats as stats
+from . import teams as teams
 from . import tournaments as tournaments
 from .chains.absorption import absorption as absorption
 from .chains.absorption import expected_visits as expected_visits

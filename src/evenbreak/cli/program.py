@@ -23,6 +23,10 @@ SECTIONS = {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
         "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
     },
+    "Run teams": {
+        "lineup": Entry("team.lineup", "Whom to put up now, and what each choice is worth."),
+        "season": Entry("team.season", "A team season: title, promotion, relegation."),
+    },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
         "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),

@@ -27,5 +27,12 @@ from .roster import read_roster as read_roster
 from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
 from .several_results import read_seasons as read_seasons
+from .team_list import TeamList as TeamList
+from .team_list import read_team as read_team
+from .team_season import TeamMatches as TeamMatches
+from .team_season import TeamNames as TeamNames
+from .team_season import read_fixtures as read_fixtures
+from .team_season import read_team_results as read_team_results
+from .team_season import read_teams as read_teams
 from .text_table import TextTable as TextTable
 from .text_table import read_table as read_table

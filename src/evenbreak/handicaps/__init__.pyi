@@ -37,6 +37,7 @@ from .charts.points_chart import POINTS_CHARTS as POINTS_CHARTS
 from .charts.points_chart import PointsChart as PointsChart
 from .charts.points_chart import points_chart as points_chart
 from .charts.race_limits import RaceLimits as RaceLimits
+from .charts.race_of_pair import Fairest as Fairest
 from .charts.rows import ChartDraft as ChartDraft
 from .charts.rows import ChartRow as ChartRow
 from .charts.win_matrix import win_matrix as win_matrix

@@ -107,7 +107,7 @@ def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[lis
     folded = []
     for row in rows:
         parts = {
-            k: textwrap.wrap(row[k], room, subsequent_indent="  ") or [""]
+            k: textwrap.wrap(row[k], room, subsequent_indent="  ", break_on_hyphens=False) or [""]
             if text_width(row[k]) > room
             else [row[k]]
             for k in flush

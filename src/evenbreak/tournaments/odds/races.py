@@ -9,38 +9,22 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import betainc
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import column, number, whole
+from evenbreak.checks import column, number
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, alternate_breaks
 from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.race_of_pair import Fairest as Fairest
+from evenbreak.handicaps.charts.race_of_pair import Race as Race
+from evenbreak.handicaps.charts.race_of_pair import games_needed as games_needed
 from evenbreak.matches.antidiagonals import race_endings
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match
-
-
-@dataclass(frozen=True)
-class Fairest:
-    """The race in which the stronger player needs `race_to` and the chances are nearest to 1/2.
-
-    The weaker player needs as many games at most, and at least one.
-    """
-
-    race_to: int
-
-    def __post_init__(self) -> None:
-        whole(self.race_to, "race_to", at_least=1)
-
-
-Race: TypeAlias = int | Chart | Fairest
-"""An even race to so many games, a chart of races, or the fairest race of a length."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,39 +238,6 @@ def _checked(
 
 def _key(race: Race) -> int | tuple[int, ...]:
     return race if isinstance(race, int) else (id(race),)
-
-
-def games_needed(points: Floats, race: Race, scale: Scale) -> tuple[Ints, Ints]:
-    """Return the games that each of two players needs, for every two players.
-
-    Parameters
-    ----------
-    points
-        rating of player 1 minus rating of player 2.
-    race
-        the race.
-    scale
-        the scale of the ratings.
-
-    >>> games_needed(np.array([[0.0, 100.0]]), Fairest(7), scale_of("fargo"))
-    (array([[7, 7]]), array([[7, 4]]))
-    """
-    if isinstance(race, Chart):
-        return race.races(np.round(points))
-    if isinstance(race, Fairest):
-        return _fairest(points, race.race_to, scale)
-    games = np.full(points.shape, whole(race, "race", at_least=1))
-    return games, games
-
-
-def _fairest(points: Floats, race_to: int, scale: Scale) -> tuple[Ints, Ints]:
-    chance = scale.win_probability(np.abs(points))
-    weaker = np.arange(1, race_to + 1)
-    distance = np.abs(betainc(race_to, weaker, chance[..., None]) - 0.5)
-    # Of races alike the longer: it plays more.
-    best = race_to - distance[..., ::-1].argmin(axis=-1)
-    ahead = points >= 0.0
-    return np.where(ahead, race_to, best), np.where(ahead, best, race_to)
 
 
 def _ends(

@@ -1,0 +1,249 @@
+"""Whom to put up in a team match, and what each choice is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.sealed_lineup import sealed_answer
+from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
+from evenbreak.answers.wording import chance, count_of, listed, percent
+from evenbreak.teams.advice import Advice, Option, Point, advice
+from evenbreak.teams.night import TeamNight
+from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
+from evenbreak.teams.reliance import best_by_skills
+from evenbreak.teams.solve import SolvedNight, solved
+
+
+def lineup_answer(
+    meeting: Meeting,
+    point: Point | None = None,
+    *,
+    draws: int = 100,
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return whom to put up now.
+
+    Parameters
+    ----------
+    meeting
+        who meets whom, and what is played.
+    point
+        the point in the night; None: before the first nomination.
+    draws, seed
+        of the ratings, where they have standard errors.
+    warnings
+        about the question.
+
+    >>> from evenbreak.ratings import SCALES, Roster
+    >>> from evenbreak.teams import Squad
+    >>> us, them = Roster(["Ann", "Bo"], [600, 500]), Roster(["Cy", "Di"], [560, 540])
+    >>> squads = Squad(us.players), Squad(them.players)
+    >>> meeting = Meeting(us, them, squads, 5, SCALES["fargo"], (1,), "A")
+    >>> lineup_answer(meeting).sentences[0].partition(",")[0]
+    'Put up Ann: you then win the night 67% of the time'
+    """
+    if meeting.order == SEALED:
+        return sealed_answer(meeting, warnings)
+    night = meeting.night()
+    solution = solved(night)
+    found = advice(solution, point)
+    sure: dict[tuple[str, ...], float] = {}
+    if meeting.uncertain and not found.blind:
+        sure = best_by_skills(
+            night,
+            meeting.laws,
+            meeting.ours,
+            meeting.theirs,
+            point,
+            draws=draws,
+            rng=np.random.default_rng(seed),
+        )
+    named = point.named if point is not None else ()
+    table = _table(found, sure)
+    tied = night.payoff(0) > 0.0 and _can_tie(night)
+    parts: list[Part] = [
+        _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
+        Quantities([Quantity("p_win", found.worth), Quantity("best", _name(found.best))]),
+        table,
+    ]
+    data: dict[str, Any] = {"set": found.set_number, "ours": found.ours, "blind": found.blind}
+    if point is None:
+        data["toss"], words = _toss(meeting, solution)
+        parts += filter(None, [words])
+        orders = _orders(meeting, solution)
+        details: list[Part] = [orders]
+    else:
+        details = []
+    parts += filter(None, [_sure_words(found, sure)])
+    return Answer(
+        _heading(meeting, found),
+        parts,
+        details=details,
+        data=data,
+        warnings=warnings,
+        csv=table,
+    )
+
+
+def _name(option: Option) -> str:
+    return names_words(option.names)
+
+
+def names_words(names: Sequence[str]) -> str:
+    """Return a pick: a player, or the pair of a doubles set.
+
+    >>> names_words(["Ann"]), names_words(["Ann", "Bo"])
+    ('Ann', 'Ann and Bo')
+    """
+    return listed(list(names))
+
+
+def _heading(meeting: Meeting, found: Advice) -> str:
+    ours, theirs = len(meeting.ours), len(meeting.theirs)
+    sets = count_of(len(meeting.sizes), "set")
+    return (
+        f"Set {found.set_number} of {sets}: {ours} players against {theirs}, "
+        f"{race_words(meeting.race)}\n{scale_words(meeting.scale)}"
+    )
+
+
+def _in_words(found: Advice, named: Sequence[str]) -> str:
+    best, p = found.best, percent(found.worth)
+    if found.blind:
+        mixed = [
+            f"{_name(option)} {percent(option.mix)}"
+            for option in sorted(found.options, key=lambda option: -option.mix)
+            if option.mix > 5e-4
+        ]
+        if len(mixed) == 1:
+            return f"Put up {_name(best)}: you win the night {p} of the time at least."
+        return (
+            f"Pick at random, {listed(mixed)}: you then win the night {p} of the time, "
+            "whatever they do."
+        )
+    if found.ours and named:
+        return (
+            f"Answer {names_words(named)} with {_name(best)}: you then win the night {p} of the "
+            "time."
+        )
+    if found.ours:
+        return (
+            f"Put up {_name(best)}: you then win the night {p} of the time, if they answer as well "
+            f"as they can (with {names_words(best.answer)})."
+        )
+    if named:
+        return (
+            f"Their best answer to {names_words(named)} is {_name(best)}: you then win the night "
+            f"{p} of the time."
+        )
+    return (
+        f"They name first. Their best pick is {_name(best)}; answer with "
+        f"{names_words(best.answer)}, and you win the night {p} of the time."
+    )
+
+
+def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
+    sign = 1.0 if found.ours else -1.0
+    whose = "player" if found.ours else "their pick"
+    columns = [
+        Column("name", whose, left=True),
+        Column("p_win", "you win\nthe night", chance),
+        Column("cost", "worse than\nthe best by", cost_words),
+    ]
+    answers = any(option.answer for option in found.options) and not found.blind
+    if answers:
+        columns.append(Column("answer", "their answer" if found.ours else "answer", left=True))
+    if found.blind:
+        columns.append(Column("mix", "pick it", percent))
+    if sure:
+        columns.append(Column("p_best", "best pick if the\nratings are off", percent))
+    top = found.worth if found.blind else found.best.worth
+    rows = []
+    for option in found.options:
+        row: list[Any] = [_name(option), option.worth, max(0.0, sign * (top - option.worth))]
+        if answers:
+            row.append(names_words(option.answer))
+        if found.blind:
+            row.append(option.mix)
+        if sure:
+            row.append(sure.get(option.names, 0.0))
+        rows.append(row)
+    return Table("options", columns, rows)
+
+
+def _can_tie(night: TeamNight) -> bool:
+    """Return whether a tie is possible."""
+    leads = np.ones(1)
+    for law in night.laws:
+        own = law.any(axis=(0, 1, 2)).astype(float)
+        leads = np.convolve(leads, own)
+    return bool(leads[len(leads) // 2] > 0.0)
+
+
+def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | None, str]:
+    """Return what the night is worth if we name first or answer first, and the words for it."""
+    order = solution.night.order
+    if order[0] not in (OURS, THEIRS):
+        return None, ""
+    other = solved(meeting.night(mirrored(order))).value
+    first, second = (solution.value, other) if order[0] == OURS else (other, solution.value)
+    gap = abs(first - second)
+    toss = {"name_first": first, "answer_first": second, "worth": gap}
+    if gap < 5e-4:
+        return toss, "Who names first makes no difference."
+    better = "answer" if second > first else "name first"
+    return toss, (
+        f"If you win the toss, {better}: you win {percent(max(first, second))} of such nights, "
+        f"against {percent(min(first, second))} the other way round."
+    )
+
+
+def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
+    """Return what the night is worth in each order of nomination."""
+    sets = len(meeting.sizes)
+    rows: list[list[Any]] = []
+    for name in NAMED:
+        order = order_of(name, sets)
+        for each in dict.fromkeys((order, mirrored(order))):
+            known = each == solution.night.order
+            value = solution.value if known else solved(meeting.night(each)).value
+            rows.append([each, _order_words(name, each), value])
+    columns = [
+        Column("order", "order", left=True),
+        Column("meaning", "who names first", left=True),
+        Column("p_win", "you win\nthe night", chance),
+    ]
+    return Table("orders", columns, rows, title="What each order of nomination is worth")
+
+
+def _order_words(name: str, order: str) -> str:
+    who = "you" if order[0] == OURS else "they"
+    return {
+        "alternate": f"in turn, {who} in set 1",
+        "home": f"always {who}",
+        "blind": "both at once, unseen",
+        "winner": f"the winner of the last set, {who} in set 1",
+        "loser": f"the loser of the last set, {who} in set 1",
+    }[name]
+
+
+def _sure_words(found: Advice, sure: dict[tuple[str, ...], float]) -> str:
+    """Return how far the best pick depends on the ratings."""
+    if not sure:
+        return ""
+    best, share = _name(found.best), sure.get(found.best.names, 0.0)
+    others = [names for names in sure if names != found.best.names]
+    if share > 0.95 or not others:
+        return f"{best} is the best pick even if the ratings are off by what their errors allow."
+    return (
+        f"With ratings that are off by what their errors allow, {best} is the best pick "
+        f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}; on "
+        f"average it is {best}."
+    )

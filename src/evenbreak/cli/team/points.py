@@ -1,0 +1,115 @@
+"""Where a team night stands: --used, --score, --playing, --named, --last."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from evenbreak import ratings, teams
+from evenbreak.arrays import Floats
+from evenbreak.cli.kit.values import refuse
+from evenbreak.files.known_names import KnownNames
+
+if TYPE_CHECKING:
+    from evenbreak.answers.team_meeting import Meeting
+
+_PLAYING = re.compile(r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", re.ASCII)
+_SIDES = ("ours", "theirs")
+
+
+def point_of(
+    meeting: Meeting,
+    used: str | None,
+    score: tuple[int, int] | None,
+    playing: tuple[str, ...],
+    named: str | None,
+    last: str | None,
+) -> teams.Point:
+    """Return the point in the night that the options describe, or refuse what cannot be."""
+    rosters = meeting.ours, meeting.theirs
+    both: tuple[list[str], list[str]] = ([], [])
+    for text in (used or "").split(","):
+        if text.strip():
+            side, name = _player(rosters, text.strip(), "--used")
+            both[side].append(name)
+    laws = []
+    for text in playing:
+        names, law = _in_play(meeting, text)
+        laws.append(law)
+        for side in (0, 1):
+            both[side].extend(names[side])
+    if score is None and len(both[0]) > len(laws):
+        refuse("--used names players whose sets are over; give the score so far with --score")
+    lead = 0 if score is None else score[0] - score[1]
+    return teams.Point(
+        tuple(both[0]),
+        tuple(both[1]),
+        lead,
+        None if last is None else last == "won",
+        () if named is None else _named(rosters, named),
+        tuple(laws),
+    )
+
+
+def _named(rosters: tuple[ratings.Roster, ratings.Roster], text: str) -> tuple[str, ...]:
+    """Return the player that was named, or the pair."""
+    return tuple(
+        _player(rosters, part.strip(), "--named", any_side=True)[1]
+        for part in re.split(r",|&|\band\b", text)
+        if part.strip()
+    )
+
+
+def _player(
+    rosters: tuple[ratings.Roster, ratings.Roster],
+    text: str,
+    option: str,
+    *,
+    any_side: bool = False,
+) -> tuple[int, str]:
+    """Return the side of a player, and the name as the file spells it."""
+    head, colon, name = text.partition(":")
+    side = head.strip().lower() if colon else ""
+    sides = [_SIDES.index(side)] if side in _SIDES else [0, 1]
+    wanted = name.strip() if len(sides) == 1 else text
+    found = [
+        (side, rosters[side].players[place])
+        for side in sides
+        if (place := KnownNames(rosters[side].players).place(wanted)) is not None
+    ]
+    if not found:
+        hint = KnownNames([*rosters[0].players, *rosters[1].players]).hint(wanted)
+        refuse(f"{option}: {wanted!r} is in neither team{hint}")
+    if len(found) > 1 and not any_side:
+        refuse(f"{option}: both teams have a {wanted!r}; write ours:{wanted} or theirs:{wanted}")
+    return found[0]
+
+
+def _in_play(meeting: Meeting, text: str) -> tuple[list[list[str]], Floats]:
+    match = _PLAYING.fullmatch(text)
+    if match is None:
+        wanted = 'write your player, theirs and the score, such as "Ann v Xi 3:2"'
+        refuse(f"--playing {text!r}; {wanted}")
+    names = [
+        [
+            _player((meeting.ours, meeting.theirs), f"{_SIDES[side]}:{part.strip()}", "--playing")[
+                1
+            ]
+            for part in re.split(r",|&|\band\b", match[side + 1])
+        ]
+        for side in (0, 1)
+    ]
+    law = teams.law_in_play(
+        _some(meeting.ours, names[0]),
+        _some(meeting.theirs, names[1]),
+        meeting.race,
+        (int(match[3]), int(match[4])),
+        scale=meeting.scale,
+        count=meeting.count,
+    )
+    return names, law
+
+
+def _some(roster: ratings.Roster, names: list[str]) -> ratings.Roster:
+    places = [roster.position(name) for name in names]
+    return ratings.Roster(names, roster.rating[places], roster.standard_error[places])

@@ -1,0 +1,166 @@
+"""Reading the matches of a team season: those played, and those to come."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.files.cells import numbers, whole_numbers
+from evenbreak.files.player_names import clean_name, same_name
+from evenbreak.files.problems import quoted
+from evenbreak.files.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.text_table import TextTable, read_table
+
+PAIR = {
+    "home": ("home team", "team a", "team 1", "player a", "a"),
+    "away": ("away team", "visitor", "visitors", "guest", "team b", "team 2", "player b", "b"),
+}
+SCORES = {
+    "home_score": ("home sets", "home points", "score home", "score a", "score 1"),
+    "away_score": ("away sets", "away points", "score away", "score b", "score 2"),
+}
+ROUND = {"round": ("week", "matchday", "night", "date", "day")}
+TEAM = {"team": ("name", "team name")}
+POINTS = {"points": ("head start", "bonus", "deduction", "adjustment")}
+
+
+@dataclass(frozen=True)
+class TeamMatches:
+    """The matches in a file.
+
+    Parameters
+    ----------
+    pairs
+        home and away: positions in the list of teams, a row each.
+    scores
+        the sets that each won, a row each; no columns for matches to come.
+    rounds
+        what the file says of the round, the week or the date; '' where nothing.
+    warnings
+        what to check, a line each.
+    """
+
+    pairs: Ints
+    scores: Ints
+    rounds: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass
+class TeamNames:
+    """The teams, in the order in which files name them first."""
+
+    names: list[str]
+    fixed: bool = False
+
+    def place(self, name: str) -> int | None:
+        """Return the position of a team, a new one unless the list is fixed."""
+        wanted = same_name(name)
+        for place, known in enumerate(self.names):
+            if same_name(known) == wanted:
+                return place
+        if self.fixed:
+            return None
+        self.names.append(name)
+        return len(self.names) - 1
+
+
+def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
+    r"""Read the teams of a league, and the points they have besides their matches.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "teams.csv"
+    ...     _ = path.write_text("team,points\nAcers,\nBankers,-2\n")
+    ...     teams, points, _ = read_teams(path)
+    >>> teams.names, points.tolist()
+    (['Acers', 'Bankers'], [0.0, -2.0])
+    """
+    table = read_table(path, TEAM, POINTS, rows="teams")
+    found = TeamNames([])
+    for line, text in zip(table.lines.tolist(), table.cells("team"), strict=True):
+        name, before = clean_name(text), len(found.names)
+        if not name:
+            table.problems.add(line, "team is empty; write a name")
+        elif found.place(name) != before:
+            table.problems.add(line, f"team {quoted(name)} is listed twice; delete one of the two")
+    points = numbers(
+        table,
+        "points",
+        at_least=-10_000,
+        at_most=10_000,
+        remedy="write points such as -2, or leave it empty",
+        may_be_empty=True,
+    ).values
+    table.problems.raise_any()
+    return TeamNames(found.names, fixed=True), np.nan_to_num(points), table.warnings
+
+
+def read_team_results(path: str | Path, teams: TeamNames) -> TeamMatches:
+    r"""Read the matches that have been played: home, away and the sets that each won.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "results.csv"
+    ...     _ = path.write_text("home,away,home_score,away_score\nAcers,Bankers,3,2\n")
+    ...     played = read_team_results(path, TeamNames([]))
+    >>> played.pairs.tolist(), played.scores.tolist()
+    ([[0, 1]], [[3, 2]])
+    """
+    table = read_table(path, {**PAIR, **SCORES}, ROUND, rows="matches")
+    scores = np.stack([whole_numbers(table, name).values for name in SCORES], axis=1)
+    none = np.flatnonzero(scores.sum(axis=1) == 0)
+    if all(name in table for name in SCORES):
+        table.problems.add_rows(
+            table.lines, none, lambda _: "the score is 0:0; leave out matches not played"
+        )
+    return _matches(table, teams, scores)
+
+
+def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:
+    """Read the matches to come: home and away, and the round if the file has it.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+    """
+    table = read_table(path, PAIR, ROUND, rows="matches")
+    return _matches(table, teams, np.zeros((len(table), 0), dtype=np.int64))
+
+
+def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
+    pairs = np.zeros((len(table), 2), dtype=np.int64)
+    cells = [[clean_name(text) for text in table.cells(side)] for side in PAIR]
+    for row, (line, *both) in enumerate(zip(table.lines.tolist(), *cells, strict=True)):
+        for side, name in enumerate(both):
+            place = teams.place(name) if name else None
+            if place is None:
+                what = f"{quoted(name)} is not in the list of teams" if name else "is empty"
+                table.problems.add(line, f"{list(PAIR)[side]} {what}; write the team's name")
+            else:
+                pairs[row, side] = place
+        if both[0] and same_name(both[0]) == same_name(both[1]):
+            table.problems.add(line, f"{quoted(both[0])} meets itself; correct one of the teams")
+    table.problems.raise_any()
+    rounds = tuple(table.cells("round"))
+    similar: Sequence[str] = ()
+    if not teams.fixed:
+        similar = similar_name_warnings(
+            similar_names(teams.names), table.source, "if so, write both alike"
+        )
+    return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar))

@@ -1,0 +1,5 @@
+"""Team nights: whom to put up, what a line-up is worth, and a season's table."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,285 @@
+"""Whom to put up now: what each pick is worth from a point in the night on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.teams.matrix_games import matrix_game
+from evenbreak.teams.night import TeamNight
+from evenbreak.teams.order import BOTH, LOSER, OURS, THEIRS, WINNER
+from evenbreak.teams.solve import SolvedNight, names_first, pair_values
+from evenbreak.teams.squad import Counts, LineUps, Squad
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point in a night: a nomination to come.
+
+    Parameters
+    ----------
+    used_ours, used_theirs
+        who has been put up, in any order, once for each set played (a pair for doubles).
+    lead
+        our lead: sets, games or points, as the night is counted.
+    last_won
+        whether we won the last set; needed where the winner or the loser names first.
+    named
+        whom the team that names first in the next set has named; () if nobody yet.
+    in_play
+        the matches of `used` that are still being played: their laws, shape (2, 2 reach + 1), as in
+        `TeamNight.laws`. What they bring is not in `lead`.
+    """
+
+    used_ours: tuple[str, ...] = ()
+    used_theirs: tuple[str, ...] = ()
+    lead: int = 0
+    last_won: bool | None = None
+    named: tuple[str, ...] = ()
+    in_play: tuple[Floats, ...] = field(default=(), compare=False)
+
+
+class Option(NamedTuple):
+    """One pick.
+
+    Parameters
+    ----------
+    names
+        who plays: one player, or the pair of a doubles set.
+    worth
+        what the night is worth to us if this pick is made and all else is played as well as it can
+        be; see `SolvedNight`.
+    answer
+        the best reply of the other team, by name; () if there is none to come.
+    mix
+        how often to pick it where both teams name at once; 1 for the best pick otherwise, else 0.
+    """
+
+    names: tuple[str, ...]
+    worth: float
+    answer: tuple[str, ...]
+    mix: float
+
+
+class Advice(NamedTuple):
+    """What each pick is worth, for whoever names now.
+
+    Parameters
+    ----------
+    worth
+        what the night is worth to us at this point.
+    ours
+        whether it is our pick that is due (or both teams').
+    blind
+        whether both teams name at once.
+    options
+        the picks of the team to name, the best for that team first.
+    set_number
+        the set, counted from 1.
+    """
+
+    worth: float
+    ours: bool
+    blind: bool
+    options: tuple[Option, ...]
+    set_number: int
+
+    @property
+    def best(self) -> Option:
+        """The best pick."""
+        return self.options[0]
+
+
+def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
+    """Return what each pick is worth at a point of a night.
+
+    Parameters
+    ----------
+    solution
+        the solved night.
+    point
+        the point; None: before the first nomination.
+
+    Raises
+    ------
+    InputError
+        if the night cannot come to this point, or is over.
+
+    Notes
+    -----
+    With matches in play the pick that is due is chosen for the average over how they may end;
+    they are taken to be over before the nomination after it.
+
+    >>> from evenbreak.teams import Squad, TeamNight, solved
+    >>> law = np.zeros((2, 2, 2, 3))
+    >>> law[..., 0, 2] = [[0.5, 0.8], [0.4, 0.7]]
+    >>> law[..., 1, 0] = 1.0 - law[..., 0, 2]
+    >>> night = TeamNight(Squad(("Ann", "Bo")), Squad(("Cy", "Di")), law, sets=1, order="B")
+    >>> [(option.names, option.worth) for option in advice(solved(night)).options]
+    [(('Cy',), 0.5), (('Di',), 0.8)]
+    >>> advice(solved(night), Point(named=("Di",))).best.names
+    ('Ann',)
+    """
+    point = point or Point()
+    night = solution.night
+    k, a, b = _states(night, point)
+    games, letter = _games(solution, point, k, a, b)
+    mine, others = night.our_line_ups, night.their_line_ups
+    rows = np.flatnonzero(mine.after[k][a] >= 0)
+    columns = np.flatnonzero(others.after[k][b] >= 0)
+    games = games[np.ix_(rows, columns)]
+    our_names = [_names(night.ours, mine, k, i) for i in rows]
+    their_names = [_names(night.theirs, others, k, j) for j in columns]
+    if letter == BOTH:
+        return _mixed(games, our_names, their_names, k, point)
+    if letter == OURS:
+        return _turns(games, our_names, their_names, k, point.named, ours_first=True)
+    return _turns(games.T, their_names, our_names, k, point.named, ours_first=False)
+
+
+def _mixed(
+    games: Floats,
+    ours: list[tuple[str, ...]],
+    theirs: list[tuple[str, ...]],
+    k: int,
+    point: Point,
+) -> Advice:
+    if point.named:
+        raise InputError("named is given, but both teams name at once in this set; leave it out")
+    solution = matrix_game(games)
+    worth = games @ solution.columns
+    options = [
+        Option(name, float(p), theirs[int(games[i].argmin())], float(solution.rows[i]))
+        for i, (name, p) in enumerate(zip(ours, worth, strict=True))
+    ]
+    ranked = sorted(options, key=lambda option: (-round(option.worth, 9), -option.mix))
+    return Advice(float(solution.value), True, True, tuple(ranked), k + 1)
+
+
+def _turns(
+    games: Floats,
+    first: list[tuple[str, ...]],
+    second: list[tuple[str, ...]],
+    k: int,
+    named: tuple[str, ...],
+    *,
+    ours_first: bool,
+) -> Advice:
+    """Return the advice for one team in turn; `games` has the first team's picks as rows."""
+    sign = 1.0 if ours_first else -1.0
+    if named:
+        wanted = tuple(sorted(named))
+        found = [i for i, names in enumerate(first) if tuple(sorted(names)) == wanted]
+        if not found:
+            raise InputError(
+                f"{' and '.join(named)} cannot be named now: used up, kept out by a cap, or not in "
+                "the squad that names first"
+            )
+        values = games[found[0]]
+        order = np.argsort(sign * values, kind="stable")
+        options = [
+            Option(second[j], float(values[j]), (), float(n == 0)) for n, j in enumerate(order)
+        ]
+        return Advice(options[0].worth, not ours_first, False, tuple(options), k + 1)
+    reply = (sign * games).argmin(axis=1)
+    values = games[np.arange(len(first)), reply]
+    order = np.argsort(-sign * values, kind="stable")
+    options = [
+        Option(first[i], float(values[i]), second[reply[i]], float(n == 0))
+        for n, i in enumerate(order)
+    ]
+    return Advice(options[0].worth, ours_first, False, tuple(options), k + 1)
+
+
+def _names(squad: Squad, line_ups: LineUps, k: int, pick: Any) -> tuple[str, ...]:
+    return tuple(squad.names[player] for player in line_ups.picks[k][pick])
+
+
+def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
+    """Return the set to come, and the states of both squads."""
+    played = [0]
+    for size in night.sizes:
+        played.append(played[-1] + size)
+    for used in (point.used_ours, point.used_theirs):
+        if len(used) not in played:
+            raise InputError(
+                f"{len(used)} players have been used, which is no whole number of sets"
+            )
+    k = played.index(len(point.used_ours))
+    if len(point.used_theirs) != len(point.used_ours):
+        raise InputError(
+            f"we have used {len(point.used_ours)} players and they {len(point.used_theirs)}; give "
+            "both sides of every set played"
+        )
+    if k == night.sets:
+        raise InputError(f"all {k} sets have been named; there is nobody left to put up")
+    if len(point.in_play) > k:
+        raise InputError(f"{len(point.in_play)} matches are in play, but {k} sets were named")
+    whole(abs(point.lead), "lead")
+    if abs(point.lead) > (k - len(point.in_play)) * night.reach:
+        raise InputError(
+            f"the lead is {point.lead}, which {k - len(point.in_play)} sets cannot give"
+        )
+    return (
+        k,
+        _state(night.ours, night.our_line_ups, k, point.used_ours),
+        _state(night.theirs, night.their_line_ups, k, point.used_theirs),
+    )
+
+
+def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
+    counts = [0] * len(squad.names)
+    for name in used:
+        counts[squad.place(name)] += 1
+    wanted: Counts = tuple(counts)
+    try:
+        return line_ups.used[k].index(wanted)
+    except ValueError:
+        raise InputError(
+            f"{', '.join(used)} cannot be the players used so far: one plays too often, or the "
+            "line-up can no longer keep its caps"
+        ) from None
+
+
+def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple[Floats, str]:
+    """Return the value of each pair of picks, NaN where one is not allowed, and who names first."""
+    night = solution.night
+    letter = night.order[k]
+    if letter in (WINNER, LOSER):
+        letter = names_first(letter, _last_won(point, letter))
+    one_of(letter, "order", (OURS, THEIRS, BOTH))
+    mine, others = night.our_line_ups.after[k][a], night.their_line_ups.after[k][b]
+    chances, leads = _leads(point, night.reach, k)
+    games = np.full((len(mine), len(others)), np.nan)
+    for i in np.flatnonzero(mine >= 0):
+        for j in np.flatnonzero(others >= 0):
+            after = solution.values[k + 1][mine[i], others[j]][None, None]
+            values = pair_values(night, k, after, int(i), int(j))[0, 0]
+            games[i, j] = chances @ values[leads + k * night.reach]
+    return games, letter
+
+
+def _last_won(point: Point, letter: str) -> bool:
+    if point.last_won is None:
+        who = "winner" if letter == WINNER else "loser"
+        raise InputError(f"the {who} of the last set names first; say who won it")
+    return point.last_won
+
+
+def _leads(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
+    """Return the chances of the leads that the matches in play may bring."""
+    chances = np.ones(1)
+    for law in point.in_play:
+        own = np.asarray(law, dtype=float).sum(axis=0)
+        pad = reach - len(own) // 2
+        chances = np.convolve(chances, np.pad(own, pad))
+    half = len(chances) // 2
+    leads = point.lead + np.arange(-half, half + 1)
+    kept = np.abs(leads) <= k * reach
+    return chances[kept], leads[kept]

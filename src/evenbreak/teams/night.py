@@ -1,0 +1,141 @@
+"""A team night: two squads, an order of nomination, and what each set can bring."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats, short_repr
+from evenbreak.checks import floats, number_probability, one_of
+from evenbreak.errors import InputError
+from evenbreak.teams.order import order_of
+from evenbreak.teams.squad import LineUps, Squad, line_ups
+
+
+@short_repr
+@dataclass(frozen=True, eq=False, init=False)
+class TeamNight:
+    """A team night as a game of two captains.
+
+    Parameters
+    ----------
+    ours, theirs
+        the squads.
+    laws
+        for each set, what it can bring: laws[k][i, j, w, d] is P(our pick i beats (w = 0) or loses
+        to (w = 1) their pick j, and the set adds d - reach to our lead), where the last axis has
+        length 2 reach + 1. `set_laws` makes them from ratings. One array stands for every set.
+    sets
+        how many sets are played, if one law stands for all.
+    order
+        who names first, set by set; see `order_of`.
+    sizes
+        the players a side in each set: 1, or 2 for doubles; a number stands for every set.
+    tie
+        what a tied night is worth, between 0 (lost) and 1 (won).
+
+    Raises
+    ------
+    InputError
+        if the laws are not probabilities, do not fit the squads, or a squad has no line-up.
+
+    Notes
+    -----
+    The night is won with a lead above 0 after the last set.
+
+    >>> coin = np.zeros((2, 2, 2, 3))
+    >>> coin[:, :, 0, 2] = coin[:, :, 1, 0] = 0.5
+    >>> night = TeamNight(Squad(("Ann", "Bo")), Squad(("Cy", "Di")), coin, sets=2)
+    >>> night.order, night.reach
+    ('AB', 1)
+    """
+
+    ours: Squad
+    theirs: Squad
+    laws: tuple[Floats, ...]
+    order: str
+    sizes: tuple[int, ...]
+    tie: float
+    our_line_ups: LineUps
+    their_line_ups: LineUps
+
+    def __init__(
+        self,
+        ours: Squad,
+        theirs: Squad,
+        laws: ArrayLike | Sequence[ArrayLike],
+        *,
+        sets: int | None = None,
+        order: str = "alternate",
+        sizes: int | Sequence[int] = 1,
+        tie: float = 0.5,
+    ) -> None:
+        given: list[Any] = [laws] * sets if sets is not None else list(laws)  # type: ignore[arg-type]
+        each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
+        if len(each) != len(given):
+            raise InputError(f"sizes has {len(each)} sets and laws {len(given)}; give one each")
+        for size in each:
+            one_of(size, "sizes", (1, 2))
+        mine, others = line_ups(ours, each), line_ups(theirs, each)
+        checked: dict[tuple[int, int], Floats] = {}
+        for k, law in enumerate(given):
+            key = id(law), each[k]
+            if key not in checked:
+                checked[key] = _law(law, len(mine.picks[k]), len(others.picks[k]))
+        for name, value in {
+            "ours": ours,
+            "theirs": theirs,
+            "laws": tuple(checked[id(law), size] for law, size in zip(given, each, strict=True)),
+            "order": order_of(order, len(given)),
+            "sizes": each,
+            "tie": number_probability(tie, "tie"),
+            "our_line_ups": mine,
+            "their_line_ups": others,
+        }.items():
+            object.__setattr__(self, name, value)
+
+    def with_laws(self, laws: Sequence[ArrayLike]) -> TeamNight:
+        """Return the same night with other laws, one for each set."""
+        changed = copy(self)
+        checked = tuple(_law(law, *old.shape[:2]) for law, old in zip(laws, self.laws, strict=True))
+        object.__setattr__(changed, "laws", checked)
+        return changed
+
+    @property
+    def sets(self) -> int:
+        """How many sets are played."""
+        return len(self.laws)
+
+    @property
+    def reach(self) -> int:
+        """By how much one set can change the lead at most."""
+        return max(int(law.shape[3]) for law in self.laws) // 2
+
+    def payoff(self, leads: ArrayLike) -> Floats:
+        """Return what each final lead is worth: 1 won, 0 lost, `tie` tied."""
+        lead = np.asarray(leads)
+        return np.where(lead > 0, 1.0, np.where(lead < 0, 0.0, self.tie))
+
+
+def _law(given: ArrayLike, ours: int, theirs: int) -> Floats:
+    law = floats(given, "laws", low=0.0, high=1.0)
+    if law.ndim != 4 or law.shape[2] != 2 or not law.shape[3] % 2:
+        raise InputError(
+            f"a law has shape {law.shape}; give (our picks, their picks, 2, an odd number)"
+        )
+    if law.shape[:2] != (ours, theirs):
+        raise InputError(
+            f"a law has shape {law.shape}; the squads have {ours} and {theirs} picks for the set"
+        )
+    off = np.abs(law.sum(axis=(2, 3)) - 1.0)
+    if off.max() > 1e-9:
+        i, j = np.unravel_index(off.argmax(), off.shape)
+        raise InputError(
+            f"the chances of picks {i} and {j} add up to {law[i, j].sum():.9g}; they must be 1"
+        )
+    return law

@@ -1,0 +1,1 @@
+"""A season of team matches: the table, and how it may end."""

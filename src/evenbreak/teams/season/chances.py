@@ -1,0 +1,243 @@
+"""The chances of each final place: exact where few matches are left, else simulated.
+
+Where the strengths are uncertain, the chances are means over draws of them. All endings of the
+matches to come are gone through if there are few enough; otherwise seasons are drawn in pieces,
+each with its own random numbers, so that the result does not depend on who works on them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.checks import seed_of, whole
+from evenbreak.errors import InputError
+from evenbreak.league.workers import in_order
+from evenbreak.teams.season.ranking import ranks_of, standings_of
+from evenbreak.teams.season.season import TeamSeason
+
+if TYPE_CHECKING:
+    import distributed
+
+MOST_ENDINGS = 200_000
+"""Endings up to which all are gone through."""
+
+_PIECE = 5_000
+
+
+class Watched(NamedTuple):
+    """The numbers of first places, and the matches to come, that are asked about."""
+
+    places: tuple[int, ...]
+    matches: tuple[int, ...]
+
+
+@short_repr
+@dataclass(frozen=True, eq=False)
+class SeasonChances:
+    """How a season may end.
+
+    Parameters
+    ----------
+    season
+        the season.
+    p_place
+        P(each team takes each place), shape (teams, places).
+    exact
+        whether all endings were gone through; otherwise seasons were drawn.
+    seasons
+        how many seasons were drawn, or how many endings there are.
+    watched
+        the places and the matches that were asked about.
+    p_if
+        for each number of first places watched, P(a team takes one of them | how a match watched
+        ends), shape (matches, 3, teams): home wins, draw, away wins; NaN where that cannot be.
+    p_result
+        P(home wins, a draw, away wins) for each match watched.
+    """
+
+    season: TeamSeason
+    p_place: Floats
+    exact: bool
+    seasons: int
+    watched: Watched
+    p_if: tuple[Floats, ...]
+    p_result: Floats
+
+    def p_first(self, places: int) -> Floats:
+        """P(each team takes one of the first places)."""
+        return np.asarray(self.p_place[:, :places].sum(axis=1))
+
+    def error(self, p: Floats) -> Floats:
+        """Return the standard errors of chances: 0 where they are exact."""
+        if self.exact:
+            return np.zeros(p.shape)
+        return np.sqrt(p * (1.0 - p) / self.seasons)
+
+    @property
+    def mean_place(self) -> Floats:
+        """The mean final place of each team."""
+        return np.asarray(self.p_place @ np.arange(1, len(self.p_place) + 1))
+
+
+def season_chances(
+    season: TeamSeason,
+    *,
+    places: tuple[int, ...] = (1,),
+    matches: tuple[int, ...] = (),
+    seasons: int = 100_000,
+    seed: int = 1,
+    executor: Executor | distributed.Client | None = None,
+    jobs: int = 1,
+    progress: Callable[[int, int], object] | None = None,
+) -> SeasonChances:
+    """Return the chances of each final place.
+
+    Parameters
+    ----------
+    season
+        the season.
+    places, matches
+        what to watch: for which numbers of first places to say what which of the matches to come
+        change.
+    seasons
+        how many seasons are drawn, if the endings are too many to go through.
+    seed
+        of the random numbers.
+    executor, jobs
+        who works on the pieces; the result does not depend on it. See `evenbreak.league.simulate`.
+    progress
+        called with the seasons done and all seasons.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range.
+
+    >>> rules = TeamSeason(
+    ...     ["Acers", "Bankers", "Caroms"],
+    ...     [[0, 1, 3, 2]],
+    ...     [[0, 2], [1, 2]],
+    ...     [[3, 2], [2, 3]],
+    ...     [[0.5, 0.5], [0.5, 0.5]],
+    ... )
+    >>> found = season_chances(rules)
+    >>> found.exact, found.p_first(1).round(4).tolist()
+    (True, [0.5833, 0.0833, 0.3333])
+    """
+    for many in places:
+        if not 1 <= whole(many, "places") <= len(season.teams):
+            raise InputError(f"places has {many} for {len(season.teams)} teams")
+    for match in matches:
+        if not 0 <= whole(match, "matches") < len(season.to_come):
+            raise InputError(f"matches has {match}; {len(season.to_come)} are to come")
+    watched = Watched(tuple(places), tuple(matches))
+    if len(season.scores) ** len(season.to_come) <= MOST_ENDINGS:
+        return _exact(season, watched)
+    pieces = _pieces(whole(seasons, "seasons", at_least=1), seed_of(seed))
+    total = _Counts(season, watched)
+    shared = season, watched
+    for done, counts in enumerate(
+        in_order(_drawn, shared, pieces, executor=executor, jobs=jobs), start=1
+    ):
+        total.add(*counts)
+        if progress is not None:
+            progress(min(done * _PIECE, seasons), seasons)
+    return total.chances(exact=False, seasons=seasons)
+
+
+def _pieces(seasons: int, seed: int) -> list[tuple[int, int, int]]:
+    sizes = [min(_PIECE, seasons - start) for start in range(0, seasons, _PIECE)]
+    return [(seed, number, size) for number, size in enumerate(sizes)]
+
+
+Counted = tuple[Floats, list[Floats], Floats]
+"""Weights of teams and places; of matches, results and teams; of matches and results."""
+
+
+class _Counts:
+    """What is summed over endings."""
+
+    def __init__(self, season: TeamSeason, watched: Watched) -> None:
+        teams, many = len(season.teams), len(watched.matches)
+        self.season, self.watched = season, watched
+        self.places = np.zeros((teams, teams))
+        self.moved = [np.zeros((many, 3, teams)) for _ in watched.places]
+        self.results = np.zeros((many, 3))
+
+    def add(self, places: Floats, moved: list[Floats], results: Floats) -> None:
+        self.places += places
+        self.results += results
+        for own, more in zip(self.moved, moved, strict=True):
+            own += more
+
+    def chances(self, *, exact: bool, seasons: int) -> SeasonChances:
+        weight = self.places.sum(axis=1).max(initial=0.0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            p_if = tuple(own / self.results[:, :, None] for own in self.moved)
+        return SeasonChances(
+            self.season,
+            self.places / weight,
+            exact,
+            seasons,
+            self.watched,
+            p_if,
+            self.results / weight,
+        )
+
+
+def _counted(season: TeamSeason, watched: Watched, ends: Ints, weights: Floats) -> Counted:
+    """Return the sums over endings."""
+    ranks = ranks_of(season, ends)
+    standings = standings_of(ranks)
+    results = np.sign(season.scores[:, 0] - season.scores[:, 1])[ends[list(watched.matches)]]
+    of_result = [np.where(results == sign, weights, 0.0) for sign in (1, 0, -1)]
+    moved = []
+    for places in watched.places:
+        shares = standings.share_of(places)
+        moved.append(np.stack([one @ shares.T for one in of_result], axis=1))
+    sums = np.stack([one.sum(axis=1) for one in of_result], axis=1)
+    return standings.places(weights), moved, sums
+
+
+def _exact(season: TeamSeason, watched: Watched) -> SeasonChances:
+    left, kinds = len(season.to_come), len(season.scores)
+    endings = kinds**left
+    total = _Counts(season, watched)
+    at_once = max(1, (1 << 22) // max(1, len(season.teams) ** 2))
+    for start in range(0, endings, at_once):
+        numbers = np.arange(start, min(endings, start + at_once))
+        ends = np.empty((left, len(numbers)), dtype=np.int64)
+        rest = numbers
+        for match in range(left):
+            rest, ends[match] = np.divmod(rest, kinds)
+        weights = np.zeros(len(numbers))
+        for layer in season.chances:
+            each = np.ones(len(numbers))
+            for match in range(left):
+                each *= layer[match, ends[match]]
+            weights += each
+        total.add(*_counted(season, watched, ends, weights / len(season.chances)))
+    return total.chances(exact=True, seasons=endings)
+
+
+def _drawn(shared: tuple[TeamSeason, Watched], piece: tuple[int, int, int]) -> Counted:
+    """Return the sums over some drawn seasons: a piece is the seed, its number and its size."""
+    season, watched = shared
+    seed, number, size = piece
+    rng = np.random.default_rng([seed, number])
+    layers = len(season.chances)
+    which = (number * _PIECE + np.arange(size)) % layers
+    below = np.cumsum(season.chances, axis=2)[:, :, :-1]
+    ends = np.zeros((len(season.to_come), size), dtype=np.int64)
+    for match in range(len(season.to_come)):
+        draws = rng.random(size)
+        end = ends[match]
+        for limit in range(below.shape[2]):
+            end += draws > below[which, match, limit]
+    return _counted(season, watched, ends, np.ones(size))

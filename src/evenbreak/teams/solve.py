@@ -1,0 +1,191 @@
+"""The value of a team night, and of each point in it, by backward induction.
+
+A point of the night is: the sets played, who of either squad is used up, the lead, and who won the
+last set where the order asks. After the last set the lead says what the night is worth. Before
+it, each pair of picks leads on to the points after the set; who names first takes the best of what
+the other team's best answers leave them, and blind picks are a matrix game.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.errors import InputError
+from evenbreak.teams.matrix_games import matrix_game
+from evenbreak.teams.night import TeamNight
+from evenbreak.teams.order import BOTH, LOSER, OURS, THEIRS, WINNER
+
+MOST_STEPS = 4e9
+"""Multiplications beyond which a night is refused: about half a minute."""
+
+_AT_A_TIME = 1 << 22
+
+
+@short_repr
+@dataclass(frozen=True, eq=False)
+class SolvedNight:
+    """A team night with the value of each of its points.
+
+    Parameters
+    ----------
+    night
+        the night.
+    values
+        values[k][a, b, w, lead + k reach]: what the night is worth to us after k sets, with our
+        squad used up as in state a and theirs as in state b of their `LineUps`. The axis w says who
+        won the last set (0: we did), where the order asks; otherwise it has length 1.
+
+    Notes
+    -----
+    Worth is P(we win the night) plus `tie` times P(it is tied), if both captains do their best.
+    """
+
+    night: TeamNight
+    values: tuple[Floats, ...]
+
+    @property
+    def value(self) -> float:
+        """What the night is worth before the first nomination."""
+        return float(self.values[0][0, 0, 0, 0])
+
+
+def solved(night: TeamNight) -> SolvedNight:
+    """Return the value of every point of a night.
+
+    Raises
+    ------
+    InputError
+        if the night has too many points.
+
+    >>> from evenbreak.teams import Squad, TeamNight
+    >>> better, even = np.zeros((2, 1, 1, 2, 3))
+    >>> better[..., 0, 2], better[..., 1, 0] = 0.6, 0.4
+    >>> night = TeamNight(Squad(("Ann",)), Squad(("Bo",)), [better])
+    >>> solved(night).value
+    0.6
+    """
+    _refuse_large(night)
+    reach, sets = night.reach, night.sets
+    leads = np.arange(-sets * reach, sets * reach + 1)
+    shape = len(night.our_line_ups.used[sets]), len(night.their_line_ups.used[sets])
+    values = [np.broadcast_to(night.payoff(leads), (*shape, 1, len(leads)))]
+    for k in reversed(range(sets)):
+        values.append(_before(night, k, values[-1]))
+    return SolvedNight(night, tuple(values[::-1]))
+
+
+def pair_values(night: TeamNight, k: int, after: Floats, i: int, j: int) -> Floats:
+    """Return the value of set k if picks i and j play it, for states that allow them.
+
+    `after` holds the values after the set, of those states; the last axis of what is returned
+    runs over the leads before it.
+    """
+    law = night.laws[k][i, j]
+    own, leads = law.shape[1] // 2, after.shape[-1] - 2 * night.reach
+    found = np.zeros((*after.shape[:2], leads))
+    for won, d in zip(*np.nonzero(law), strict=True):
+        start = night.reach + d - own
+        block = after[:, :, won if after.shape[2] > 1 else 0, start : start + leads]
+        found += law[won, d] * block
+    return found
+
+
+def names_first(letter: str, last_won: bool) -> str:
+    """Return who names first, where the letter may depend on who won the last set."""
+    if letter in (WINNER, LOSER):
+        return OURS if last_won == (letter == WINNER) else THEIRS
+    return letter
+
+
+def _before(night: TeamNight, k: int, after: Floats) -> Floats:
+    """Return the values before set k, given those after it."""
+    letter = night.order[k]
+    if letter == BOTH:
+        return _blind(night, k, after)[:, :, None]
+    if letter in (WINNER, LOSER):
+        both = [_in_turn(night, k, after, names_first(letter, won)) for won in (True, False)]
+        return np.stack(both, axis=2)
+    return _in_turn(night, k, after, letter)[:, :, None]
+
+
+def _in_turn(night: TeamNight, k: int, after: Floats, first: str) -> Floats:
+    """Return the values if one team names first and the other answers."""
+    mine, others = night.our_line_ups.moves[k], night.their_line_ups.moves[k]
+    leads = after.shape[-1] - 2 * night.reach
+    shape = len(night.our_line_ups.used[k]), len(night.their_line_ups.used[k]), leads
+    ours_first = first == OURS
+    leading, replying = (mine, others) if ours_first else (others, mine)
+    best = np.full(shape, -np.inf if ours_first else np.inf)
+    for named, (allowed, _) in enumerate(leading):
+        worst = np.full(shape, np.inf if ours_first else -np.inf)
+        for reply in range(len(replying)):
+            i, j = (named, reply) if ours_first else (reply, named)
+            (a, to_a), (b, to_b) = mine[i], others[j]
+            if not a.size or not b.size:
+                continue
+            found = pair_values(night, k, after[to_a[:, None], to_b], i, j)
+            at = a[:, None], b
+            worst[at] = (np.minimum if ours_first else np.maximum)(worst[at], found)
+        if ours_first:
+            best[allowed] = np.maximum(best[allowed], worst[allowed])
+        else:
+            best[:, allowed] = np.minimum(best[:, allowed], worst[:, allowed])
+    return best
+
+
+def _blind(night: TeamNight, k: int, after: Floats) -> Floats:
+    """Return the values if both teams name at once."""
+    mine, others = night.our_line_ups.after[k], night.their_line_ups.after[k]
+    leads = after.shape[-1] - 2 * night.reach
+    rows, columns = _allowed(mine), _allowed(others)
+    found = np.empty((len(mine), len(others), leads))
+    at_once = max(1, _AT_A_TIME // max(1, len(others) * leads * rows.shape[1] * columns.shape[1]))
+    for start in range(0, len(mine), at_once):
+        part = slice(start, start + at_once)
+        games = _games(night, k, after, mine[part], others)
+        # Only the picks that are allowed, so that the games are small; padding loses.
+        a = np.arange(len(games))[:, None, None, None]
+        b = np.arange(len(others))[None, :, None, None]
+        small = games[a, b, rows[part][:, None, :, None], columns[None, :, None, :]]
+        found[part] = matrix_game(np.moveaxis(small, -1, 2)).value
+    return found
+
+
+def _allowed(table: Ints) -> Ints:
+    """Return the picks of each state, the allowed ones first, and as few as all states need."""
+    most = int((table >= 0).sum(axis=1).max())
+    return np.argsort(table < 0, axis=1, kind="stable")[:, :most]
+
+
+def _games(night: TeamNight, k: int, after: Floats, mine: Ints, others: Ints) -> Floats:
+    """Return the value of each pair of picks, shape (ours, theirs, i, j, lead)."""
+    leads = after.shape[-1] - 2 * night.reach
+    games = np.empty((len(mine), len(others), mine.shape[1], others.shape[1], leads))
+    games[:] = 2.0  # they never choose what is not allowed
+    games[(mine < 0)[:, None, :, None].repeat(len(others), 1).repeat(others.shape[1], 3)] = -1.0
+    for i in range(mine.shape[1]):
+        for j in range(others.shape[1]):
+            a, b = np.flatnonzero(mine[:, i] >= 0), np.flatnonzero(others[:, j] >= 0)
+            if a.size and b.size:
+                block = after[np.ix_(mine[a, i], others[b, j])]
+                at = np.ix_(a, b)
+                games[:, :, i, j][at] = pair_values(night, k, block, i, j)
+    return games
+
+
+def _refuse_large(night: TeamNight) -> None:
+    steps = sum(
+        float(mine.size) * others.size * (2 * k * night.reach + 1) * np.count_nonzero(law[0, 0])
+        for k, (mine, others, law) in enumerate(
+            zip(night.our_line_ups.after, night.their_line_ups.after, night.laws, strict=True)
+        )
+    )
+    if steps > MOST_STEPS:
+        sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
+        raise InputError(
+            f"squads of {sizes} allow too many line-ups of {night.sets} sets; leave out those who "
+            "will not play tonight"
+        )

@@ -1,0 +1,199 @@
+"""A squad: who may be put up, how often, and within which caps."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Ints
+from evenbreak.checks import names, number, whole
+from evenbreak.errors import InputError
+
+MOST_STATES = 20_000
+"""The most groups of players used up after a set; more would take minutes."""
+
+Counts = tuple[int, ...]
+"""How often each player of a squad has been put up."""
+
+
+@dataclass(frozen=True)
+class Cap:
+    """A limit on a line-up: the sum of `weights` over the sets that each player plays.
+
+    Parameters
+    ----------
+    weights
+        what each player adds when they play a set, in the order of the squad: a skill level, a
+        rating, or 1 for those of whom only so many may play.
+    most
+        the largest sum allowed.
+    name
+        what is limited, in messages, such as 'the sum of the levels'.
+
+    Notes
+    -----
+    APA's 23-rule is `Cap(levels, 23)`, and its limit of two players of level 6 or more
+    `Cap([level >= 6 for level in levels], 2)`. BCA Pool League's caps are on the sum of five Fargo
+    ratings: 2,750, 3,000 or 3,250.
+    """
+
+    weights: tuple[float, ...]
+    most: float
+    name: str = "the cap"
+
+    def __post_init__(self) -> None:
+        given = tuple(number(value, "weights") for value in self.weights)
+        object.__setattr__(self, "weights", given)
+        number(self.most, "most")
+
+    def total(self, counts: Counts) -> float:
+        """Return the sum over the sets played."""
+        return sum(w * count for w, count in zip(self.weights, counts, strict=True))
+
+
+@dataclass(frozen=True)
+class Squad:
+    """The players of a team on a night.
+
+    Parameters
+    ----------
+    names
+        each once.
+    caps
+        the limits that the whole line-up keeps. Nobody may be put up who makes it impossible to
+        fill the remaining sets within them.
+    times
+        how often a player may be put up.
+
+    Raises
+    ------
+    InputError
+        if a name appears twice, or a cap does not have a weight for each player.
+    """
+
+    names: tuple[str, ...]
+    caps: tuple[Cap, ...] = ()
+    times: int = 1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", names(self.names, "names"))
+        object.__setattr__(self, "caps", tuple(self.caps))
+        whole(self.times, "times", at_least=1)
+        for cap in self.caps:
+            if len(cap.weights) != len(self.names):
+                raise InputError(
+                    f"{cap.name} has {len(cap.weights)} weights for {len(self.names)} players; "
+                    "give one each"
+                )
+
+    def place(self, name: str) -> int:
+        """Return the position of a player, counted from 0.
+
+        Raises
+        ------
+        InputError
+            if the squad has no such player.
+        """
+        try:
+            return self.names.index(name)
+        except ValueError:
+            listed = ", ".join(self.names)
+            raise InputError(f"{name!r} is not in the squad; its players are {listed}") from None
+
+
+class LineUps(NamedTuple):
+    """All line-ups of a squad that keep its caps, set by set.
+
+    Parameters
+    ----------
+    picks
+        for each set, who may be put up: the players' positions, one or a pair of them.
+    used
+        used[k]: the counts of the players that are possible after k sets.
+    after
+        after[k][state, pick]: the state after set k, in which the pick plays; -1 if not allowed.
+    moves
+        moves[k][pick]: the states in which the pick is allowed in set k, and those after it.
+    """
+
+    picks: list[list[tuple[int, ...]]]
+    used: list[list[Counts]]
+    after: list[Ints]
+    moves: list[list[tuple[Ints, Ints]]]
+
+
+def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
+    """Return the line-ups of a squad for sets of so many players a side.
+
+    Raises
+    ------
+    InputError
+        if the squad has too few or too many players, or no line-up keeps its caps.
+
+    >>> found = line_ups(Squad(("Ann", "Bo", "Cy"), (Cap((7, 5, 3), 10),)), (1, 1))
+    >>> found.used[2]
+    [(1, 0, 1), (0, 1, 1)]
+    """
+    count = len(squad.names)
+    picks = [list(itertools.combinations(range(count), size)) for size in sizes]
+    used: list[list[Counts]] = [[(0,) * count]]
+    for here in picks:
+        each = (_with(squad, counts, pick) for counts in used[-1] for pick in here)
+        used.append(list(dict.fromkeys(filter(None, each))))
+        if len(used[-1]) > MOST_STATES:
+            raise InputError(
+                f"{count} players allow too many line-ups of {len(sizes)} sets; leave out those "
+                "who will not play tonight"
+            )
+    if not used[-1]:
+        raise InputError(
+            f"{', '.join(squad.names)} cannot fill {len(sizes)} sets; add players, or let them "
+            "play more than once"
+        )
+    used[-1] = [
+        counts for counts in used[-1] if all(cap.total(counts) <= cap.most for cap in squad.caps)
+    ]
+    if not used[-1]:
+        raise InputError(
+            f"no line-up of {len(sizes)} sets of {', '.join(squad.names)} keeps {_asked(squad)}; "
+            "raise the limit, or add players who count for less"
+        )
+    after: list[Ints] = []
+    for k in reversed(range(len(sizes))):
+        places = {counts: place for place, counts in enumerate(used[k + 1])}
+        table = np.array(
+            [
+                [places.get(_with(squad, counts, pick), -1) for pick in picks[k]]
+                for counts in used[k]
+            ],
+            dtype=np.int64,
+        )
+        kept = np.flatnonzero((table >= 0).any(axis=1))
+        used[k] = [used[k][state] for state in kept]
+        after.append(table[kept])
+    after.reverse()
+    moves = [[_move(column) for column in table.T] for table in after]
+    return LineUps(picks, used, after, moves)
+
+
+def _move(after: Ints) -> tuple[Ints, Ints]:
+    allowed = np.flatnonzero(after >= 0)
+    return allowed, after[allowed]
+
+
+def _with(squad: Squad, counts: Counts, pick: Sequence[int]) -> Counts:
+    """Return the counts after a pick; () if a player would play too often."""
+    more = list(counts)
+    for player in pick:
+        more[player] += 1
+        if more[player] > squad.times:
+            return ()
+    return tuple(more)
+
+
+def _asked(squad: Squad) -> str:
+    return " and ".join(f"{cap.name} to {cap.most:g} or less" for cap in squad.caps)

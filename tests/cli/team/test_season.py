@@ -1,0 +1,67 @@
+"""A season of teams through the command line."""
+
+import pytest
+
+from places import DATA
+
+RESULTS, SCHEDULE = str(DATA / "demo_team_results.csv"), str(DATA / "demo_team_schedule.csv")
+
+
+def test_chances_of_the_table(ask):
+    told = ask("season", RESULTS, SCHEDULE, "--up", "2", "--down", "1", "--seasons", "2000")
+    rows = told["teams"]
+    assert not told["exact"]
+    assert sum(row["p_title"] for row in rows) == pytest.approx(1.0)
+    assert sum(row["p_up"] for row in rows) == pytest.approx(2.0)
+    assert sum(row["p_down"] for row in rows) == pytest.approx(1.0)
+    assert {row["team"] for row in told["tonight"]} == {row["team"] for row in rows}
+
+
+def test_the_last_round_is_exact(ask, tmp_path):
+    lines = (DATA / "demo_team_schedule.csv").read_text().splitlines()
+    last = tmp_path / "last.csv"
+    last.write_text("\n".join([lines[0], *lines[-4:]]) + "\n")
+    told = ask("season", RESULTS, str(last), "--ties", "head-to-head,difference")
+    assert told["exact"]
+    assert told["seasons"] == 6**4
+
+
+def test_a_round_robin_needs_no_schedule(ask):
+    asked = ("--seasons", "1000", "--sure", "--points", "sets")
+    told = ask("season", RESULTS, "--round-robin", "2", *asked)
+    assert sum(row["played"] for row in told["teams"]) == 72
+
+
+@pytest.mark.parametrize(
+    ("words", "what"),
+    [
+        ([RESULTS], "--round-robin"),
+        ([RESULTS, "--round-robin", "1"], "have met 2 times"),
+        ([RESULTS, SCHEDULE, "--points", "1,2,3"], "no more for a loss"),
+        ([RESULTS, SCHEDULE, "--points", "2,1"], "2,1"),
+        ([RESULTS, SCHEDULE, "--ties", "coin"], "coin"),
+        ([RESULTS, SCHEDULE, "--up", "8"], "--up"),
+        ([RESULTS, SCHEDULE, "--race", "3"], "--race 3"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(run, words, what):
+    result = run("season", *words)
+    assert result.exit_code in (1, 2, 3)
+    assert what in result.stderr.splitlines()[-1]
+
+
+def test_every_problem_of_a_file_is_named_at_once(run, tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text("home,away,home_score,away_score\nA,A,3,2\nA,B,x,2\nA,,1,4\nB,A,0,0\n")
+    result = run("season", str(bad), "--round-robin", "2")
+    assert result.exit_code == 3
+    for line in ("bad.csv:2", "bad.csv:3", "bad.csv:4", "bad.csv:5"):
+        assert line in result.stderr
+
+
+def test_teams_of_a_list_are_the_only_ones(run, tmp_path):
+    teams = tmp_path / "teams.csv"
+    teams.write_text("team,points\nKiss Shots,-2\nRack Pack,\n")
+    result = run("season", RESULTS, SCHEDULE, "--teams", str(teams))
+    assert result.exit_code == 3
+    assert "'Cue Tips' is not in the list of teams" in result.stderr
