@@ -42,7 +42,9 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
     rows = []
     for result, at in sorted(played_matches(state), key=lambda one: one.at):
         score = None if result.forfeit else result.score
-        race = state.needed(result.match, result.players)
+        needs = state.needed(result.match, result.players)
+        ended = score is None or (score[0] == needs[0]) != (score[1] == needs[1])
+        race = needs if ended else None  # a match that was imported may have had head starts
         rows.append(
             [
                 at[:10],

@@ -6,6 +6,7 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
     "new": Entry("tournament.new", "Begin a tournament that is run here."),
+    "import": Entry("tournament.import_", "Go on with a tournament from another program."),
     "draw": Entry("tournament.draw", "Make the draw."),
     "show": Entry("tournament.show", "Show the bracket."),
     "next": Entry("tournament.next", "Show who plays next, and on which table."),

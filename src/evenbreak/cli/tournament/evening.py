@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
+from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.times import TimeOfDay
@@ -73,6 +74,7 @@ def or_under_way(under_way: Callable[..., Answer]) -> Callable[[Any], Any]:
     """
 
     def decorate(command: Any) -> Any:
+        shown = faces()(under_way)
         own = [name for name in signature(under_way).parameters if name not in ("file", "at")]
 
         def run(*, entrants: str | None, file: str, at: int | None, **rest: Any) -> Any:
@@ -93,7 +95,8 @@ def or_under_way(under_way: Callable[..., Answer]) -> Callable[[Any], Any]:
                     f"{wrong[0]} is for a list of entrants; name one, or leave the option out to "
                     f"ask about the tournament in {file}"
                 )
-            return under_way(file=file, at=_moment(at, file), **{name: rest[name] for name in own})
+            asked = {name: rest[name] for name in (*own, *_FACES)}
+            return shown(file=file, at=_moment(at, file), **asked)
 
         return with_options(
             update_wrapper(run, command),

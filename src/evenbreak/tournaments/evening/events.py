@@ -5,12 +5,14 @@ An event is a frozen value; `as_dict` and `event_of` turn it into plain data and
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any, TypeAlias
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot
 
 
 @dataclass(frozen=True)
@@ -20,7 +22,8 @@ class Plan:
     Parameters
     ----------
     form
-        double, single, pods, consolation, groups, round-robin, swiss or king-of-the-hill.
+        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, or the
+        format of a bracket from another program, in words.
     final, drops
         as in `double_elimination`.
     qualifiers
@@ -47,6 +50,10 @@ class Plan:
         how many tables there are.
     discipline
         8-ball, 9-ball or 10-ball: how long matches take.
+    layout
+        the matches of a bracket from another program, in place of those of a format.
+    by_match
+        the races of single matches, by name.
     """
 
     form: str
@@ -69,6 +76,8 @@ class Plan:
     groups: int | None = None
     pod_size: int = 8
     rounds: int | None = None
+    layout: tuple[Draft, ...] = ()
+    by_match: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -243,6 +252,7 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
             plan = dict(values["plan"])
             if plan.get("chart") is not None:
                 plan["chart"] = Chart(**plan["chart"])
+            plan["layout"] = tuple(_draft(*one) for one in plan.get("layout", ()))
             return Opened(Plan(**plan), entrants)
         if kind == "late":
             return Late(Entrant(**values["entrant"]), values["line"])
@@ -251,3 +261,10 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
         return made
     except (AttributeError, KeyError, TypeError) as error:
         raise InputError(f"{kind!r} with {data!r} is not an event of a tournament") from error
+
+
+def _draft(name: str, side: str, number: int, slots: Sequence[Any]) -> Draft:
+    def slot(one: Any) -> DraftSlot:
+        return one if one is None or isinstance(one, int) else Source(*one)
+
+    return Draft(name, side, number, (slot(slots[0]), slot(slots[1])))

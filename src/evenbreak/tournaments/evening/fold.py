@@ -25,6 +25,7 @@ from evenbreak.tournaments.brackets.knockout import (
     king_of_the_hill,
     single_elimination,
 )
+from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.brackets.swiss import swiss_bracket
 from evenbreak.tournaments.evening.events import (
@@ -348,6 +349,8 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
     >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
     (('W1.1', 0),)
     """
+    if plan.layout:
+        return laid_out(plan.form, order, plan.layout)
     pattern: Any = plan.drops
     final: Any = plan.final
     match plan.form:
@@ -390,6 +393,6 @@ def races_of(plan: Plan) -> Races:
     if plan.chart is not None:
         return Races(plan.chart)
     if not plan.handicapped:
-        return Races(plan.race, plan.losers_race, plan.final_race)
+        return Races(plan.race, plan.losers_race, plan.final_race, plan.by_match)
     losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
     return Races(Fairest(plan.race), losers, last)
