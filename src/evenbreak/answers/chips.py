@@ -22,6 +22,7 @@ from evenbreak.tournaments.chips.chip_fairness import ChipFairness, chip_fairnes
 from evenbreak.tournaments.chips.endgame import heads_up, last_players
 from evenbreak.tournaments.chips.play import play_chips
 from evenbreak.tournaments.chips.racks import rack_chances
+from evenbreak.tournaments.odds.fairness import upper_half
 
 _FIELD = 16  # players of a made-up field
 _SHOWN = 3  # places that everybody sees
@@ -262,8 +263,7 @@ def _chart_of(ratings: Floats, found: ChipFairness, starts: Sequence[float]) -> 
 
 def _favour_words(field: ChipField, found: ChipFairness) -> str:
     title, order = found.odds.title, np.argsort(-field.ratings, kind="stable")
-    half = len(order) // 2
-    upper = float(title[order[:half]].sum() + (0.5 * title[order[half]] if len(order) % 2 else 0.0))
+    upper = upper_half(field.ratings, title)
     if abs(upper - 0.5) < 0.03:
         verdict = "favours neither the stronger nor the weaker half of the field"
     else:

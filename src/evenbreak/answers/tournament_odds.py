@@ -10,6 +10,7 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
+from evenbreak.answers.tournament_handicap import fairer_races, favours, favours_words
 from evenbreak.answers.tournament_solved import solved
 from evenbreak.answers.wording import chance, count_of, decimals, percent
 from evenbreak.arrays import Floats
@@ -27,6 +28,7 @@ def tournament_odds_answer(
     sure: bool = False,
     walkovers: float = 0.0,
     prizes: Sequence[float] = (),
+    fairest: bool = False,
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
@@ -43,6 +45,8 @@ def tournament_odds_answer(
         the chance that a match is a walkover.
     prizes
         the money for each place, for each player's average prize.
+    fairest
+        whether to find the races by side that make a handicapped tournament fairest.
     seed
         of what has to be sampled.
     warnings
@@ -76,8 +80,14 @@ def tournament_odds_answer(
             *quantities,
         ]
         words += f" {_matches_words(odds, rematches)}"
-    table = odds_table(tournament.ratings, plug_in, odds, prizes)
+    handicapped = not isinstance(tournament.races.race, int)
+    if handicapped:
+        words += f"\n{favours_words(tournament.ratings, odds)}"
+        quantities += favours(tournament.ratings, odds)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes, shares=handicapped)
     parts: list[Part] = [words, Quantities(quantities), table]
+    if fairest:
+        parts += fairer_races(tournament)
     unrated = tournament.unrated_words(spread=not sure)
     how = _how_words(tournament, plug_in, odds, walkovers)
     parts += filter(None, [tournament.byes, unrated, how])
@@ -90,7 +100,12 @@ def tournament_odds_answer(
 
 
 def odds_table(
-    ratings: Floats, plug_in: PlaceOdds, odds: PlaceOdds, prizes: Sequence[float] = ()
+    ratings: Floats,
+    plug_in: PlaceOdds,
+    odds: PlaceOdds,
+    prizes: Sequence[float] = (),
+    *,
+    shares: bool = False,
 ) -> Table:
     """Return each player's chance of each place, beside those that take the ratings as right.
 
@@ -103,6 +118,8 @@ def odds_table(
         if they are not averaged.
     prizes
         the money for each place.
+    shares
+        whether to say how many times an equal share the title odds are.
     """
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
@@ -124,6 +141,10 @@ def odds_table(
         columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
         for k in seats:
             rows[k].append(float(odds.error[k, first]))
+    if shares:
+        columns.append(Column("times_equal_share", "times an\nequal share", decimals(2)))
+        for k in seats:
+            rows[k].append(float(len(seats) * odds.title[k]))
     if prizes:
         columns.append(Column("prize_mean", "prize,\naverage", decimals(2)))
         for k, prize in enumerate(odds.expected_prize(prizes).tolist()):

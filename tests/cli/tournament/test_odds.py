@@ -136,6 +136,21 @@ def test_qualifiers_drawn_later(odds):
     assert drawn["exact"]
 
 
+def test_the_handicap_of_a_whole_tournament(odds):
+    even = odds("--race", "7", *FARGO)
+    assert "p_title_stronger_half" not in even
+    fair = odds("--race-to", "7", "--losers-race", "5", *FARGO, "--fairest")
+    assert 0.45 < fair["p_title_stronger_half"] < 0.55
+    first = fair["players"][0]
+    assert first["times_equal_share"] == pytest.approx(8 * first["p_title"])
+    today, best, *_ = fair["fairer_races"]
+    assert today["race"] == "to 7"
+    assert best["unfairness"] <= today["unfairness"] == pytest.approx(fair["unfairness"])
+    assert best["games_mean"] <= 1.02 * today["games_mean"]
+    hot = odds("--chart", "fargo_r6_hot", *FARGO)
+    assert hot["p_title_stronger_half"] > 0.6
+
+
 def test_swiss(odds):
     pytest.importorskip("caissify_pairings", reason="needs the extra 'swiss'")
     answer = odds("--race", "5", *FARGO, "--format", "swiss", "--rounds", "4")
@@ -148,6 +163,7 @@ def test_swiss(odds):
     ("words", "named"),
     [
         ((), "--race"),
+        (("--race", "5", "--fairest"), "--fairest"),
         (("--race", "5", "--qualifiers", "3"), "--qualifiers"),
         (("--race", "5", "--format", "groups", "--drops", "usual"), "--drops"),
         (("--race", "5", "--placement", "redraw"), "--placement"),
