@@ -21,10 +21,10 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.races import Fairest, Race
 from evenbreak.tournaments.odds.title import PlaceOdds
 
-_EVEN = 0.02  # a half of the field that is favoured by less than this is not
+_EVEN = 0.03  # a half of the field that is favoured by less than this is not
 _REACH = 2  # how many games longer or shorter a race may be
 _OTHERWISE = (3, 5, 7, 9, 11)  # games of the races that are tried in place of a chart
-_MORE_GAMES = 1.02  # than today's the fairer tournaments may take
+_GAMES = (0.85, 1.02)  # the games of the fairer tournaments, as shares of today's
 _SHOWN = 5
 
 
@@ -60,7 +60,7 @@ def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
 def fairer_races(tournament: Tournament) -> list[Part]:
     """Return today's races and those by side that make the tournament fairest.
 
-    They take as many games on average, or hardly more; the ratings are taken as right.
+    They take about as many games on average; the ratings are taken as right.
 
     Raises
     ------
@@ -82,9 +82,10 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         _lengths(races.race),
         _lengths(races.losers or races.race) if sides & {"losers", "consolation"} else None,
         _lengths(races.final or races.race) if "final" in sides else None,
-        most_games=_MORE_GAMES * today.games_mean,
+        most_games=_GAMES[1] * today.games_mean,
         **asked,
     )
+    found = [one for one in found if one.games_mean >= _GAMES[0] * today.games_mean]
     columns = [
         Column("race", "races", left=True),
         Column("losers_race", "losers'\nside", left=True),
@@ -99,7 +100,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         table,
         "Unfairness is 0 if everybody has the same title odds, and 1 if they are off by an equal "
         "share on average (root mean square). The stronger player needs the games in the table, "
-        "the weaker as many as is fairest; the tournaments take hardly more games than today's.",
+        "the weaker as many as is fairest.",
     ]
 
 
