@@ -297,7 +297,7 @@ def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
         times = None if title is None else len(place) * title
         rows.append([_start(row), row.chips, int(there.sum()), title, times])
     columns = [
-        Column("rating_from", "rating\nfrom", lambda start: f"{start:g}"),
+        Column("band_from", "rating\nfrom", lambda start: f"{start:g}"),
         Column("chips", "chips"),
         Column("players", "players"),
         Column("p_title", "title,\neach", share),

@@ -45,13 +45,14 @@ def test_odds_from_the_start_and_with_three_left(chips):
 
 
 def test_a_designed_chart_is_fairer_and_can_be_read(chips, tmp_path):
-    designed = chips("design", "--csv")
+    designed = chips("design", "entrants.csv", "--bands", "400,480,600", "--csv")
     (tmp_path / "ours.csv").write_text(designed.stdout)
-    ours, hoboken = (read(chips("audit", name, "--json")) for name in ("ours.csv", "hoboken"))
+    ours, hoboken = (
+        read(chips("audit", name, "--entrants", "entrants.csv", "--json"))
+        for name in ("ours.csv", "hoboken")
+    )
     assert ours["spread"] < 0.5 * hoboken["spread"]
     assert hoboken["rows"][0]["times_equal_share"] > 2.0
-    bands = read(chips("design", "entrants.csv", "--bands", "400,600", "--json"))
-    assert len(bands["chart"]) <= 3
 
 
 @pytest.mark.parametrize(
