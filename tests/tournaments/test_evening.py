@@ -26,6 +26,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
+from evenbreak.tournaments.odds.races import Fairest
 
 AT = "2025-03-01T19:30:00"
 
@@ -161,6 +162,10 @@ class Night(RuleBasedStateMachine):
             self.add(moves.drop(self.state, name))
             assert not any(name in self.state.pair(n) for n in self.state.standing.to_play)
 
+    @rule(tables=st.integers(4, 6), race=st.none() | st.just(5))
+    def change(self, tables: int, race: int | None) -> None:
+        self.add(moves.change(self.state, tables=tables, race=race))
+
     @rule()
     def late(self) -> None:
         self.newcomers += 1
@@ -242,6 +247,25 @@ def test_a_match_stands_only_when_those_before_it_do() -> None:
     events.append(Event(AT, moves.correct(evening(events), "W1.1", (0, 5))))
     with pytest.raises(InputError, match=r"settle W2\.1 first"):
         stand(evening(events), "W3.1")
+
+
+@pytest.mark.parametrize("handicapped", [False, True])
+def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> None:
+    plan = Plan("double", 5, scale="fargo", handicapped=handicapped)
+    events = [Event(AT, Opened(plan, tuple(Entrant(name, 500.0) for name in "ABCD")))]
+    events.append(Event(AT, moves.draw(evening(events), np.random.default_rng(1))))
+    events = played(events, W1_1=(5, 0))
+    events.append(Event(AT, moves.change(evening(events), race=4, losers_race=3, tables=2)))
+    state = evening(events)
+    assert state.plan.tables == 2
+    assert moves.correct(state, "W1.1", (5, 1)).score == (5, 1)
+    assert state.needed("W1.2", state.pair("W1.2")) == (4, 4)
+    assert state.races.of(state.bracket.match("L1.1")) == (Fairest(3) if handicapped else 3)
+    events.append(Event(AT, moves.call(state, "W1.2", 2)))
+    with pytest.raises(InputError, match="table 2"):
+        moves.change(evening(events), tables=1)
+    with pytest.raises(InputError, match="--tables"):
+        moves.change(evening(events))
 
 
 def test_the_ties_of_a_round_robin_are_broken_by_games_and_then_by_lot() -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from evenbreak.answers.tournament import slot_words
+from evenbreak.answers.tournament import slot_words, unrated_words
 from evenbreak.answers.tournament_night import waits_for
 from evenbreak.answers.wording import some_of
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Event,
@@ -120,6 +121,14 @@ def forfeited(before: Evening, after: Evening) -> list[str]:
 
 def entry_words(state: Evening, name: str) -> str:
     """Return in words where a late player plays first."""
+    entrant = state.entrants[name]
+    plan = state.plan
+    if (entrant.rating, entrant.standard_error) == (plan.starter, plan.starter_error):
+        return f"{_entered(state, name)} {unrated_words([name], plan.starter, plan.starter_error)}"
+    return _entered(state, name)
+
+
+def _entered(state: Evening, name: str) -> str:
     if not state.drawn:
         return f"{name} has entered."
     seat = state.order.index(name)
@@ -166,6 +175,8 @@ def undone_words(what: What) -> str:
         case LaterDraw(stage=stage):
             round_of = stage != KNOCK_OUT
             words = f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
+        case Changed():
+            words = "the change of tables or races"
         case Late():
             words = f"the entry of {what.entrant.name}"
         case Dropped():

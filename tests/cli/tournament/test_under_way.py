@@ -5,9 +5,9 @@ import json
 
 import pytest
 
-from places import TESTS
+from places import ROOT
 
-SAVED = TESTS / "files" / "saved"
+SAVED = ROOT / "tests" / "files" / "saved"
 ENTRANTS = "player,rating,scale\nAnn,640,fargo\nBo,600,fargo\nCy,,fargo\nDi,520,fargo\n"
 
 

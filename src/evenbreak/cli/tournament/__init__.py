@@ -15,6 +15,7 @@ COMMANDS = {
     "score": Entry("tournament.score", "Enter the score of a match in play."),
     "correct": Entry("tournament.correct", "Correct the result of a match."),
     "stand": Entry("tournament.stand", "Let a match stand that the wrong player has played."),
+    "change": Entry("tournament.change", "Change the tables, or the races to come."),
     "undo": Entry("tournament.undo", "Take back what happened last."),
     "late": Entry("tournament.late", "Let a late player in."),
     "drop": Entry("tournament.drop", "Let a player go home."),

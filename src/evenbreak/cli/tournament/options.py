@@ -21,7 +21,8 @@ from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.events import Plan
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of, races_of
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of
+from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament

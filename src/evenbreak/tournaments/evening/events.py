@@ -195,12 +195,32 @@ class LaterDraw:
 
 
 @dataclass(frozen=True)
+class Changed:
+    """Other tables or races from now on, in the matches that have not begun; None: as before."""
+
+    tables: int | None = None
+    race: int | None = None
+    losers_race: int | None = None
+    final_race: int | None = None
+
+
+@dataclass(frozen=True)
 class Undone:
     """The last event that has not been undone yet is undone."""
 
 
 What: TypeAlias = (
-    Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | LaterDraw | Undone
+    Opened
+    | Drawn
+    | Late
+    | Dropped
+    | Called
+    | Scored
+    | Result
+    | Ranked
+    | Changed
+    | LaterDraw
+    | Undone
 )
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
@@ -212,6 +232,7 @@ KINDS: dict[str, type[What]] = {
     "result": Result,
     "ranked": Ranked,
     "later draw": LaterDraw,
+    "changed": Changed,
     "undone": Undone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}

@@ -30,6 +30,7 @@ from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.brackets.swiss import swiss_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Entrant,
@@ -44,7 +45,8 @@ from evenbreak.tournaments.evening.events import (
     Undone,
 )
 from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
-from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
+from evenbreak.tournaments.evening.races_of_plan import changed, races_of
+from evenbreak.tournaments.odds.races import Races, games_needed
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
 
@@ -261,6 +263,7 @@ def evening(events: Iterable[Event]) -> Evening:
     {'F': 'Bo'}
     """
     first, kept = _kept(events)
+    plan = first.plan
     entrants = {entrant.name: entrant for entrant in first.entrants}
     order: list[str] = []
     lines: list[int | None] | None = None
@@ -276,6 +279,11 @@ def evening(events: Iterable[Event]) -> Evening:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
                 calls[call.match] = OnTable(call, event.at)
+            case Changed() as change:
+                begun = {*records, *calls}
+                drawn_up = tuple(order), None if lines is None else tuple(lines)
+                bracket = bracket_of(plan, *drawn_up) if order else None
+                plan = changed(plan, change, bracket, begun)
             case Scored() as scored:
                 scores[scored.match] = LiveScore(scored, event.at)
             case Ranked() as tie:
@@ -295,7 +303,7 @@ def evening(events: Iterable[Event]) -> Evening:
                 else:
                     del entrants[name]
     return Evening(
-        first.plan,
+        plan,
         entrants,
         tuple(order),
         None if lines is None else tuple(lines),
@@ -382,17 +390,3 @@ def groups_of(plan: Plan, players: int) -> int:
     [2, 3, 4, 4]
     """
     return plan.groups or max(2, -(-players // 4))
-
-
-def races_of(plan: Plan) -> Races:
-    """Return the races of a plan.
-
-    >>> races_of(Plan("double", 7, losers_race=5)).losers
-    5
-    """
-    if plan.chart is not None:
-        return Races(plan.chart)
-    if not plan.handicapped:
-        return Races(plan.race, plan.losers_race, plan.final_race, plan.by_match)
-    losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
-    return Races(Fairest(plan.race), losers, last)

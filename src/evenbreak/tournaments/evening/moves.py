@@ -16,6 +16,7 @@ from evenbreak.tournaments.brackets.seeding import (
 )
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Entrant,
@@ -178,6 +179,27 @@ def call(state: Evening, match: str, table: int | None) -> Called:
         there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
         raise InputError(f"table {chosen} is taken by {there}")
     return Called(name, chosen, state.pair(name))
+
+
+def change(
+    state: Evening,
+    *,
+    tables: int | None = None,
+    race: int | None = None,
+    losers_race: int | None = None,
+    final_race: int | None = None,
+) -> Changed:
+    """Change the tables, or the races of the matches that have not begun."""
+    found = Changed(tables, race, losers_race, final_race)
+    if found == Changed():
+        raise InputError("nothing is changed; give --tables, --race, --losers-race or --final-race")
+    if state.plan.chart is not None and found != Changed(tables):
+        raise InputError("the races come from a chart, so only the tables can be changed")
+    if tables is not None and state.drawn:
+        taken = max((one.call.table for one in state.on_tables.values()), default=0)
+        if tables < taken:
+            raise InputError(f"a match is on table {taken}; end it before you close the table")
+    return found
 
 
 def undo(state: Evening) -> Undone:
