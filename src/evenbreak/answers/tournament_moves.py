@@ -40,8 +40,19 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
         return []
     result = event.what
     said = [f"{score_words(result)} in {result.match}."]
-    said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
+    if any(_leads_on(after, result.match)):
+        said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
     return [*said, *reopened(before, after, result.match)]
+
+
+def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
+    """Return whether a match decides a place, and whether it leads to another match."""
+    played = state.bracket.match(match)
+    slots = [slot for one in state.bracket.matches for slot in one.slots]
+    return (
+        played.winner_place is not None or played.loser_place is not None,
+        any(isinstance(slot, Source) and slot.match == match for slot in slots),
+    )
 
 
 def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:

@@ -89,7 +89,7 @@ def tournament_odds_answer(
     if fairest:
         parts += fairer_races(tournament)
     unrated = tournament.unrated_words(spread=not sure)
-    how = _how_words(tournament, plug_in, odds, walkovers)
+    how = how_words(plug_in, odds, walkovers, tournament.to_draw)
     parts += filter(None, [tournament.byes, unrated, how])
     return Answer(
         tournament.heading,
@@ -213,47 +213,41 @@ def _matches_words(odds: TitleOdds, rematches: float) -> str:
     return f"{text}."
 
 
-def _how_words(
-    tournament: Tournament, plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float
+def how_words(
+    plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float = 0.0, to_draw: str = ""
 ) -> str:
-    """Return how exact the odds are, and what is still to be drawn."""
-    how = how_words(plug_in, odds, walkovers)
-    match tournament.to_draw:
-        case "lines" if odds.exact or odds is not plug_in:
-            return f"These are the odds before the draw; every draw is equally likely. {how}"
-        case "lines":
-            return (
-                "These are the odds before the draw; every draw is equally likely. "
-                f"{odds.samples:,} draws were sampled and each of them calculated; other samples "
-                f"would move no title odds by more than about {_off(odds, title=True)}."
-            )
-        case "qualifiers":
-            return f"The qualifiers of the losers' side are still to be drawn. {how}"
-        case "rounds":
-            drawn = ", each time with other ratings" if odds is not plug_in else ""
-            return (
-                f"The rounds were paired and played {odds.samples:,} times{drawn}; other luck "
-                f"would move no title odds by more than about {_off(odds, title=True)}."
-            )
-    return how
-
-
-def how_words(plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float = 0.0) -> str:
-    """Return how exact the odds are, and what they assume."""
+    """Return how exact the odds are, what they assume, and what is still to be drawn."""
+    averaged = odds is not plug_in
+    samples, off = f"{odds.samples:,}", _off(odds)
+    title = _off(odds, title=True)
     lines = []
-    if odds is not plug_in:
+    if to_draw == "lines":
+        lines.append("These are the odds before the draw; every draw is equally likely.")
+    elif to_draw == "qualifiers":
+        lines.append("The qualifiers of the losers' side are still to be drawn.")
+    if to_draw == "rounds":
+        drawn = ", each time with other ratings" if averaged else ""
         lines.append(
-            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
-            f"by their standard errors; other draws would move no figure by more than about "
-            f"{_off(odds)}."
+            f"The rounds to come were paired and played {samples} times{drawn}; other luck would "
+            f"move no title odds by more than about {title}."
         )
-    elif not odds.exact:
+    elif averaged:
         lines.append(
-            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
-            f"exactly; other samples would move no figure by more than about {_off(odds)}."
+            f"The odds are averaged over {samples} draws of how far the ratings may be off, by "
+            f"their standard errors; other draws would move no figure by more than about {off}."
+        )
+    elif odds.exact:
+        lines.append("The odds are exact, if the ratings are right.")
+    elif to_draw == "lines":
+        lines.append(
+            f"{samples} draws were sampled and each of them calculated; other samples would move "
+            f"no title odds by more than about {title}."
         )
     else:
-        lines.append("The odds are exact, if the ratings are right.")
+        lines.append(
+            f"The first rounds were sampled {samples} times and the rest calculated exactly; "
+            f"other samples would move no figure by more than about {off}."
+        )
     if walkovers:
         lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
     return " ".join(lines)

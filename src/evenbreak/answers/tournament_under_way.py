@@ -20,6 +20,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace
 from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
@@ -62,12 +63,19 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
     if state.standing.to_play and (at_stake := _at_stake(outlook)).rows:
         parts.append(at_stake)
-    parts.append(how_words(sure, odds))
+    parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
     if odds is not sure and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
         )
     return Answer(heading(outlook, source), parts, csv=table)
+
+
+def _to_draw(state: Evening) -> str:
+    """Return what the odds take as still to be drawn."""
+    if stage_to_draw(state) is None:
+        return "rounds" if state.plan.form == "swiss" and state.standing.to_play else ""
+    return "rounds" if state.plan.form == "swiss" else "qualifiers"
 
 
 def _at_stake(outlook: Outlook) -> Table:

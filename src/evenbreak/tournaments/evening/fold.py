@@ -272,7 +272,6 @@ def evening(events: Iterable[Event]) -> Evening:
     calls: dict[str, OnTable] = {}
     scores: dict[str, LiveScore] = {}
     ties: dict[str, Ranked] = {}
-    later: dict[str, tuple[str | None, ...]] = {}
     for event in kept[1:]:
         match event.what:
             case Result() as result:
@@ -288,8 +287,6 @@ def evening(events: Iterable[Event]) -> Evening:
                 scores[scored.match] = LiveScore(scored, event.at)
             case Ranked() as tie:
                 ties[tie.group] = tie
-            case LaterDraw(stage=stage, order=pairs):
-                later[stage] = pairs
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
             case Late(entrant=entrant, line=line):
@@ -312,7 +309,7 @@ def evening(events: Iterable[Event]) -> Evening:
         calls,
         scores,
         ties,
-        later,
+        {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
     )
 
