@@ -138,7 +138,7 @@ ASKED = {
     "chips_odds": "chips odds data/demo_entrants.csv --left "
     "'Mei-Lin Oduya=2,Aiko Tanabe=5,Ruben Castellan=1'",
     "chips_audit": "chips audit hoboken",
-    "chips_design": "chips design data/demo_entrants.csv --bands 500,560,620 --most 8",
+    "chips_design": "chips design data/demo_entrants.csv --bands 560 --most 6",
     "tournament_time": "tournament time data/demo_entrants.csv --race 5 --tables 4 "
     "--discipline 9-ball",
     "tournament_time_of_day": "tournament time data/demo_entrants.csv --format single "

@@ -4,7 +4,9 @@ from .brackets.bracket import Match as Match
 from .brackets.bracket import Place as Place
 from .brackets.bracket import Source as Source
 from .brackets.double import double_elimination as double_elimination
+from .brackets.double import losers_qualifiers as losers_qualifiers
 from .brackets.double import pods as pods
+from .brackets.double import redrawn as redrawn
 from .brackets.groups import groups_then_knockout as groups_then_knockout
 from .brackets.groups import round_robin as round_robin
 from .brackets.knockout import consolation as consolation
@@ -56,6 +58,8 @@ from .odds.blind import blind_draw_odds as blind_draw_odds
 from .odds.fairness import Fairness as Fairness
 from .odds.fairness import fairest_races as fairest_races
 from .odds.fairness import tournament_fairness as tournament_fairness
+from .odds.fairness import unfairness as unfairness
+from .odds.fairness import upper_half as upper_half
 from .odds.leverage import Leverage as Leverage
 from .odds.leverage import leverages as leverages
 from .odds.meetings import Meeting as Meeting
@@ -74,4 +78,5 @@ from .odds.title import TitleOdds as TitleOdds
 from .odds.title import prizes as prizes
 from .odds.title import title_odds as title_odds
 from .odds.uncertain import UncertainOdds as UncertainOdds
+from .odds.uncertain import drawn_chances as drawn_chances
 from .odds.uncertain import over_ratings as over_ratings

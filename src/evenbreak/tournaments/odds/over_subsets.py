@@ -208,7 +208,7 @@ def _built(draft: _Draft, players: int) -> _Block | None:
     if comb(players, lines) * each > _MOST_WORK or base ** len(slots) > _MOST_CODES:
         return None
     there = np.zeros(base ** len(slots), dtype=bool)
-    for _, code in _splits(halves, lines):
+    for _, _, code in _splits(halves, lines):
         there[code] = True
     codes = np.flatnonzero(there)
     columns = [(codes // base**k % base).astype(np.int16) for k in range(len(slots))]
@@ -221,21 +221,30 @@ def _built(draft: _Draft, players: int) -> _Block | None:
     return _Block(lines, halves, codes, tuple(steps), tuple(draft.wins), steps[-1].columns)
 
 
-def _splits(halves: tuple[_Block, ...], lines: int) -> Iterator[tuple[tuple[int, ...], Ints]]:
-    """Yield each way to split the players, and the code of each joint state in it."""
+def _splits(halves: tuple[_Block, ...], lines: int) -> Iterator[tuple[Ints, Ints, Ints]]:
+    """Yield ways to split the players, some at a time, and the codes of all joint states.
+
+    The positions in the first half and in the second, shape (ways, lines of the half), and the
+    codes, shape (ways, joint states).
+    """
     base = lines + 1
-    for way in combinations(range(lines), halves[0].lines):
-        rest = tuple(k for k in range(lines) if k not in way)
-        code = np.zeros(1, dtype=np.int64)
+    states = int(np.prod([half.states for half in halves]))
+    at_once = max(1, _CELLS // states)
+    drawn = _subsets(lines, halves[0].lines)
+    rest = _subsets(lines, lines - halves[0].lines)[::-1]  # of each way what is left
+    for start in range(0, len(drawn), at_once):
+        parts = drawn[start : start + at_once], rest[start : start + at_once]
+        code = np.zeros((len(parts[0]), 1), dtype=np.int64)
         power = 1
-        for half, drawn in zip(halves, (way, rest), strict=False):
-            where = np.array([*drawn, lines])  # whoever is nobody stays nobody
-            own = np.zeros(half.states, dtype=np.int64)
+        for half, part in zip(halves, parts, strict=False):
+            nobody = np.full((len(part), 1), lines)  # whoever is nobody stays nobody
+            where = np.concatenate([part, nobody], axis=1)
+            own = np.zeros((len(part), half.states), dtype=np.int64)
             for column in half.columns:
-                own += where[column] * power
+                own += where[:, column] * power
                 power *= base
-            code = np.add.outer(code, own).ravel()
-        yield way, code
+            code = (code[:, :, None] + own[:, None, :]).reshape(len(part), -1)
+        yield *parts, code
 
 
 class _Program:
@@ -277,18 +286,28 @@ class _Program:
     def _joined(self, block: _Block, members: Ints) -> Floats:
         """Return the chance of each joint state before the first match, for some sets."""
         bits = 1 << members
-        everybody = bits.sum(axis=1)
         mass = np.zeros((len(block.codes), len(members)))
-        ways = 0
-        for way, code in _splits(block.halves, block.lines):
-            drawn = bits[:, way].sum(axis=1)
-            product = np.ones((1, len(members)))
-            for half, chosen in zip(block.halves, (drawn, everybody - drawn), strict=False):
-                law = self.tables[half][:, _place_of(self.players, half.lines)[chosen]]
-                product = (product[:, None] * law).reshape(-1, len(members))
-            mass[block.place_of[code]] += product
-            ways += 1
-        return mass / ways
+        for *parts, code in _splits(block.halves, block.lines):
+            if len(members) == 1:  # all ways at once
+                product = np.ones((len(code), 1))
+                for half, part in zip(block.halves, parts, strict=False):
+                    law = self._laws(half, bits[0, part].sum(axis=1)).T
+                    product = (product[:, :, None] * law[:, None, :]).reshape(len(code), -1)
+                sums = np.bincount(code.ravel(), product.ravel(), len(block.place_of))
+                mass[:, 0] += sums[block.codes]
+                continue
+            for way, states in enumerate(code):
+                product = np.ones((1, len(members)))
+                for half, part in zip(block.halves, parts, strict=False):
+                    law = self._laws(half, bits[:, part[way]].sum(axis=1))
+                    product = (product[:, None] * law).reshape(-1, len(members))
+                mass[block.place_of[states]] += product
+        return mass / comb(block.lines, block.halves[0].lines)
+
+    def _laws(self, half: _Block, drawn: Ints) -> Floats:
+        """Return the chances of the states of a block for sets given by their bits."""
+        law: Floats = self.tables[half][:, _place_of(self.players, half.lines)[drawn]]
+        return law
 
 
 def _meeting(joint: Floats, players: int) -> Meeting:
@@ -301,7 +320,8 @@ def _meeting(joint: Floats, players: int) -> Meeting:
 @cache
 def _subsets(players: int, size: int) -> Ints:
     """Return all sets of so many players, a row each, ascending."""
-    return np.array(list(combinations(range(players), size)), dtype=np.int64)
+    found = np.array(list(combinations(range(players), size)), dtype=np.int64)
+    return found.reshape(-1, size)
 
 
 @cache
