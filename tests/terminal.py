@@ -1,7 +1,7 @@
 """A command run on a terminal, as a person would, and what the screen then shows.
 
-Each is forked from a process that has loaded numpy and the like already, which takes a small part
-of the time of a new start.
+Each is forked from a process that has loaded numpy, all of evenbreak and the like already, which
+takes a small part of the time of a new start.
 """
 
 import multiprocessing
@@ -17,9 +17,17 @@ from pathlib import Path
 
 import pytest
 
+from places import SRC
+
 LOADED = [
-    *("evenbreak.cli.program", "jinja2", "networkx", "numpy", "pandas", "rich.console"),
-    *("scipy.optimize", "scipy.sparse.linalg", "scipy.special", "scipy.stats"),
+    *("jinja2", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
+    *("matplotlib.backends.backend_svg", "matplotlib.figure", "networkx", "numpy", "pandas"),
+    *("rich.console", "scipy.optimize", "scipy.sparse.linalg", "scipy.special", "scipy.stats"),
+    *(
+        ".".join(module.relative_to(SRC.parent).with_suffix("").parts)
+        for module in sorted(SRC.rglob("*.py"))
+        if not module.name.startswith("__")
+    ),
 ]
 FOR_A_SHELL = re.compile(r"[|<>;&$]|^(?!evenbreak )")
 LINES_AND_COLUMNS = struct.pack("HHHH", 40, 100, 0, 0)

@@ -26,7 +26,8 @@ class Checkout:
 
     def __init__(self, place: Path) -> None:
         self.place = place
-        unwanted = shutil.ignore_patterns("__pycache__")
+        # What is compiled already is taken along, but for what others are just writing.
+        unwanted = shutil.ignore_patterns("*.pyc.*")
         for folder in ("src", "tests"):
             shutil.copytree(ROOT / folder, place / folder, ignore=unwanted)
         shutil.copy(ROOT / "pyproject.toml", place)

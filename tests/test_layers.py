@@ -73,9 +73,22 @@ ROOMS = {
 }
 
 
+def statements(tree: ast.AST, *, for_types: bool = True) -> Iterator[ast.AST]:
+    """Yield all statements, the inner ones too, with or without those for type checking alone."""
+    todo = [tree]
+    while todo:
+        node = todo.pop()
+        if isinstance(node, ast.If) and not for_types and ast.unparse(node.test) == "TYPE_CHECKING":
+            continue
+        yield node
+        for name in ("body", "orelse", "handlers", "finalbody", "cases"):
+            inner = getattr(node, name, None)
+            todo += inner if isinstance(inner, list) else ()
+
+
 def own_imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[tuple[int, str]]:
     """Yield line and room for every import from the package itself; `package` resolves dots."""
-    for node in ast.walk(tree):
+    for node in statements(tree):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 parts = alias.name.split(".")
@@ -151,12 +164,7 @@ def imports_between(modules: dict[str, ast.Module]) -> nx.DiGraph:
     """Return who imports whom, within functions too, but not for type checking alone."""
     arrows = nx.DiGraph()
     for name, tree in modules.items():
-        todo: list[ast.AST] = [tree]
-        while todo:
-            node = todo.pop()
-            if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-                continue
-            todo += ast.iter_child_nodes(node)
+        for node in statements(tree, for_types=False):
             if isinstance(node, ast.Import):
                 arrows.add_edges_from((name, alias.name) for alias in node.names)
             elif isinstance(node, ast.ImportFrom) and node.module:

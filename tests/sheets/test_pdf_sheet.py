@@ -159,7 +159,7 @@ UNUSUAL_NAMES = [
     ("season", "options"),
     [
         *((league(10, name), {}) for name in UNUSUAL_NAMES),
-        (league(14, "W" * 60 + " {}"), {"offered": OfferedRaces(race_to=120)}),
+        (league(7, "W" * 60 + " {}"), {"offered": OfferedRaces(race_to=120)}),
         (league(24), {"source": "a file with a very long name " * 9 + ".csv"}),
         (league(2), {"offered": OfferedRaces(race_to=1000)}),
         (league(3), {"scale": 1e6}),

@@ -20,6 +20,7 @@ NAMES = {
     "team_sd": "teams",
     "division_sd": "divisions",
     "half_life": "half-life",
+    "brought_sd": "ratings brought along",
 }
 """What each thing that a search may add is called."""
 
@@ -34,6 +35,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     lack is assumed to be made up after 50 games.
     """
     levels, points = ratings.levels, ratings.scale.points
+    if levels.beginning is not None:
+        yield from _beginning_words(ratings)
     if levels.newcomers:
         below = ratings.newcomer
         side = "below" if below > 0 else "above"
@@ -54,6 +57,25 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         if groups:
             ends = [groups[0], groups[-1]]
             yield f"{kind.capitalize()}s differ: {', and '.join(map(_group_words, ends))}."
+
+
+def _beginning_words(ratings: Ratings) -> Iterator[str]:
+    """Yield how many players bring a rating along, and how far off it is taken to be."""
+    beginning, off = ratings.levels.beginning, ratings.levels.brought_sd
+    if beginning is None:
+        return
+    known = len(set(beginning.players) & set(ratings.players))
+    if beginning.unknown_error and not off:
+        yield (
+            "The ratings that players bring along do not help to predict these results, and are "
+            "not used."
+        )
+        return
+    have = "brings a rating" if known == 1 else "bring a rating"
+    text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
+    if beginning.unknown_error:
+        text += f", which is taken to be off by {_ONE(ratings.scale.points(off))} points or so"
+    yield f"{text}."
 
 
 def _group_words(group: Group) -> str:

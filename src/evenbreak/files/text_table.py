@@ -94,10 +94,15 @@ class TextTable:
 
     def repeated(self) -> NDArray[np.bool_]:
         """Return which rows are the same as an earlier one in every column that was read."""
-        import pandas as pd
-
-        codes = {name: self.columns[name].codes for name in self.found}
-        return pd.DataFrame(codes).duplicated().to_numpy()
+        same, many = np.zeros(len(self), dtype=np.int64), 1
+        for distinct, codes in (self.columns[name] for name in self.found):
+            if many * len(distinct) > np.iinfo(np.int64).max:
+                numbers, same = np.unique(same, return_inverse=True)
+                many = len(numbers)
+            same, many = same * len(distinct) + codes, many * len(distinct)
+        again = np.ones(len(self), dtype=bool)
+        again[np.unique(same, return_index=True)[1]] = False
+        return again
 
     def without(self, lines: Collection[int]) -> TextTable:
         """Return the table without the rows in some lines, and without its problems there."""

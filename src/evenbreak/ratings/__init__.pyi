@@ -1,3 +1,4 @@
+from .beginning import Beginning as Beginning
 from .consistency import Problem as Problem
 from .consistency import find_problems as find_problems
 from .fit import fit as fit

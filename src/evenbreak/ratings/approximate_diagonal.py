@@ -39,9 +39,9 @@ squares, no such sum is then above .015, and every round comes 60 times nearer."
 _ROUNDS = 6
 
 
-def approximate_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
+def approximate_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
     """Return the diagonal of the inverse; parameters and errors of `inverse_diagonal`."""
-    if matrix.shape[0] >= _LARGE:
+    if matrix.shape[0] >= _LARGE and row_sum is not None:
         league = _Levelled.of(matrix, row_sum)
         for diagonal_of in (_by_cavities, _in_single_precision):
             diagonal = diagonal_of(league)

@@ -105,8 +105,19 @@ def bootstrap_ratio(
         draws them.
     """
     many = int(cluster.max()) + 1
+    return ratio_over(above, below, cluster, samples(many, rng))
+
+
+def samples(clusters: int, rng: np.random.Generator) -> Ints:
+    """Return how often each of some clusters is in each sample, shape (`REPLICAS`, clusters)."""
+    return rng.multinomial(clusters, np.full(clusters, 1.0 / clusters), size=REPLICAS)
+
+
+def ratio_over(above: Floats, below: Floats, cluster: Ints, drawn_clusters: Ints) -> Estimate:
+    """Return the same as `bootstrap_ratio`, over samples that have been drawn already."""
+    many = drawn_clusters.shape[1]
     sums = np.column_stack([np.bincount(cluster, part, many) for part in (above, below)])
-    drawn = rng.multinomial(many, np.full(many, 1.0 / many), size=REPLICAS) @ sums
+    drawn = drawn_clusters @ sums
     drawn = drawn[drawn[:, 1] > 0.0]
     ratio = drawn[:, 0] / drawn[:, 1]
     low, high = np.quantile(ratio, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])

@@ -69,7 +69,10 @@ class Curvature:
 
     @cached_property
     def matrix(self) -> sparse.csc_array:
-        """The ratings' block: shape (size, size), symmetric, its row sums all `precision`."""
+        """The ratings' block: shape (size, size), symmetric.
+
+        Its row sums are all `precision`, unless earlier results add to them.
+        """
         upper = self._upper(-self.weight)
         return sparse.csc_array(upper + upper.T + sparse.diags_array(self._diagonal))
 
@@ -80,7 +83,9 @@ class Curvature:
 
     @cached_property
     def _diagonal(self) -> Floats:
-        return sums_by_player(self.size, self.low, self.high, self.weight) + self.precision
+        low, high = (np.bincount(ends, self.weight, self.size) for ends in (self.low, self.high))
+        known = 0.0 if self.means is None else self.means.information
+        return np.asarray(low + high + self.precision + known)
 
     @cached_property
     def _across(self) -> Floats:
@@ -143,7 +148,9 @@ class Curvature:
 
     def variances(self) -> Floats:
         """Return the variance of each rating."""
-        variance = inverse_diagonal(self.matrix, self.precision) + (self.by_levels**2).sum(1)
+        even = self.means is None or self.means.known is None
+        own = inverse_diagonal(self.matrix, self.precision if even else None)
+        variance = own + (self.by_levels**2).sum(1)
         if self._with_border is not None and self.border_variance is not None:
             variance = variance + self._with_border[: self.size] ** 2 * self.border_variance
         return np.asarray(variance)

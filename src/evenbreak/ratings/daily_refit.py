@@ -62,6 +62,7 @@ class DailyRefit:
         self._low_won = np.zeros(len(pairs))
         self._precision = precision
         self._means = PriorMeans.none(players) if means is None else means
+        self._kept = 1.0
         self._point = np.concatenate([self._means.mean, np.zeros(len(self._means.level_sd))])
 
     @property
@@ -78,13 +79,15 @@ class DailyRefit:
 
     def begin_day(self, means: PriorMeans | None = None) -> None:
         """Refit, with other means of the priors if there are any; this ends what was learnt."""
-        self._means = self._means if means is None else means
+        self._means = self._means if means is None else means.faded(self._kept)
         self._find_mode()
 
     def fade(self, keep: float) -> None:
         """Reduce the weight of everything so far to a part of what it was."""
         self._games *= keep
         self._low_won *= keep
+        self._kept *= keep
+        self._means = self._means.faded(keep)
 
     def difference_variance(self, a: Ints, b: Ints) -> Floats:
         """Return the posterior variance of skill a - skill b, for each pair (Laplace)."""
@@ -113,7 +116,7 @@ class DailyRefit:
 
             return gradient, step
 
-        most = float(self._ends(self._games).max())
+        most = float((self._ends(self._games) + self._means.information).max())
         enough = tolerance(self._precision, most, GRADIENT)
         self._point = find_zero(self._point, gradient_at, enough).point
 
@@ -137,7 +140,7 @@ class DailyRefit:
         Its block of the players is the Laplacian of `weight` plus τI.
         """
         players, design = len(self.skill), self._means.design
-        diagonal = self._ends(weight) + self._precision
+        diagonal = self._ends(weight) + self._precision + self._means.information
         seen = weight > 0.0
         low, high = self._low[seen], self._high[seen]
         upper = sparse.csr_array((-weight[seen], (low, high)), shape=(players, players))

@@ -33,6 +33,13 @@ def day_of(value: Any) -> np.datetime64:
     return np.datetime64(day)
 
 
+def last_day(results: Results) -> np.datetime64 | None:
+    """Return the day of the last match, None if no match has a date."""
+    if results.date is None or np.isnat(results.date).all():
+        return None
+    return np.datetime64(results.date[~np.isnat(results.date)].max())
+
+
 def until(results: Results, as_of: np.datetime64) -> Bools:
     """Return which matches were played by the end of a day.
 

@@ -73,7 +73,8 @@ def fit(
     anchor
         the prior mean in points; or the ratings of named players: their component is
         shifted so that on average they have these ratings. None is the scale's centre,
-        which also holds for components without a named player.
+        which also holds for components without a named player, or, if players bring ratings
+        of this scale along, the mean of those.
     half_life
         days after which a match counts half; None: age does not matter.
     as_of
@@ -84,8 +85,8 @@ def fit(
         the racks whose breaker is known (see `count_broken`); None: the break
         does not matter.
     levels
-        how far newcomers are behind, and how much teams and divisions differ; None: every
-        player's prior has the same mean.
+        how far newcomers are behind, how much teams and divisions differ, and the ratings that
+        players bring along; None: every player's prior has the same mean.
 
     Raises
     ------
@@ -113,6 +114,8 @@ def fit(
     check_results(results)
     prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
+    if anchor is None and levels and levels.beginning is not None:
+        anchor = levels.beginning.anchor(results.players, scale, brought=levels.brought_sd > 0.0)
     centre, named = _anchors(anchor, scale, results.players)
     day = None if as_of is None else day_of(as_of)
     in_time = results if day is None else results.select(until(results, day))
@@ -126,6 +129,8 @@ def fit(
     advantage = break_precision = None
     break_games = 0.0
     means = means_of(in_time, levels) if levels else None
+    if means is not None and levels and levels.beginning is not None:
+        means = means.faded(levels.beginning.kept(half_life, in_time, day))
     players = len(results.players)
     if not len(won_only) and half_life is None and break_advantage is None and means is None:
         mode = find_mode(pairs, prior_sd**-2)
@@ -145,7 +150,7 @@ def fit(
         )
         advantage = float(mode.point[-1]) if break_games else None
     skill = mode.point[:players]
-    component = _components(played.graph)
+    component = _components(played.graph, None if means is None else means.information)
     rating = centre + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)
     return Ratings(
@@ -256,8 +261,16 @@ def _refuse_nonsense(scored: Results, won_only: Results) -> None:
             )
 
 
-def _components(graph: sparse.csr_array) -> Ints:
-    """Return the component of each player, numbered from 1, the largest first."""
+def _components(graph: sparse.csr_array, known: Floats | None) -> Ints:
+    """Return the component of each player, numbered from 1, the largest first.
+
+    Players about whom something is `known` are linked by the ratings that they bring along.
+    """
+    linked = np.flatnonzero(known) if known is not None else np.zeros(0, dtype=np.int64)
+    if len(linked) > 1:
+        ends = linked[:-1], linked[1:]
+        chain = sparse.csr_array((np.ones(len(linked) - 1), ends), shape=graph.shape)
+        graph = sparse.csr_array(graph + chain)
     number, label = connected_components(graph, directed=False)
     size = np.bincount(label, minlength=number)
     # Stable, so that of equal components the one with the earlier player comes first:

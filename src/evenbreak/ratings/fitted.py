@@ -211,6 +211,8 @@ class Ratings:
         >>> ratings.quasi_error.round(1), float(np.hypot(*ratings.quasi_error).round(1))
         (array([18.5, 18.5]), 26.2)
         """
+        if self._means is not None and self._means.known is not None:
+            return self._around_components()
         size = np.bincount(self.component)[self.component]
         alone = size == 1
         by_levels = self._curvature.by_levels
@@ -223,6 +225,22 @@ class Ratings:
         share = around_level * size / np.where(alone, 1, size - 1)
         variance = np.where(alone, self._variance, share)
         return np.sqrt(variance) * self.scale.points_per_log_odds
+
+    def _around_components(self) -> Floats:
+        """Return the quasi-standard errors where earlier results count: q = var(θ - mean) n/(n-1).
+
+        The level of a component is then not independent of where in it each player stands.
+        """
+        variance = self._variance.copy()
+        for label in range(1, int(self.component.max()) + 1):
+            members = self.component == label
+            size = int(members.sum())
+            if size > 1:
+                share = members / size
+                with_mean = self._curvature.times(share)
+                around = variance - 2.0 * with_mean + float(share @ with_mean)
+                variance[members] = np.maximum(around[members], 0.0) * size / (size - 1)
+        return np.asarray(np.sqrt(variance) * self.scale.points_per_log_odds)
 
     @property
     def expected(self) -> Floats:

@@ -8,11 +8,13 @@ a betting score: if the first way is right, the chance that the score ever reach
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 from scipy.special import logsumexp
 
-from evenbreak.ratings.calibration import Estimate, bootstrap_ratio
+from evenbreak.arrays import Ints
+from evenbreak.ratings.calibration import Estimate, ratio_over, samples
 from evenbreak.ratings.stretches import StretchLosses
 
 FEWEST_STRETCHES = 10
@@ -32,8 +34,9 @@ def gains_over(found: StretchLosses) -> tuple[Estimate, ...]:
     stretches resampled.
     """
     stretches = np.arange(len(found.losses))
+    drawn = _samples(len(stretches))
     return tuple(
-        bootstrap_ratio(saved, found.predicted, stretches, np.random.default_rng(SEED))
+        ratio_over(saved, found.predicted, stretches, drawn)
         for saved in (found.losses[:, :1] - found.losses[:, 1:]).T
     )
 
@@ -58,6 +61,11 @@ def is_clear(found: StretchLosses) -> bool:
     return any(_errors(one) > 2.576 for one in gains) or (
         score >= math.log(EVIDENCE) and _errors(best) > 1.282
     )
+
+
+@cache
+def _samples(stretches: int) -> Ints:
+    return samples(stretches, np.random.default_rng(SEED))
 
 
 def _errors(gain: Estimate) -> float:

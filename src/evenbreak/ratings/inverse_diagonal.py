@@ -24,7 +24,7 @@ _TRACE = 1e-100
 _NOTHING = np.zeros((0, 0))
 
 
-def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
+def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
     """Return the diagonal of the inverse of a diagonally dominant M-matrix.
 
     Parameters
@@ -32,7 +32,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float) -> Floats:
     matrix
         symmetric, positive on the diagonal, nowhere positive off it, shape (n, n).
     row_sum
-        what every row sums to, above zero.
+        what every row sums to, above zero; None if they differ.
 
     Returns
     -------

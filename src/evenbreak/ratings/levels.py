@@ -8,19 +8,24 @@ match, what a file says about each player, and makes the means of their priors o
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import math
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
+from evenbreak.ratings.beginning import Beginning, Known
 from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 
 SETTLED = 50.0
 """Games after which half of a newcomer's disadvantage is gone."""
+
+BROUGHT_SD = math.log(2.0) / 2.0
+"""How far off a rating that players bring along is taken to be, if nothing says it."""
 
 GROUPS = {"team": ("team_a", "team_b"), "division": ("division", "division")}
 """The columns that hold the group of player a and of player b."""
@@ -41,6 +46,11 @@ class Levels:
     team_sd, division_sd
         how far apart teams, or divisions, are on average (standard deviation); 0 where they
         do not matter.
+    brought_sd
+        how far off ratings are that players bring along, where these do not say it themselves
+        (standard deviation); 0: those ratings are not used.
+    beginning
+        the ratings that players bring along; None: there are none.
 
     Raises
     ------
@@ -48,22 +58,36 @@ class Levels:
         if a number is not finite, or a standard deviation is not in 0 to 100.
 
     >>> Levels(newcomers=0.4, team_sd=0.2)
-    Levels(newcomers=0.4, race=0.0, team_sd=0.2, division_sd=0.0)
+    Levels(newcomers=0.4, race=0.0, team_sd=0.2, division_sd=0.0, brought_sd=0.0)
     """
 
     newcomers: float = 0.0
     race: float = 0.0
     team_sd: float = 0.0
     division_sd: float = 0.0
+    brought_sd: float = 0.0
+    beginning: Beginning | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         for one in fields(self):
+            if one.name == "beginning":
+                continue
             low = 0.0 if one.name.endswith("_sd") else -100.0
             number(getattr(self, one.name), one.name, low=low, high=100.0)
 
     def __bool__(self) -> bool:
         """Return whether anything is known."""
-        return any(getattr(self, one.name) for one in fields(self))
+        return any(getattr(self, one.name) not in (0.0, None) for one in fields(self))
+
+
+def begun(beginning: Beginning | None) -> Levels:
+    """Return what is known where nothing is estimated: the ratings that players bring along.
+
+    Those that do not say how far off they may be are taken to be off by half of what doubles
+    the odds.
+    """
+    unknown = beginning is not None and beginning.unknown_error
+    return Levels(beginning=beginning, brought_sd=BROUGHT_SD if unknown else 0.0)
 
 
 def newness(games: Floats | Ints) -> Floats:
@@ -96,6 +120,10 @@ class Knowledge:
         self._sides = results.player_a, results.player_b
         self._games = games_of(results)
         self._behind = np.zeros(self._players)
+        self._known: Known | None = None
+        if levels.beginning is not None:
+            self._behind = levels.beginning.games_of(results.players)
+            self._known = levels.beginning.known(results.players, brought_sd=levels.brought_sd)
         self._stated = (stated or StatedStrength(results)) if levels.race else None
         self._groups = [
             _Groups(results, kind)
@@ -129,6 +157,7 @@ class Knowledge:
             np.hstack([np.zeros((self._players, 0)), *design]),
             np.concatenate([np.zeros(0), *sds]),
             tuple((one.kind, name) for one in self._groups for name in one.names),
+            self._known,
         )
         return whole.centred((self._behind > 0).astype(float))
 
@@ -158,13 +187,14 @@ class _Groups:
         return np.asarray(self._seen / np.maximum(total, 1.0))
 
 
-def known_levels(results: Results) -> tuple[str, ...]:
-    """Return the fields of `Levels` about which results say something."""
+def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[str, ...]:
+    """Return the fields of `Levels` about which results and a beginning say something."""
     says = {
         "race": has_handicaps(results),
         "division_sd": has_groups(results, "division"),
         "team_sd": has_groups(results, "team"),
         "newcomers": True,
+        "brought_sd": beginning is not None and beginning.unknown_error,
     }
     return tuple(name for name, one in says.items() if one)
 

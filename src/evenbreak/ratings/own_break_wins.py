@@ -52,15 +52,20 @@ class BreakWinsTerms(NamedTuple):
             log_count[row, :own] = match.log_count
         return cls(value, log_count)
 
-    def log_sums(self, advantage: float) -> tuple[Floats, Floats, Floats]:
-        """Return log Σ c(k) exp(β value) of each term, and its first two derivatives in β."""
+    def log_sums(self, advantage: float | Floats) -> tuple[Floats, Floats, Floats]:
+        """Return log Σ c(k) exp(β value) of each term, and its first two derivatives in β.
+
+        Several advantages give one row each.
+        """
+        beta = np.asarray(advantage, dtype=np.float64)[..., None, None]
         if not len(self.value):
-            return np.zeros(0), np.zeros(0), np.zeros(0)
-        terms = self.log_count + advantage * self.value
-        total = logsumexp(terms, axis=1)
-        share = np.exp(terms - total[:, None])
-        mean = (share * self.value).sum(axis=1)
-        spread = (share * (self.value - mean[:, None]) ** 2).sum(axis=1)
+            none = np.zeros((*np.shape(advantage), 0))
+            return none, none, none
+        terms = self.log_count + beta * self.value
+        total = logsumexp(terms, axis=-1)
+        share = np.exp(terms - total[..., None])
+        mean = (share * self.value).sum(axis=-1)
+        spread = (share * (self.value - mean[..., None]) ** 2).sum(axis=-1)
         return total, mean, spread
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
+from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
@@ -24,7 +25,7 @@ from evenbreak.ratings.gains import gains_over, is_clear
 from evenbreak.ratings.half_life import half_lives_for
 from evenbreak.ratings.levels import Levels, known_levels
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.stretches import StretchLosses, stretch_losses
+from evenbreak.ratings.stretches import Stretches, StretchLosses
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -39,6 +40,7 @@ FEWEST = 100
 """Games (or matches known by the winner alone) to predict before a width is chosen by them."""
 
 TRIED = {
+    "brought_sd": (0.1, 0.2, 0.4, 0.8),
     "race": (0.25, 0.5, 0.75, 1.0, 1.25),
     "division_sd": (0.1, 0.2, 0.4, 0.8),
     "team_sd": (0.1, 0.2, 0.4, 0.8),
@@ -130,6 +132,7 @@ def best_prior(
     *,
     widths: Sequence[float] = WIDTHS,
     half_life: float | Literal["best"] | None = "best",
+    beginning: Beginning | None = None,
     break_advantage: float | str | None = None,
     scale: Any = "npl",
     progress: Progress = lambda _done, _all: None,
@@ -152,6 +155,8 @@ def best_prior(
         the standard deviations to try, in natural log-odds.
     half_life
         'best' to choose it; else as for `fit`.
+    beginning
+        ratings that players bring along; None: there are none.
     break_advantage, scale
         as for `fit`; the scale only matters for a break advantage in points.
     progress
@@ -177,14 +182,14 @@ def best_prior(
     if not len(widths):
         raise InputError("widths is empty; give at least one standard deviation")
     tried = np.sort(np.asarray(widths, dtype=float))
-    more = {name: TRIED[name] for name in known_levels(results)}
+    more = {name: TRIED[name] for name in known_levels(results, beginning)}
     if half_life == "best":
         more["half_life"] = half_lives_for(results)
     way: dict[str, Any] = {
         "half_life": None if half_life == "best" else half_life,
         "break_advantage": break_advantage,
         "scale": scale,
-        "levels": Levels(),
+        "levels": Levels(beginning=beginning),
     }
     search = _Search(results, len(more) + 2, progress)
     choice = search.width(tried, way)
@@ -218,7 +223,7 @@ class _Search:
     """The steps of a search, each of which goes through the whole season once."""
 
     def __init__(self, results: Results, steps: int, progress: Progress) -> None:
-        self._results = results
+        self._season = Stretches(results)
         self._steps, self._done = steps, 0
         self._progress = progress
 
@@ -228,7 +233,7 @@ class _Search:
         def progress(done: int, stretches: int) -> None:
             self._progress(100 * self._done + 100 * done // stretches, 100 * steps)
 
-        found = stretch_losses(self._results, ways, progress=progress)
+        found = self._season.losses(ways, progress=progress)
         self._done += 1
         return found
 

@@ -11,11 +11,12 @@ one team correlated; kept as unknowns, levels are only further nodes of the grap
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from evenbreak.arrays import Floats
+from evenbreak.ratings.beginning import Known
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +33,15 @@ class PriorMeans:
         standard deviation of each level's own prior, which is about 0.
     names
         what each level is called, such as ('team', 'Cue Tips').
+    known
+        what earlier results say of the skills; None: nothing.
     """
 
     mean: Floats
     design: Floats
     level_sd: Floats
     names: tuple[tuple[str, str], ...] = ()
+    known: Known | None = None
 
     @classmethod
     def none(cls, players: int) -> PriorMeans:
@@ -70,7 +74,19 @@ class PriorMeans:
             self.design - share @ self.design,
             self.level_sd,
             self.names,
+            self.known,
         )
+
+    def faded(self, keep: float) -> PriorMeans:
+        """Return the same prior, with earlier results reduced to a part of their weight."""
+        if self.known is None or keep == 1.0:
+            return self
+        return replace(self, known=Known(*(keep * one for one in self.known)))
+
+    @property
+    def information(self) -> Floats:
+        """How much earlier results add to the precision of each skill."""
+        return np.zeros(len(self.mean)) if self.known is None else self.known.information
 
     def expected(self, level: Floats) -> Floats:
         """Return each player's mean, given the levels."""
@@ -82,9 +98,15 @@ class PriorMeans:
         `precision` is 1/σ².
         """
         miss = skill - self.expected(level)
-        return -0.5 * (precision * float(miss @ miss) + float(self.precision @ level**2))
+        prior = -0.5 * (precision * float(miss @ miss) + float(self.precision @ level**2))
+        if self.known is None:
+            return prior
+        return prior + float((self.known.pull - 0.5 * self.known.information * skill) @ skill)
 
     def slopes(self, skill: Floats, level: Floats, precision: float) -> tuple[Floats, Floats]:
         """Return the gradient of minus the log density, in the skills and in the levels."""
         pull = precision * (skill - self.expected(level))
-        return pull, self.precision * level - self.design.T @ pull
+        of_level = self.precision * level - self.design.T @ pull
+        if self.known is not None:
+            pull = pull + self.known.information * skill - self.known.pull
+        return pull, of_level

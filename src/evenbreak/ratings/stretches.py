@@ -15,12 +15,15 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.ratings.likelihood_terms import likelihood_terms
+from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.season_so_far import SeasonSoFar
 
 STRETCHES = 30
 """How many stretches a season is divided into, if it has as many days."""
+
+KEPT_UP_TO = 5_000
+"""Matches up to which a divided season is kept: it fills about as much memory as 100 of them."""
 
 
 class StretchLosses(NamedTuple):
@@ -73,23 +76,55 @@ def stretch_losses(
     >>> found.losses.shape, found.predicted, found.means.round(3)
     ((2, 2), array([11., 11.]), array([0.688, 0.66 ]))
     """
-    played, date = _played(results)
-    stretches = _stretches(date)
-    losses = np.zeros((len(stretches), len(ways)))
-    predicted = np.zeros(len(stretches))
-    breaks = any(way.get("break_advantage") is not None for way in ways)
-    for row, (first, last) in enumerate(stretches):
-        coming = played.select((date >= first) & (date <= last))
-        before = _with_schedule(played.select(date < first), coming)
+    return Stretches(results).losses(ways, progress=progress)
+
+
+class Stretches:
+    """A season to be predicted several times over, stretch by stretch.
+
+    Parameters
+    ----------
+    results
+        as for `stretch_losses`.
+    """
+
+    def __init__(self, results: Results) -> None:
+        self._played, self._date = _played(results)
+        self._ends = _stretches(self._date)
+        self._ready: dict[tuple[int, bool], tuple[SeasonSoFar, LikelihoodTerms]] = {}
+
+    def losses(
+        self,
+        ways: Sequence[Mapping[str, Any]],
+        *,
+        progress: Callable[[int, int], None] = lambda _done, _all: None,
+    ) -> StretchLosses:
+        """Predict each stretch in several ways; the parameters are those of `stretch_losses`."""
+        losses = np.zeros((len(self._ends), len(ways)))
+        predicted = np.zeros(len(self._ends))
+        breaks = any(way.get("break_advantage") is not None for way in ways)
+        for row in range(len(self._ends)):
+            season, terms = self._prepared(row, breaks=breaks)
+            predicted[row] = round(terms.amount)
+            skills, advantages = season.skills(ways)
+            for column, (skill, advantage) in enumerate(zip(skills, advantages, strict=True)):
+                losses[row, column] = -terms.log_likelihood(skill, advantage)
+            progress(row + 1, len(self._ends))
+        return StretchLosses(losses, predicted)
+
+    def _prepared(self, row: int, *, breaks: bool) -> tuple[SeasonSoFar, LikelihoodTerms]:
+        """Return the season before a stretch, and what was played in it."""
+        if (row, breaks) in self._ready:
+            return self._ready[row, breaks]
+        first, last = self._ends[row]
+        coming = self._played.select((self._date >= first) & (self._date <= last))
+        before = _with_schedule(self._played.select(self._date < first), coming)
         scored, won_only = coming.played().results, coming.won_only()
         weights = np.ones(len(scored)), np.ones(len(won_only))
-        terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
-        predicted[row] = round(terms.amount)
-        season = SeasonSoFar(before)
-        for column, way in enumerate(ways):
-            losses[row, column] = -terms.log_likelihood(*season.skills(**way))
-        progress(row + 1, len(stretches))
-    return StretchLosses(losses, predicted)
+        made = SeasonSoFar(before), likelihood_terms(scored, won_only, weights, breaks=breaks)
+        if len(self._played) <= KEPT_UP_TO:
+            self._ready[row, breaks] = made
+        return made
 
 
 def can_be_predicted(results: Results) -> bool:

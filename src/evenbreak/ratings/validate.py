@@ -18,6 +18,7 @@ from evenbreak.ratings.advantages import (
     first_column,
     side_advantage,
 )
+from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
@@ -25,7 +26,7 @@ from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
 from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
-from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.levels import Levels, begun
 from evenbreak.ratings.match_form import MatchForm, match_form
 from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
@@ -121,6 +122,7 @@ def validate(
     *,
     prior_sd: float | None = None,
     half_life: float | Literal["best"] | None = "best",
+    beginning: Beginning | None = None,
     seed: int | np.random.Generator = 1,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Validation:
@@ -136,6 +138,8 @@ def validate(
     half_life
         days after which a game counts half; None: games never age. 'best': chosen with the
         prior, or where that is given, games never age, and it is tested whether that is right.
+    beginning
+        ratings that players bring along; None: there are none.
     seed
         of the bootstrap and of the simulated seasons: a whole number, or a generator.
     progress
@@ -168,11 +172,12 @@ def validate(
         results,
         prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
         half_life=never,
+        levels=None if prior_sd is None else begun(beginning),
         progress=next(parts),
     )
     dated = results.select(~np.isnat(np.asarray(results.date)))
     if prior_sd is None:
-        choice = best_prior(dated, half_life=half_life, progress=next(parts))
+        choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=next(parts))
         half_lives = _tested(choice)
         if (choice.prior_sd, choice.half_life, choice.levels) != (PRIOR_SD, never, Levels()):
             walk = walk_forward(

@@ -121,7 +121,8 @@ def walk_forward(
     half_life
         days after which a game counts half; None: games never age.
     levels
-        how far newcomers are behind, and how much teams and divisions differ.
+        how far newcomers are behind, how much teams and divisions differ, and the ratings that
+        players bring along.
     progress
         called with how many dates are done, and of how many.
 
@@ -159,6 +160,8 @@ def walk_forward(
     levels = levels or Levels()
     knowledge = Knowledge(season, levels)
     league = DailyRefit(len(season.players), a, b, precision, knowledge.means())
+    if levels.beginning is not None:
+        league.fade(levels.beginning.kept(half_life, season, days[0]))
     difference, variance = np.zeros(len(season)), np.zeros(len(season))
     starts = np.searchsorted(date_of, np.arange(len(days) + 1))
     for day, (start, end) in enumerate(pairwise(starts)):

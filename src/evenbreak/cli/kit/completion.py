@@ -79,8 +79,10 @@ def players(ctx: click.Context, param: click.Parameter, incomplete: str) -> list
     """Return the players on the list that was named before, by any of their names."""
     names: Iterable[str] = ()
     for name in LISTS:
-        if isinstance(path := ctx.params.get(name), str) and path != "-":
-            names = _players_of(path)
+        given = ctx.params.get(name) or ()
+        paths = [path for path in ((given,) if isinstance(given, str) else given) if path != "-"]
+        if paths:
+            names = [player for path in paths for player in _players_of(path)]
             break
     typed = incomplete.casefold()
     return [

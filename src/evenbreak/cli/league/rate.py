@@ -27,6 +27,8 @@ FIT_ONLY = {
     "anchors": "--anchor",
     "prior": "--prior",
     "half_life": "--half-life",
+    "begin": "--begin",
+    "save": "--save",
     "as_of": "--as-of",
     "break_advantage": "--break-advantage",
     "pairs": "--pair",
@@ -38,6 +40,8 @@ EXAMPLES = """\b
 Examples:
   evenbreak rate season.csv --scale fargo
   evenbreak rate last.csv this.csv --half-life 180
+  evenbreak rate last.csv --save ratings.csv
+  evenbreak rate this.csv --begin ratings.csv
   evenbreak rate season.csv --prior 20 --half-life 180
   evenbreak rate season.csv --anchor "Ann Lee=95" --pair "Ann Lee" "Bo Diaz"
   evenbreak rate --system npl --roster last.csv tonight.csv
@@ -56,6 +60,11 @@ Examples:
     "who then have these ratings on average.  [default: the middle of the scale]",
 )
 @how_to_rate
+@click.option(
+    "--save",
+    metavar="RATINGS.csv",
+    help="Also write the ratings to this file, with which the next season can --begin.",
+)
 @click.option(
     "--break-advantage",
     metavar="POINTS|fit",
@@ -133,6 +142,7 @@ def _rate(
     anchors: Sequence[str],
     pairs: Sequence[tuple[str, str]],
     break_advantage: float | str | None,
+    save: str | None,
     **how: Any,
 ) -> Answer:
     from evenbreak.ratings.scale import scale_of
@@ -152,7 +162,20 @@ def _rate(
             "nothing; add break_format and first_break, with races or racks"
         )
     chosen = [_pair(ratings, pair) for pair in pairs]
+    if save is not None:
+        _save(save, file, ratings)
     return answers.rate_answer(file, ratings, choice, pairs=chosen, warnings=warnings)
+
+
+def _save(path: str, file: files.ResultsFile, ratings: Ratings) -> None:
+    """Write the ratings, with which the next season can begin."""
+    from evenbreak.cli.kit.terminal import write_file
+    from evenbreak.files.saved_ratings import saved_csv
+    from evenbreak.ratings.decay import last_day
+
+    day = ratings.as_of or last_day(file.results)
+    content = saved_csv(ratings, "" if day is None else str(day), ratings.levels.beginning)
+    write_file(path, content)
 
 
 def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.offered_races import OfferedRaces
     from evenbreak.files.date_cells import DateOrder
     from evenbreak.files.results import ResultsFile
+    from evenbreak.ratings.beginning import Beginning
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
 
@@ -90,8 +91,16 @@ half_life_option = click.option(
 )
 
 
+beginning_option = click.option(
+    "--begin",
+    metavar="RATINGS.csv",
+    help="Begin from these ratings: those that --save wrote after last season, or any list of "
+    "rated players, such as the ratings that they bring along from elsewhere.",
+)
+
+
 def how_to_rate(command: Command) -> Command:
-    """Add the options --prior, --half-life and --as-of."""
+    """Add the options --prior, --half-life, --begin and --as-of."""
     return with_options(
         command,
         click.option(
@@ -101,6 +110,7 @@ def how_to_rate(command: Command) -> Command:
             help="Rate as of this day, without later matches.  [default: the last date]",
         ),
         half_life_option,
+        beginning_option,
         prior_option,
     )
 
@@ -112,6 +122,7 @@ def rated(
     prior: float | str | None,
     half_life: float | str | None,
     as_of: str | None,
+    begin: str | None = None,
     anchor: float | dict[str, float] | None = None,
     break_advantage: float | str | None = None,
 ) -> tuple[Ratings, PriorChoice | None]:
@@ -124,14 +135,18 @@ def rated(
     """
     from evenbreak.errors import DataError
     from evenbreak.ratings.fit import PRIOR_SD, fit
+    from evenbreak.ratings.levels import begun
 
     days = None if half_life == "none" or half_life is None else float(half_life)
     choice = None
-    how: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": days}
+    beginning = None if begin is None else begin_from(begin, file, scale)
+    how: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": days, "levels": begun(beginning)}
     if isinstance(prior, float):
         how["prior_sd"] = prior_in_log_odds(prior, scale)
     else:
-        choice = _best_prior(file, scale, half_life, as_of, break_advantage, asked=prior == "best")
+        choice = _best_prior(
+            file, scale, half_life, as_of, break_advantage, beginning, asked=prior == "best"
+        )
     if choice is not None:
         how = {"prior_sd": choice.prior_sd, "half_life": choice.half_life, "levels": choice.levels}
     ratings = fit(
@@ -148,6 +163,16 @@ def rated(
             why = f"was played by {as_of}; give a later day to --as-of"
         raise DataError([f"{file.source}: no match in it {why}"])
     return ratings, choice
+
+
+def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
+    """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
+    from evenbreak.files.saved_ratings import read_saved
+
+    saved = read_saved(path, scale, file.results.players)
+    if not saved.found:
+        refuse(f"--begin {path}: none of its players is in {file.source}; check the names")
+    return saved.beginning
 
 
 def prior_in_log_odds(points: float, scale: Scale) -> float:
@@ -167,6 +192,7 @@ def _best_prior(
     half_life: float | str | None,
     as_of: str | None,
     break_advantage: float | str | None,
+    beginning: Beginning | None,
     *,
     asked: bool,
 ) -> PriorChoice | None:
@@ -185,6 +211,7 @@ def _best_prior(
         choice = best_prior(
             results,
             half_life=half_life_to_choose(half_life),
+            beginning=beginning,
             break_advantage=break_advantage,
             scale=scale,
             progress=progress,

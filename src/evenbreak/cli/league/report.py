@@ -13,6 +13,7 @@ import click
 from evenbreak import answers, files, sheets
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.sheet import MOST_ON_SHEET
+from evenbreak.answers.wording import listed
 from evenbreak.cli.kit.faces import faces, without_folders
 from evenbreak.cli.kit.options import (
     out_option,
@@ -63,7 +64,7 @@ class ReportCommand(click.Command):
 
 
 @click.command("report", cls=ReportCommand, epilog=EXAMPLES)
-@click.argument("results", metavar="RESULTS.csv")
+@click.argument("results", metavar="RESULTS.csv...", nargs=-1, required=True)
 @out_option(
     "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."
 )
@@ -92,12 +93,13 @@ class ReportCommand(click.Command):
 @click.option("--excel-csv", is_flag=True, help="Write the CSV files for Excel, with BOM and CRLF.")
 @faces(page=False, always_text=True)
 def command(
-    results: str,
+    results: tuple[str, ...],
     out: str,
     scale: Scale,
     prior: float | str | None,
     half_life: float | str | None,
     as_of: str | None,
+    begin: str | None,
     games: tuple[int, int] | None,
     race_to: int | None,
     players: tuple[str, ...],
@@ -115,7 +117,8 @@ def command(
     racks, event and forfeit; `evenbreak rate --help` names other ways. - reads standard
     input. The sheet gives the rating
     of each player and the race nearest to even for each pair, a race to 7 unless --games
-    or --race-to says otherwise, and holds all players, the strongest first. The sheet is printed
+    or --race-to says otherwise, and holds all players, the strongest first. Several files are
+    read as one. The sheet is printed
     here, and sheet.pdf is for the wall; --html adds a page to hand out, --excel a workbook.
     """
     offered = offered_races(games, race_to)
@@ -130,16 +133,17 @@ def command(
     from evenbreak.files.folder import check_folder
 
     check_folder(out)
-    say(f"Reading {'standard input' if results == '-' else results}")
+    named = ["standard input" if path == "-" else path for path in results]
+    say(f"Reading {listed(named)}")
     file, warnings = _read(results, reading)
     found = None
     if players_file is not None:
         found, file, more = _with_entrants(file, players_file)
         warnings = [*warnings, *more]
-        public = without_folders(more, players_file, results)
+        public = without_folders(more, players_file, *results)
         file = replace(file, warnings=(*file.warnings, *public))
     say(f"Rating {len(file.results.players):,} players")
-    ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of)
+    ratings, choice = rated(file, scale, prior=prior, half_life=half_life, as_of=as_of, begin=begin)
     if players:
         chosen = answers.find_players(ratings, _names(players, ratings.players), said="--players")
     elif found is not None:
@@ -161,11 +165,9 @@ def command(
     return replace(answer, warnings=[*warnings, *answer.warnings])
 
 
-def _read(results: str, reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[str]]:
+def _read(results: Sequence[str], reading: dict[str, Any]) -> tuple[ResultsFile, Sequence[str]]:
     """Return the results and the warnings about them; the file's own name no private folder."""
-    from evenbreak.files.results import read_results
-
-    file = read_results(results, **reading)
+    file = files.read_seasons(results, **reading)
     file = replace(file, warnings=(*file.warnings, *file.ties))
     aliases = reading["aliases"]
     if aliases is None:

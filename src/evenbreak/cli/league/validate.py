@@ -12,6 +12,8 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import results_options, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.league.rate_options import (
+    begin_from,
+    beginning_option,
     half_life_option,
     half_life_to_choose,
     prior_in_log_odds,
@@ -31,6 +33,7 @@ Examples:
 @click.argument("results", metavar="RESULTS.csv...", nargs=-1, required=True)
 @prior_option
 @half_life_option
+@beginning_option
 @scale_option()
 @seed_option("The seed of the intervals and simulated seasons.")
 @results_options
@@ -40,6 +43,7 @@ def command(
     results: tuple[str, ...],
     prior: float | str | None,
     half_life: float | str | None,
+    begin: str | None,
     scale: Scale,
     seed: int,
     reading: dict[str, Any],
@@ -62,6 +66,7 @@ def command(
                 file.results,
                 prior_sd=prior_sd,
                 half_life=half_life_to_choose(half_life),
+                beginning=None if begin is None else begin_from(begin, file, scale),
                 seed=seed,
                 progress=progress,
             )

@@ -30,7 +30,14 @@ Examples:
 @click.command("why", epilog=EXAMPLES)
 @click.argument("player_a", metavar="A", shell_complete=completion.players)
 @click.argument("player_b", metavar="B", shell_complete=completion.players)
-@click.option("--from", "results", required=True, metavar="RESULTS.csv", help="The results.")
+@click.option(
+    "--from",
+    "results",
+    required=True,
+    multiple=True,
+    metavar="RESULTS.csv",
+    help="The results; may be repeated for several seasons.",
+)
 @scale_option()
 @how_to_rate
 @race_limit_options
@@ -39,7 +46,7 @@ Examples:
 def command(
     player_a: str,
     player_b: str,
-    results: str,
+    results: tuple[str, ...],
     scale: Scale,
     games: tuple[int, int] | None,
     race_to: int | None,
@@ -55,7 +62,7 @@ def command(
     from evenbreak.ratings.fit import fit
 
     offered = offered_races(games, race_to)
-    file = files.read_results(results, **reading)
+    file = files.read_seasons(results, **reading)
     pair = answers.find_players(file.results, (player_a, player_b), said="why", where=file.source)
     if len(pair) < 2:
         refuse(f"{player_a!r} and {player_b!r} are one player; name two")

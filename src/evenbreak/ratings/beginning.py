@@ -1,0 +1,200 @@
+"""Where ratings begin: what is known of players from results that are not in the file.
+
+A rating r with the standard error s, made with a prior N(m, σ²), says about the skill θ what
+results with the information
+
+    J = 1/s² - 1/σ²    and    Jx = r/s² - m/σ²
+
+would: a likelihood proportional to exp(-J θ²/2 + Jx θ). That is what is carried over, so that the
+new season may have another prior, and so that old results fade with a half-life like any others.
+A rating that was not made from results has no such prior: J = 1/s².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Floats, short_repr
+from evenbreak.checks import column, names, number
+from evenbreak.errors import InputError
+from evenbreak.ratings.decay import day_of
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scale import Scale, scale_of
+
+
+class Known(NamedTuple):
+    """What a beginning says about the players of a file, in natural log-odds.
+
+    Parameters
+    ----------
+    information
+        J of each player, 0 where nothing is known.
+    pull
+        Jx of each player.
+    """
+
+    information: Floats
+    pull: Floats
+
+
+@short_repr
+@dataclass(frozen=True, eq=False, init=False)
+class Beginning:
+    """Ratings that players bring along.
+
+    Parameters
+    ----------
+    players
+        the names, each once.
+    rating
+        points.
+    standard_error
+        how far each rating may be off, in points. That of a difference is taken to be the root of
+        the sum of two squares, so use quasi-standard errors where there are any. NaN where not
+        known: then `Levels.brought_sd` says it.
+    scale
+        the scale of the ratings.
+    prior_sd, prior_mean
+        the prior with which they were made, in points: its standard deviation, NaN or None for
+        ratings that were not made from results, and its means.
+    games
+        the games behind each rating, for what newcomers lack; None: 0.
+    as_of
+        the day of the ratings; None: the day before the first result.
+
+    Raises
+    ------
+    InputError
+        if a number is not finite, or an error is not above 0 or is above the prior's.
+
+    >>> old = Beginning(["Ann", "Bo"], [95, 70], [10, 30], scale="npl", prior_sd=30, prior_mean=80)
+    >>> known = old.known(["Bo", "Ann", "Cy"])
+    >>> known.information.round(3), known.pull.round(3)
+    (array([ 0.   , 16.651,  0.   ]), array([0.  , 5.53, 0.  ]))
+    """
+
+    players: tuple[str, ...]
+    rating: Floats
+    standard_error: Floats
+    scale: Scale
+    prior_sd: Floats
+    prior_mean: Floats
+    games: Floats
+    as_of: np.datetime64 | None
+
+    def __init__(
+        self,
+        players: Sequence[str],
+        rating: ArrayLike,
+        standard_error: ArrayLike | None = None,
+        *,
+        scale: Any = "npl",
+        prior_sd: float | ArrayLike | None = None,
+        prior_mean: float | ArrayLike | None = None,
+        games: ArrayLike | None = None,
+        as_of: Any = None,
+    ) -> None:
+        known = names(players, "players")
+        many = len(known)
+        centre = scale_of(scale).centre
+        for name, given, missing in (
+            ("rating", rating, np.nan),
+            ("standard_error", standard_error, np.nan),
+            ("prior_sd", prior_sd, np.nan),
+            ("prior_mean", prior_mean, centre),
+            ("games", games, 0.0),
+        ):
+            values = missing if given is None else given
+            spread = np.full(many, values) if np.ndim(values) == 0 else values
+            object.__setattr__(self, name, column(spread, name, many, "players"))
+        if not np.isfinite(self.rating).all() or not np.isfinite(self.prior_mean).all():
+            raise InputError("rating or prior_mean is not a finite number somewhere; give points")
+        for name in ("standard_error", "prior_sd"):
+            values = getattr(self, name)
+            if (values <= 0.0).any() or np.isinf(values).any():
+                raise InputError(f"{name} is not above 0 somewhere; give points, or NaN if unknown")
+        object.__setattr__(self, "players", known)
+        object.__setattr__(self, "scale", scale_of(scale))
+        object.__setattr__(self, "as_of", None if as_of is None else day_of(as_of))
+
+    def centre(self, players: Sequence[str]) -> float:
+        """Return the mean of the ratings that some players bring along, in points.
+
+        About it the new ratings are centred; without any such player it is the scale's centre.
+        """
+        here = set(players)
+        brought = [r for name, r in zip(self.players, self.rating, strict=True) if name in here]
+        return float(np.mean(brought)) if brought else self.scale.centre
+
+    def anchor(self, players: Sequence[str], scale: Scale, *, brought: bool) -> float | None:
+        """Return the `centre` where the ratings count and are of this scale, else None.
+
+        `brought` says whether ratings without a standard error count.
+        """
+        counts = brought or not np.isnan(self.standard_error).all()
+        return self.centre(players) if counts and self.scale.same_points(scale) else None
+
+    @property
+    def unknown_error(self) -> bool:
+        """Whether some rating does not say how far off it may be."""
+        return bool(np.isnan(self.standard_error).any())
+
+    def known(self, players: Sequence[str], *, brought_sd: float = 0.0) -> Known:
+        """Return what is known about some players, who are looked up by name.
+
+        Parameters
+        ----------
+        players
+            the names. Their skills are counted from `centre`.
+        brought_sd
+            how far off ratings without a standard error are, in natural log-odds; 0: they are
+            not used.
+        """
+        unit = self.scale.log_odds(1.0)
+        zero = self.centre(players)
+        error = np.where(np.isnan(self.standard_error), np.nan, self.standard_error * unit)
+        if brought_sd:
+            error = np.where(np.isnan(error), number(brought_sd, "brought_sd"), error)
+        precision = np.nan_to_num(error**-2.0)
+        prior = np.where(precision > 0.0, np.nan_to_num((self.prior_sd * unit) ** -2.0), 0.0)
+        pull = precision * (self.rating - zero) * unit - prior * (self.prior_mean - zero) * unit
+        information = precision - prior
+        # An error as large as the prior's says nothing.
+        said = information > 1e-9 * np.maximum(precision, 1.0)
+        return Known(*(self._of(players, np.where(said, one, 0.0)) for one in (information, pull)))
+
+    def kept(self, half_life: float | None, results: Results, day: np.datetime64 | None) -> float:
+        """Return the part of their weight that the ratings still have on a day.
+
+        Parameters
+        ----------
+        half_life
+            days after which results count half; None: they always count in full.
+        results
+            the new results, before the first of which the ratings are taken to be, if they
+            have no day.
+        day
+            the day; None: that of the last of the results.
+        """
+        if half_life is None or results.date is None:
+            return 1.0
+        dated = results.date[~np.isnat(results.date)]
+        if not len(dated):
+            return 1.0
+        begun = dated.min() if self.as_of is None else self.as_of
+        age = ((dated.max() if day is None else day) - begun) / np.timedelta64(1, "D")
+        return float(np.exp2(-max(age, 0.0) / half_life))
+
+    def games_of(self, players: Sequence[str]) -> Floats:
+        """Return the games behind each of some players, 0 for those who are not known."""
+        return self._of(players, self.games)
+
+    def _of(self, players: Sequence[str], values: Floats) -> Floats:
+        place = {name: k for k, name in enumerate(self.players)}
+        at = [place.get(name, -1) for name in players]
+        return np.append(values, 0.0)[at]
