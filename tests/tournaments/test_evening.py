@@ -327,7 +327,7 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         (lambda s: moves.score(s, "W1.1", (5, 0)), "result W1.1 5:0"),
         (lambda s: stand(s, "W1.1"), "cannot stand"),
         (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
-        (lambda s: moves.drop(s, "P9"), "P9"),
+        (lambda s: moves.drop(s, "P99"), "P99"),
         (lambda s: moves.late(s, Entrant("p1", 1.0)), "P1 has entered"),
         (lambda s: moves.call(s, "W1.1", 5), "table 5"),
         (lambda s: moves.draw(s, np.random.default_rng()), "draw"),
@@ -361,3 +361,15 @@ def _seconds(events: list[Event]) -> float:
     state = evening(events)
     assert isinstance(state.counted["W1.1"], Result)
     return time.perf_counter() - started
+
+
+def test_the_beginning_of_a_name_will_do_if_it_is_clear() -> None:
+    plan = Plan("single", 5)
+    names = "Ann Lee", "Anton Bo", "Cy Anders"
+    state = evening([Event(AT, Opened(plan, tuple(Entrant(name, 1.0) for name in names)))])
+    assert moves.known_player(state, "ann l") == "Ann Lee"
+    assert moves.known_player(state, "bo") == "Anton Bo"
+    with pytest.raises(InputError, match="Ann Lee, Anton Bo, Cy Anders"):
+        moves.known_player(state, "an")
+    with pytest.raises(InputError, match="not in this tournament"):
+        moves.known_player(state, "nders")

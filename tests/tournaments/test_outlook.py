@@ -127,3 +127,26 @@ def test_pace_is_learned_from_matches_that_were_called() -> None:
     quick, slow = (outlook(after(called, at, result), "20:30") for at in ("19:25", "20:25"))
     assert [match.minutes for match in slow.timed] == [80.0]
     assert quick.finish().pace.per_game < slow.finish().pace.per_game
+
+
+def test_a_player_who_has_gone_home_loses_matches_to_come() -> None:
+    events = begun()
+    events = after(events, "19:30", moves.drop(evening(events), "P1"))  # has a bye
+    now, mean = outlook(events), 0.0
+    assert now.odds.title[0] == 0.0
+    one, other = (now.state.order.index(name) for name in now.state.pair("W1.4"))
+    p = now.laws["W1.4"].win[one, other]
+    for chance, score in ((p, (5, 2)), (1.0 - p, (4, 5))):
+        ended = after(events, "19:40", moves.result(evening(events), "W1.4", score))
+        mean += chance * outlook(ended).odds.title
+    np.testing.assert_allclose(now.odds.title, mean, atol=1e-12)
+    assert now.laws["W2.1"].mean_games[0, 3] == 0.0
+
+
+def test_a_match_whose_round_would_wait_can_be_called() -> None:
+    events = begun(players=8)
+    for name in ("W1.1", "W1.2"):
+        events = after(events, "19:40", moves.result(evening(events), name, (5, 1)))
+    calls = outlook(events).finish().calls()
+    assert {call.match for call in calls} == {"W1.3", "W1.4", "W2.1", "L1.1"}
+    assert all(np.isfinite([call.finish_mean, call.later, call.error]).all() for call in calls)

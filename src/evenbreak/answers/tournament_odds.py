@@ -185,6 +185,8 @@ def favourite_words(odds: PlaceOdds) -> str:
     players, title = odds.bracket.players, odds.title
     alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
     best, *others = alive
+    if not others:
+        return f"{players[best]} wins the tournament."
     text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
         "time"
@@ -255,4 +257,6 @@ def how_words(
 
 def _off(odds: PlaceOdds, *, title: bool = False) -> str:
     points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
+    if points < 0.05:
+        return "0.1 percentage points"
     return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"

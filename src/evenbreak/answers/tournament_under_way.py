@@ -26,6 +26,8 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
 from evenbreak.tournaments.odds.title import TitleOdds
 
+_WORTH_SAYING = 3.0  # minutes
+
 
 def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
     """Return each player's chance of each place, given the results and scores so far.
@@ -61,9 +63,10 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
             *quantities,
         ]
     parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
-    if state.standing.to_play and (at_stake := _at_stake(outlook)).rows:
-        parts.append(at_stake)
-    parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
+    if state.standing.to_play:
+        if (at_stake := _at_stake(outlook)).rows:
+            parts.append(at_stake)
+        parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
     if odds is not sure and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
@@ -101,6 +104,8 @@ def _at_stake(outlook: Outlook) -> Table:
 
 
 def _later(minutes: float) -> str:
+    if abs(minutes) < _WORTH_SAYING:
+        return ""
     return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
 
 

@@ -261,7 +261,9 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             default="double",
             help="The kind of tournament. For chips, see evenbreak chips.",
         ),
-        click.argument("entrants", metavar="ENTRANTS.csv", required=required),
+        click.argument(
+            "entrants", metavar="ENTRANTS.csv" if required else "[ENTRANTS.csv]", required=required
+        ),
     )
 
 

@@ -224,10 +224,18 @@ def known_match(state: Evening, text: str) -> str:
 
 
 def known_player(state: Evening, text: str) -> str:
-    """Return the name of a player, in whatever case and spacing it was written."""
+    """Return the name of a player, in whatever case and spacing it was written.
+
+    The beginning of a first or last name will do if nobody else's begins like that.
+    """
     wanted = " ".join(text.split()).casefold()
     names = {name.casefold(): name for name in state.entrants}
     if wanted not in names:
+        begin = [name for name in names if wanted and f" {wanted}" in f" {name}"]
+        if len(begin) == 1:
+            return names[begin[0]]
+        if begin:
+            raise InputError(f"{text!r} may be {some_of([names[name] for name in begin])}")
         near = get_close_matches(wanted, names, 1)
         hint = f"; did you mean {names[near[0]]}?" if near else ""
         raise InputError(f"{text!r} is not in this tournament{hint}")

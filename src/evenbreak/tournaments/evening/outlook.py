@@ -86,11 +86,23 @@ class Outlook:
         if races is not state.races and begun:
             usual = pair_odds(state.whole, state.ratings, state.races, scale=state.scale)
             laws |= {name: usual[name] for name in begun}
+        if state.dropped:
+            made = {id(law): self._without_dropped(law) for law in laws.values()}
+            laws = {name: made[id(law)] for name, law in laws.items()}
         for name, seats, needs, score in self._in_score:
             one, other = seats
             p = float(state.scale.win_probability(state.ratings[one] - state.ratings[other]))
             laws[name] = from_score(laws[name], seats, needs, score, p)
         return laws
+
+    def _without_dropped(self, law: PairOdds) -> PairOdds:
+        """Return the odds of a match that players who have dropped out lose without a game."""
+        ends = law.ends.copy()
+        for name in self.state.dropped:
+            gone = self.state.order.index(name)
+            ends[gone] = ends[:, gone] = 0.0
+            ends[:, gone, 0] = 1.0
+        return PairOdds(ends)
 
     @property
     def scores(self) -> dict[str, tuple[int, int]]:
@@ -159,8 +171,16 @@ class Outlook:
         state = self.state
         usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
 
+        gone = [state.order.index(name) for name in state.dropped]
+
         def chances(skills: Floats) -> dict[str, Floats]:
             tables = usual(skills)
+            if gone:
+                made = {id(table): table.copy() for table in tables.values()}
+                for table in made.values():
+                    for seat in gone:
+                        table[seat], table[:, seat], table[seat, seat] = 0.0, 1.0, 0.5
+                tables = {name: made[id(table)] for name, table in tables.items()}
             for name, (one, other), needs, score in self._in_score:
                 p = state.scale.win_probability(skills[one] - skills[other])
                 won = float(betainc(needs[0] - score[0], needs[1] - score[1], p))
