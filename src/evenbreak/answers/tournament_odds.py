@@ -142,7 +142,10 @@ def odds_table(
         for k in seats:
             rows[k].append(float(odds.error[k, first]))
     if shares:
-        columns.append(Column("times_equal_share", "times an\nequal share", decimals(2)))
+        wide = odds is not plug_in
+        columns.append(
+            Column("times_equal_share", "times an\nequal share", decimals(2), detail=wide)
+        )
         for k in seats:
             rows[k].append(float(len(seats) * odds.title[k]))
     if prizes:
