@@ -2,11 +2,12 @@
 
 import pytest
 
-from evenbreak.answers.season_nights import events_marked, nights_of_files
+from evenbreak.answers.season_nights import events_marked, nights_of_files, with_even_races
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps import chart, system_of
+from evenbreak.ratings import walk_forward
 
 NPL, TEN = system_of("npl"), chart("npl_10")
 ROSTER = "player,rating\nAnn,80\nBo,80\n"
@@ -28,6 +29,14 @@ def test_nights_move_the_ratings_and_a_forfeit_does_not(tmp_path):
     nights = nights_of_files(NPL, first, season, chart=TEN)
     assert [night.rows.tolist() for night in nights] == [[0], [1], [2, 3]]
     assert nights[-1].changes.after.rating.tolist() == [81, 79]
+
+
+def test_races_are_those_by_which_validate_predicts(tmp_path):
+    season = files(tmp_path)[1]
+    raced, _ = with_even_races(season)
+    walk = walk_forward(season.results)
+    counted = raced.results.counted
+    assert raced.results.race_a[counted].tolist() == walk.race_a.tolist() == [5, 5, 5]
 
 
 def test_a_stranger_is_a_problem_once_with_the_first_line(tmp_path):

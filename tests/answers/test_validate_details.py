@@ -47,11 +47,12 @@ def test_the_tests_stand_beside_what_was_expected(demo):
 
 
 def test_matches_and_spots_have_a_row_a_bin(demo):
-    _, _, _, shapes, matches, spots, experience = parts_of(demo)[0]
+    _, _, _, shapes, matches, spots, starts, experience = parts_of(demo)[0]
     assert [row.of for row in shapes.rows] == ["deciders", "sweeps", "games"]
     assert [row[0] for row in experience.rows] == ["1 to 20", "21 to 50", "51 to 200"]
     assert [row[1] for row in matches.rows] == [one.matches for one in demo.matches]
     assert [row[0] for row in spots.rows] == [1, 2, 3, 4, 5, "all"]
+    assert list(starts.rows) == list(demo.starts.groups)
 
 
 def test_a_chosen_prior_is_given_in_points_beside_the_default(chosen):

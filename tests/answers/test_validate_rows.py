@@ -15,18 +15,10 @@ def rows_of(found):
 def test_every_figure_has_its_row(demo):
     rows = rows_of(demo)
     assert {row["part"] for row in rows} == {
-        *(
-            "half_life",
-            "first_column",
-            "prior_sd",
-            "log_loss",
-            "brier",
-            "slope",
-            "gain",
-            "calibration",
-        ),
-        *("form", "score", "score_with_form", "experience"),
-        *("calibration_plug_in", "no_favourite", "dispersion", "first_break", "side", "spot"),
+        *("half_life", "prior_sd", "log_loss", "brier", "slope", "gain", "experience"),
+        *("first_column", "first_column_dates", "first_column_varies", "side", "first_break"),
+        *("calibration", "calibration_plug_in", "no_favourite", "dispersion"),
+        *("form", "score", "score_with_form", "spot", "start"),
     }
     (row,) = [r for r in rows if (r["part"], r["of"], r["item"]) == ("slope", "game", "integrated")]
     slope = scored_of(demo, "game").slope

@@ -1,21 +1,15 @@
-"""Advantages of the first column, the first breaker and the breaker, in simulated seasons."""
+"""Advantages of the first breaker and the breaker, in simulated seasons."""
 
 import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.advantages import (
-    break_advantage,
-    first_breaks,
-    known_breaks,
-    side_advantage,
-)
+from evenbreak.ratings.advantages import break_advantage, first_breaks, known_breaks
 
 
 def test_a_season_of_the_model_shows_no_advantage(plain):
-    side, breaker = side_advantage(plain), break_advantage(plain)
+    breaker = break_advantage(plain)
     assert first_breaks(plain).p_value > 0.01
-    assert side.low < 0.0 < side.high
     assert breaker.low < 0.0 < breaker.high
     assert known_breaks(plain) == plain.games.sum()
 
@@ -37,24 +31,6 @@ def test_a_stronger_player_who_breaks_more_often_is_not_taken_for_an_advantage(p
     found = break_advantage(walk_forward(season, prior_sd=0.5))
     assert found.low < 0.0 < found.high
     assert found.high - found.low < 0.25
-
-
-def test_the_advantage_of_the_first_column_is_found(play_season):
-    forecasts = walk_forward(play_season(np.random.default_rng(7), side=0.3), prior_sd=0.5)
-    found = side_advantage(forecasts)
-    # The ratings absorb a little of it.
-    assert 0.2 < found.value < 0.4
-    assert found.low > 0.15
-
-
-def test_two_dates_do_not_make_a_first_column_matter(play_season):
-    """From two dates alone hardly any spread could be estimated."""
-    off = 0
-    for seed in range(40):
-        rng = np.random.default_rng([11, seed])
-        found = side_advantage(walk_forward(play_season(rng, matches=80), prior_sd=0.5))
-        off += not found.low < 0.0 < found.high
-    assert off <= 6  # 5% of 40 are 2
 
 
 def test_who_breaks_first_wins_more_when_the_break_is_worth_much(play_season):

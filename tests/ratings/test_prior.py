@@ -8,6 +8,7 @@ from evenbreak.files.results import read_results
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.prior import AS_GOOD, WIDTHS
+from handicapped import by_chart
 from places import SHARED
 
 SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
@@ -140,3 +141,10 @@ def test_a_real_season():
     # A prior that says next to nothing predicts worse than no ratings at all (ln 2).
     assert min(loss.values()) == pytest.approx(0.67581, abs=2e-5)
     assert min(loss.values()) < math.log(2) < max(loss.values())
+
+
+def test_old_games_count_in_full_where_only_the_first_prior_was_too_wide():
+    """Races say nearly all here; with the prior that suits results alone, fading them helps."""
+    choice = best_prior(by_chart(0, levels=False, off=0.0, form=0.0, matches=500))
+    assert choice.levels.race > 0.5
+    assert choice.half_life is None

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Show, Table
-from evenbreak.answers.wording import count_of, decimals, percent
+from evenbreak.answers.wording import count_of, decimals
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
@@ -49,8 +49,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     if levels.race:
         error = _error(choice, "race", 100.0, decimals(0), "%")
         yield (
-            f"The stated races count too: {percent(levels.race)} of the difference that they imply "
-            f"between two players is taken as real before any result{error}."
+            f"The stated races count too: {100 * levels.race:.0f}% of the difference that they "
+            f"imply between two players is taken as real before any result{error}."
         )
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]

@@ -7,16 +7,25 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.prior_words import evidence_rows, levels_data
 from evenbreak.answers.validate_details import details
-from evenbreak.answers.validate_remarks import percents, remarks
+from evenbreak.answers.validate_judgement import percents
+from evenbreak.answers.validate_remarks import remarks
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
 from evenbreak.answers.wording import count_of, percent
 from evenbreak.files.results import ResultsFile
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 
 
-def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed: int = 1) -> Answer:
+def validate_answer(
+    file: ResultsFile,
+    found: Validation,
+    scale: Scale,
+    *,
+    seed: int = 1,
+    chart: LeagueChart | None = None,
+) -> Answer:
     """Return whether a league can trust its ratings.
 
     Parameters
@@ -27,6 +36,8 @@ def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed:
         the scale in whose points priors are given.
     seed
         of the intervals and simulated seasons.
+    chart
+        what `league_chart` found in the same results.
 
     >>> from evenbreak.files.results import ResultsFile
     >>> from evenbreak.ratings import Results, scale_of, validate
@@ -36,27 +47,29 @@ def validate_answer(file: ResultsFile, found: Validation, scale: Scale, *, seed:
     >>> print(validate_answer(file, validate(season), scale_of("npl")).sentences[0])
     There are too few matches to say whether these ratings can be trusted.
     """
-    text = verdict(found, scale)
-    parts: list[Part] = [text, _games(found), *remarks(found, scale)]
+    chart = chart or LeagueChart()
+    text = verdict(found, scale, chart)
+    parts: list[Part] = [text, _games(found), *remarks(found, scale, chart)]
     return Answer(
         _heading(file, found),
         parts,
         details=list(details(found, scale)),
         warnings=[*file.warnings, *file.ties],
-        data={"verdict": text, **_figures(found, scale), "seed": seed},
-        csv=findings_table(found),
+        data={"verdict": text, **_figures(found, scale), **_chart(chart), "seed": seed},
+        csv=findings_table(found, chart),
     )
 
 
 def _heading(file: ResultsFile, found: Validation) -> str:
     forecasts = found.forecasts
+    forfeits = count_of(forecasts.forfeits, "forfeit")
     left = {
-        "without a date": forecasts.undated,
-        "forfeits": forecasts.forfeits,
-        "at 0-0": forecasts.empty,
-        "without scores": forecasts.unscored,
+        f"{forecasts.undated:,} without a date": forecasts.undated,
+        forfeits: forecasts.forfeits,
+        f"{forecasts.empty:,} at 0-0": forecasts.empty,
+        f"{forecasts.unscored:,} without scores": forecasts.unscored,
     }
-    out = ", ".join(f"{count:,} {why}" for why, count in left.items() if count)
+    out = ", ".join(words for words, count in left.items() if count)
     return (
         f"{file.source}: {count_of(len(forecasts), 'match', 'matches')} on "
         f"{count_of(_dates(found), 'date')}, each date predicted from the earlier ones"
@@ -115,10 +128,15 @@ def _choice(found: Validation) -> dict[str, Any]:
     }
 
 
+def _chart(chart: LeagueChart) -> dict[str, Any]:
+    """Return which chart the races come from, and the scale that fits the results."""
+    return {"chart": chart.nearest, "fair_scale": chart.scale}
+
+
 _OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
 _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
     *("skill", "form", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
-    *("half_lives", "lengths", "experience", "drawn"),
+    *("half_lives", "lengths", "experience", "starts", "drawn"),
 )

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
-from evenbreak.answers.wording import count_of, decimals, percent
+from evenbreak.answers.wording import count_of, decimals, percent, range_words
 from evenbreak.ratings.by_experience import ByExperience
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
@@ -47,6 +48,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     if found.form is not None:
         yield _form(found.form, scale)
         yield _shapes(found.form)
+    if found.lengths:
+        yield _lengths(found)
     if found.matches:
         yield _matches(found)
         if found.spots:
@@ -55,6 +58,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
                 "mostly by their own errors, so predictions of matches are of little use."
             )
             yield _by_spot(found)
+    if found.starts is not None:
+        yield starts_table(found.starts, scale)
     if found.experience:
         yield _experience(found, scale)
     new = int(found.forecasts.new.sum())
@@ -153,6 +158,10 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
     if first is not None:
         figures = f"{first.won:,}", f"{first.expected:,.1f}"
         yield ("won by the first breaker", first.matches, *figures, None, first.p_value)
+    column = found.first_column
+    if column is not None:
+        figures = f"{column.won:,}", f"{column.expected:,.1f}"
+        yield ("won by player_a", column.matches, *figures, None, None)
     for name, estimate in (("the breaker", found.breaker), ("player_a", found.side)):
         if estimate is not None:
             p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
@@ -173,7 +182,9 @@ def _form(form: MatchForm, scale: Scale) -> str:
     return (
         f"Form of the day: the difference between two players varies from match to match with a "
         f"standard deviation of {points * form.sd:.0f} points (variance {v:.3f} in squared "
-        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end}"
+        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end} It "
+        f"is estimated from {count_of(form.races, 'match', 'matches')} to two games or more, "
+        "without those of the first date."
     )
 
 
@@ -189,6 +200,26 @@ def _shapes(form: MatchForm) -> Table:
     return Table("", columns, form.shapes, title)
 
 
+def _lengths(found: Validation) -> Table:
+    """Return how often favourites won short and long races."""
+    columns = [
+        Column("length", "race to"),
+        Column("matches", "matches"),
+        Column("predicted", "predicted", decimals(3)),
+        Column("share", "won", decimals(3)),
+        Column("range", "95% interval", _range),
+    ]
+    rows = [
+        (
+            range_words(half.shortest, half.longest),
+            *(half.matches, half.predicted, half.share, (half.low, half.high)),
+        )
+        for half in found.lengths
+    ]
+    title = "Matches with a favourite that the favourite won, by the length of the race:"
+    return Table("", columns, rows, title)
+
+
 def _experience(found: Validation, scale: Scale) -> Table:
     """Return how the less experienced player of a match fared, by the games played before."""
     points = scale.points_per_log_odds
@@ -197,12 +228,12 @@ def _experience(found: Validation, scale: Scale) -> Table:
         return f"{points * one.value:+.1f}  {points * one.low:+.1f} to {points * one.high:+.1f}"
 
     columns = [
-        Column("before", "games before"),
+        Column("before", "games\nbefore"),
         Column("matches", "matches"),
         Column("predicted", "predicted", percent),
         Column("seen", "won", percent),
-        Column("stronger", "points off, with 95% interval", off),
-        Column("spread", "spread of scores", decimals(2)),
+        Column("stronger", "points off,\n95% interval", off),
+        Column("spread", "spread of\nscores", decimals(2)),
     ]
     rows = [
         (

@@ -1,5 +1,8 @@
 """When a figure of a validated season is clearly off, and how figures are written."""
 
+from scipy.special import ndtri
+
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
 from evenbreak.ratings.result_words import FORMATS
@@ -10,18 +13,23 @@ from evenbreak.ratings.validate import Validation
 UNLIKELY = 0.01
 """A p-value below which chance is ruled out; it is small because several tests are made."""
 
+NEAR = 0.1
+"""How far off starts may be: the hardest race of a chart serves all larger differences too."""
+
 VAGUE = 0.5
 """An interval of the slope that is wider says too little."""
 
 
-def clearly_off(estimate: Estimate, right: float) -> int:
+def clearly_off(estimate: Estimate, right: float, *, tests: int = 1) -> int:
     """Return 1 or -1 where an estimate is clearly above or below what is right, else 0.
+
+    The more tests are made alike, the farther off it must be.
 
     >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
     (-1, 0)
     """
     # The interval is of 95%, that is 1.96 standard errors each way; 2.58 leave out 1%.
-    far = (estimate.high - estimate.low) / 2.0 * 2.576 / 1.960
+    far = (estimate.high - estimate.low) / 2.0 * ndtri(1.0 - UNLIKELY / (2.0 * tests)) / 1.960
     middle = (estimate.high + estimate.low) / 2.0
     return int(middle - far > right) - int(middle + far < right)
 
@@ -48,10 +56,20 @@ def share_of(spot: HandicapFairness) -> Estimate:
     return Estimate(spot.share, spot.low, spot.high)
 
 
-def at_the_edge(found: Validation) -> bool:
-    """Return whether the prior that was chosen is the first or the last of those tried."""
-    tried = () if found.choice is None or not found.choice.learnt else found.choice.tried
-    return bool(tried) and found.prior_sd in (tried[0], tried[-1])
+def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
+    """Return 1 where starts clearly take back too little, -1 where too much, else 0.
+
+    Where ratings are known, the scale that fits decides. Where the matches clearly say the
+    opposite, it is 0 too.
+    """
+    way = 0
+    if chart is not None and chart.scale is not None:
+        way = scale_way(chart)
+    elif found.starts is not None:
+        share = found.starts.share
+        way = int(clearly_off(share, 1.0 + NEAR) > 0) - int(clearly_off(share, 1.0 - NEAR) < 0)
+    by_matches = clearly_off(share_of(found.spots[-1]), 0.5) if found.spots else 0
+    return 0 if way == -by_matches else way
 
 
 def best_half_life(found: Validation) -> float | None:
@@ -66,6 +84,26 @@ def any_winner_breaks(found: Validation) -> bool:
     """Return whether any race was played with winner breaks, as far as the file says."""
     breaks = found.forecasts.results.break_format
     return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
+
+
+def scale_way(chart: LeagueChart) -> int:
+    """Return 1 where clearly fewer points double the odds than the races assume, -1 where more."""
+    if chart.scale is None:
+        return 0
+    # What a chart that is not known assumes is read off its races.
+    near = 0.0 if chart.nearest is not None else NEAR / 2.0
+    points, assumed = chart.scale.points, chart.scale.assumed
+    fewer = clearly_off(points, assumed * (1.0 - near)) < 0
+    return int(fewer) - int(clearly_off(points, assumed * (1.0 + near)) > 0)
+
+
+def percents(ends: tuple[float, float]) -> str:
+    """Return a range of shares.
+
+    >>> percents((0.482, 0.579))
+    '48 to 58%'
+    """
+    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
 
 
 def points_text(prior_sd: float, scale: Scale) -> str:

@@ -4,95 +4,56 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from evenbreak.answers.prior_words import level_words, too_few_for_prior_words
+from evenbreak.answers.validate_handicaps import handicap_remarks
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     any_winner_breaks,
-    at_the_edge,
     best_half_life,
     clearly_off,
-    points_text,
-    share_of,
-    wrong_chances,
 )
 from evenbreak.answers.wording import count_of, listed, percent
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.first_column import FEWEST_ON_A_DATE
 from evenbreak.ratings.race_lengths import RaceLengths
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 
-WIDE = 0.4
-"""The width from which the range of a share says nothing about it."""
 
-
-def remarks(found: Validation, scale: Scale) -> list[str]:
+def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> list[str]:
     """Return what there is to say about handicaps, scores, half-life, columns and the prior."""
+    chart = chart or LeagueChart()
     levels = level_words(replace(found.ratings, scale=scale), found.choice)
     said = [
-        *(_handicaps(found), _spread(found), _form(found, scale), *levels),
+        *handicap_remarks(found, chart, scale),
+        *(_spread(found, scale), *levels),
         *(_experience(found, scale), _half_life(found), _first_column(found)),
     ]
-    return [text for text in (*said, _prior(found, scale)) if text]
-
-
-def percents(ends: tuple[float, float]) -> str:
-    """Return a range of shares.
-
-    >>> percents((0.482, 0.579))
-    '48 to 58%'
-    """
-    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
-
-
-def _handicaps(found: Validation) -> str:
-    """Return whether handicaps were fair, '' where there were none."""
-    if not found.spots:
-        return ""
-    every = found.spots[-1]
-    figures = (
-        f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
-        f" ({percent(every.share)}; {percents((every.low, every.high))} allowing for luck)"
-    )
-    off = clearly_off(share_of(every), 0.5)
-    if off > 0:
-        return f"The handicaps give too little. {figures}; fair is 50%."
-    if off < 0:
-        return f"The handicaps give too much. {figures}; fair is 50%."
-    if every.high - every.low > WIDE:
-        return (
-            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
+    texts = [text for text in (*said, _prior(found, scale)) if text]
+    if chart.scale is None and any(" points" in text for text in texts):
+        texts.append(
+            f"Points are such that {scale.points_per_doubling:.4g} double the odds of winning a "
+            "game; --scale sets others."
         )
-    if not every.low <= 0.5 <= every.high:
-        more = "little" if every.low > 0.5 else "much"
-        return (
-            f"The handicaps may give too {more}. {figures}; fair is 50%, just outside that range."
-        )
-    way = clearly_off(share_of(every), every.expected)
-    if way:
-        under = "under" if way > 0 else "over"
-        return (
-            f"The handicaps look fair. {figures}. The ratings predicted {percent(every.expected)}: "
-            f"they {under}rate players who give games, so do not use them to predict handicap "
-            "matches."
-        )
-    return f"The handicaps look fair. {figures}."
+    return texts
 
 
-def _spread(found: Validation) -> str:
+def _spread(found: Validation, scale: Scale) -> str:
     """Return why scores vary more than they should, '' where they do not."""
+    form = _form(found, scale)
     test = found.dispersion
     if test is None or test.p_value >= UNLIKELY or test.seen <= test.by_chance:
-        return ""
+        return form
     more = 100.0 * (test.seen / test.by_chance - 1.0)
     causes = ["players have good and bad days"]
     if best_half_life(found):
         causes.append("the ratings lag behind")
     if any_winner_breaks(found):
         causes.append("the break is strong under winner breaks")
-    if found.spots:
+    if found.spots and not found.forecasts.levels.race:
         causes.append("the handicaps know more than these ratings")
     text = f"Match scores vary {more:.0f}% more than expected. Perhaps {listed(causes, 'or')}."
-    return " ".join([text, *_lengths(found)])
+    return " ".join([text, *([form] if form else []), *_lengths(found)])
 
 
 def _form(found: Validation, scale: Scale) -> str:
@@ -107,11 +68,14 @@ def _form(found: Validation, scale: Scale) -> str:
     shares = [
         f"{percent(shape.seen.value)} {words} ({percent(shape.said)} expected without this, "
         f"{percent(shape.said_with_form)} with it)"
-        for shape, words in ((deciders, "went to the last game"), (sweeps, "were sweeps"))
+        for shape, words in (
+            (deciders, "of the matches went to the last game"),
+            (sweeps, "were sweeps"),
+        )
     ]
     return (
         f"From match to match the difference between two players varies by about {points:.0f} "
-        f"points around that of their ratings. Of {form.races:,} matches {listed(shares)}."
+        f"points around that of their ratings. {listed(shares)}."
     )
 
 
@@ -121,14 +85,17 @@ def _lengths(found: Validation) -> Iterator[str]:
         return
     short, long = found.lengths
     shares = [
-        f"{percent(half.share)} of the {half.matches:,} {races} ({percent(half.predicted)} "
-        "predicted)"
+        f"{percent(half.share)} of the {races} ({percent(half.predicted)} predicted)"
         for half, races in ((short, f"races to {short.longest} or less"), (long, "longer ones"))
     ]
-    yield f"Favourites won {listed(shares)}."
     ways = {"short": _way(short), "long": _way(long)}
     if not any(ways.values()):
-        yield "Both differences may be luck."
+        yield (
+            "Short and long races are predicted about equally well: favourites won "
+            f"{listed(shares)}."
+        )
+        return
+    yield f"Favourites won {listed(shares)}."
     for races, way in ways.items():
         if way:
             yield f"So {races} races are {'more' if way > 0 else 'less'} certain than predicted."
@@ -142,7 +109,7 @@ def _way(half: RaceLengths) -> int:
 def _experience(found: Validation, scale: Scale) -> str:
     """Return which players with little experience are overrated or underrated, '' if none are."""
     for one in found.experience:
-        way = clearly_off(one.stronger, 0.0)
+        way = clearly_off(one.stronger, 0.0, tests=len(found.experience))
         if way and one.most is not None:
             who = "before their first game"
             if one.most:
@@ -182,37 +149,35 @@ def _first_column(found: Validation) -> str:
     won = f"Players in the first column won {percent(column.won / column.matches)} of the matches"
     if column.winners_first:
         return f"{won}: the file seems to list winners first. That does not change the ratings."
+    if column.winners_first_on_some_dates:
+        return (
+            f"On {column.dates_won:,} of {count_of(column.dates, 'date')} with "
+            f"{FEWEST_ON_A_DATE} matches or more, the player in the first column won every match: "
+            "the file seems to list winners first there. That does not change the ratings."
+        )
     way = 0 if found.side is None else clearly_off(found.side, 0.0)
-    predicted = f"{percent(column.expected / column.matches)} predicted"
-    if way > 0:
+    if not way:
+        return ""
+    said = f"{won} ({percent(column.expected / column.matches)} predicted)."
+    if column.varies < UNLIKELY:
         return (
-            f"{won} ({predicted}). If the file lists winners or stronger players first, this means "
-            "nothing. If the first column is the home player, it may be home advantage, which the "
-            "ratings do not know."
+            f"{said} This differs too much from date to date to be an advantage, so it shows only "
+            "how the file was written."
         )
-    if way < 0:
+    if way == column.stronger_first:
+        place = "first" if way > 0 else "second"
         return (
-            f"{won} ({predicted}). If the file lists losers or weaker players first, this means "
-            "nothing. If the first column is the visitor, it may be home advantage, which the "
-            "ratings do not know."
+            f"{said} The file tends to list the stronger player {place}, so this is hardly an "
+            "advantage."
         )
-    return ""
+    player = "home player" if way > 0 else "visitor"
+    return (
+        f"{said} If the first column is the {player}, it may be home advantage, which the ratings "
+        "do not know. If the order has no meaning, ignore it."
+    )
 
 
 def _prior(found: Validation, scale: Scale) -> str:
-    """Return which prior suits, '' where the verdict has said so."""
+    """Return that there are too few results to choose a prior, '' where there are enough."""
     choice = found.choice
-    if choice is None:
-        return ""
-    if not choice.learnt:
-        return too_few_for_prior_words(choice, scale)
-    if found.skill.low <= 0.0 or at_the_edge(found):
-        return ""
-    if wrong_chances(found.usual, found) or wrong_chances(found.scored, found):
-        return ""
-    if found.prior_sd == PRIOR_SD:
-        return f"The usual prior of {points_text(PRIOR_SD, scale)} points suits this league best."
-    return (
-        f"A prior of {points_text(found.prior_sd, scale)} points suits this league best, and rate "
-        f"and report use it; the usual one of {points_text(PRIOR_SD, scale)} points will do too."
-    )
+    return "" if choice is None or choice.learnt else too_few_for_prior_words(choice, scale)

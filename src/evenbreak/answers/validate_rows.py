@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.validate_handicaps import handicap_rows
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.advantages import known_breaks
 from evenbreak.ratings.scored import Scored
 from evenbreak.ratings.validate import Validation
@@ -15,7 +17,7 @@ _RIGHT = {"log_loss": math.log(2.0), "brier": 0.25, "slope": 1.0}
 """What a coin has, and the slope that is right."""
 
 
-def findings_table(found: Validation) -> Table:
+def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table:
     """Return everything that was found, a figure a row."""
     forecasts = found.forecasts
     counts = {"game": int(forecasts.games.sum()), "match": int((forecasts.race_a > 0).sum())}
@@ -41,6 +43,7 @@ def findings_table(found: Validation) -> Table:
         rows += [(part, of, f"{b.p_from:.2f}-{b.p_to:.2f}", *b[3:], None) for b in bins]
     rows += [("no_favourite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
     rows += _tests(found, counts["game"])
+    rows += handicap_rows(found, chart or LeagueChart())
     return Table("findings", [Column(name) for name in COLUMNS], rows)
 
 
@@ -90,6 +93,10 @@ def _tests(found: Validation, games: int) -> list[tuple[Any, ...]]:
     if column is not None:
         figures = (column.matches, column.expected, float(column.won))
         rows.append(("first_column", "match", "won", *figures, None, None, None))
+        figures = (column.dates, column.dates_expected, float(column.dates_won))
+        rows.append(("first_column_dates", "match", "won", *figures, None, None, None))
+        head = ("first_column_varies", "match", "p", column.matches)
+        rows.append((*head, None, None, None, None, column.varies))
     for name, estimate, count in (
         ("side", found.side, games),
         ("breaker", found.breaker, known_breaks(found.forecasts)),

@@ -10,9 +10,11 @@ from evenbreak.answers.validate_judgement import (
     points_text,
     scored_of,
     share_of,
+    starts_way,
     wrong_chances,
 )
 from evenbreak.answers.wording import listed
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
@@ -25,12 +27,12 @@ PLENTY = 100.0
 """Games a player, on average, from which different strengths would show."""
 
 
-def verdict(found: Validation, scale: Scale) -> str:
+def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> str:
     """Return whether the ratings can be trusted, and what to do."""
     slope = scored_of(found, "game").slope
     if found.skill.low <= 0.0 or slope is None:
         return _no_skill(found, slope, scale)
-    faults = list(_faults(found))
+    faults = list(_faults(found, chart))
     wrong = wrong_chances(found.scored, found)
     if wrong:
         more = f" Also, {listed(faults)}." if faults else ""
@@ -47,7 +49,7 @@ def verdict(found: Validation, scale: Scale) -> str:
         held = "Nothing speaks against the ratings, but there are too few matches to be sure."
     else:
         held = "You can trust these ratings: players win as often as they predict."
-    return f"{default} With that prior {held[0].lower()}{held[1:]}" if default else held
+    return f"{held} {default}" if default else held
 
 
 def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
@@ -107,18 +109,18 @@ def _good_and_bad_days(times: float) -> str:
 
 
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
-    """Return which prior to use where the default one is clearly wrong, '' where it is not."""
+    """Return what the default prior would do where it is clearly wrong, '' where it is not."""
     wrong = wrong_chances(found.usual, found)
     if not wrong or found.prior_sd == PRIOR_SD:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        f"Let the results choose the prior, as rate and report do: here it is {use} points. With "
-        f"the usual {default} points, {_too_sure(wrong)}."
+        "These are ratings as rate and report make them, with the prior that the results choose: "
+        f"{use} points. With the usual prior of {default} points, {_too_sure(wrong)}."
     )
 
 
-def _faults(found: Validation) -> Iterator[str]:
+def _faults(found: Validation, chart: LeagueChart | None) -> Iterator[str]:
     """Yield what speaks against the model behind the ratings."""
     spread, runs, first = found.dispersion, found.streaks, found.first_breaks
     if spread is not None and spread.p_value < UNLIKELY:
@@ -134,7 +136,7 @@ def _faults(found: Validation) -> Iterator[str]:
         yield f"the breaker has {'an advantage' if way > 0 else 'a disadvantage'}"
     if found.spots:
         share = share_of(found.spots[-1])
-        if way := clearly_off(share, 0.5):
+        if way := clearly_off(share, 0.5) or starts_way(found, chart):
             yield f"the handicaps give too {'little' if way > 0 else 'much'}"
         if way := clearly_off(share, found.spots[-1].expected):
             yield f"players who give games win {more_or_less(way > 0)} often than predicted"

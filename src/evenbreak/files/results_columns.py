@@ -35,6 +35,8 @@ OPTIONAL = {
     "team_a": ("team 1", "home team"),
     "team_b": ("team 2", "away team"),
     "division": ("class", "flight"),
+    "level_a": ("level 1", "skill level a", "skill level 1", "class a", "class 1", "rating a"),
+    "level_b": ("level 2", "skill level b", "skill level 2", "class b", "class 2", "rating b"),
     "forfeit": ("walkover", "forfeited", "no show", "w/o"),
     **BY_WINNER,
 }

@@ -27,6 +27,8 @@ BY_WINNER = {
     "loser_race": ("loser needs", "losers race"),
     "winner_team": ("winners team",),
     "loser_team": ("losers team",),
+    "winner_level": ("winners level", "winner class", "winner rating"),
+    "loser_level": ("losers level", "loser class", "loser rating"),
 }
 """The columns that are brought to another layout here, with their other names."""
 
@@ -46,6 +48,8 @@ _OF_WINNER = {
     "loser_race": "race_b",
     "winner_team": "team_a",
     "loser_team": "team_b",
+    "winner_level": "level_a",
+    "loser_level": "level_b",
 }
 
 Pair = tuple[str, str]

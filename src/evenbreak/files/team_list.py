@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, short_repr
 from evenbreak.files.cells import numbers
 from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
 from evenbreak.files.text_table import read_table
@@ -24,6 +24,7 @@ MORE = {
 }
 
 
+@short_repr
 @dataclass(frozen=True)
 class TeamList:
     """The players of one team.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, short_repr
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.player_names import clean_name, same_name
 from evenbreak.files.problems import quoted
@@ -28,6 +28,7 @@ TEAM = {"team": ("name", "team name")}
 POINTS = {"points": ("head start", "bonus", "deduction", "adjustment")}
 
 
+@short_repr
 @dataclass(frozen=True)
 class TeamMatches:
     """The matches in a file.

@@ -13,6 +13,9 @@ from .charts.design import design as design
 from .charts.design import nearest_chart as nearest_chart
 from .charts.fair import FairRace as FairRace
 from .charts.fair import fair_races as fair_races
+from .charts.fair_scale import FairScale as FairScale
+from .charts.fair_scale import LeagueChart as LeagueChart
+from .charts.fair_scale import league_chart as league_chart
 from .charts.fixed_length import fixed_length_chart as fixed_length_chart
 from .charts.given_ratings import fair_races_given_ratings as fair_races_given_ratings
 from .charts.given_ratings import length_given_ratings as length_given_ratings
@@ -31,6 +34,8 @@ from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
 from .charts.pareto import ParetoChart as ParetoChart
 from .charts.pareto import pareto as pareto
+from .charts.played_chart import PlayedCell as PlayedCell
+from .charts.played_chart import PlayedChart as PlayedChart
 from .charts.points_audit import PointsAudit as PointsAudit
 from .charts.points_audit import audit_points as audit_points
 from .charts.points_chart import POINTS_CHARTS as POINTS_CHARTS

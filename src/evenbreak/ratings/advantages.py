@@ -1,4 +1,4 @@
-"""Advantages that the ratings do not know: of the first column, of breaking first, of the break."""
+"""Advantages that the ratings do not know: of breaking first, and of the break."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import expit, log_expit, logit, logsumexp
+from scipy.special import expit, log_expit, logsumexp
 
 from evenbreak.arrays import Floats
-from evenbreak.ratings.calibration import Estimate, logistic_coefficient, two_sided, with_error
+from evenbreak.ratings.calibration import Estimate, two_sided, with_error
 from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.walk_forward import NODES, Forecasts
 from evenbreak.ratings.who_broke import breakers
@@ -35,55 +35,6 @@ class FirstBreaks(NamedTuple):
     expected: float
     p_value: float
     matches: int
-
-
-class FirstColumn(NamedTuple):
-    """How often the player in the first column won the match.
-
-    Parameters
-    ----------
-    matches, won
-        decided matches, and those that player a won.
-    expected
-        the sum of the predicted chances of player a.
-    """
-
-    matches: int
-    won: int
-    expected: float
-
-    @property
-    def winners_first(self) -> bool:
-        """Whether the file must list winners first: no home advantage is as large.
-
-        Player a won three quarters or more of at least ten matches, and a fifth of them more
-        than predicted.
-        """
-        share, predicted = self.won / self.matches, self.expected / self.matches
-        return self.matches >= 10 and share >= 0.75 and share - predicted >= 0.2
-
-
-def first_column(forecasts: Forecasts) -> FirstColumn | None:
-    """Return how often the player in the first column won; None where no match was decided."""
-    rows = forecasts.race_a > 0
-    if not rows.any():
-        return None
-    expected = float(forecasts.p_match_integrated[rows].sum())
-    return FirstColumn(int(rows.sum()), int(forecasts.won[rows].sum()), expected)
-
-
-def side_advantage(forecasts: Forecasts) -> Estimate | None:
-    """Return the advantage in log-odds of the player in the first column, if any.
-
-    Where the first column is the home player that is the home advantage; elsewhere it
-    shows whether the order of the columns has a meaning.
-    """
-    ones = np.ones(len(forecasts))
-    won, games = forecasts.results.score_a.astype(float), forecasts.games.astype(float)
-    predicted = logit(forecasts.p_game_integrated.clip(1e-12, 1.0 - 1e-12))
-    # Each match is a cluster: there may be too few dates to see how much they differ.
-    each = np.arange(len(forecasts))
-    return logistic_coefficient(ones, won, games, each, offset=predicted)
 
 
 def first_breaks(forecasts: Forecasts) -> FirstBreaks | None:

@@ -47,8 +47,8 @@ class ByExperience(NamedTuple):
 def by_experience(forecasts: Forecasts) -> list[ByExperience]:
     """Return how players fared against more experienced ones, by the games that they had played.
 
-    The first date is left out, on which nobody has played before. A standard error takes each date
-    as a cluster.
+    The first date is left out, on which nobody has played before. Dates, or matches where that
+    gives the larger standard error, are clusters.
     """
     less_a = forecasts.known_a < forecasts.known_b
     fewer = np.minimum(forecasts.known_a, forecasts.known_b)
@@ -64,9 +64,15 @@ def by_experience(forecasts: Forecasts) -> list[ByExperience]:
             continue
         _, cluster = np.unique(forecasts.date_of[rows], return_inverse=True)
         offset, ones = logit(p[rows]), np.ones(int(rows.sum()))
-        stronger = logistic_coefficient(ones, won[rows], games[rows], cluster, offset=offset)
-        if stronger is None:
+        # From a few dates alone hardly any spread could be estimated.
+        either = [
+            logistic_coefficient(ones, won[rows], games[rows], one, offset=offset)
+            for one in (cluster, np.arange(len(cluster)))
+        ]
+        known = [one for one in either if one is not None]
+        if not known:
             continue
+        stronger = max(known, key=lambda one: one.high - one.low)
         n, chance = games[rows], p[rows]
         spread = ((won[rows] - chance * n) ** 2).sum() / (chance * (1.0 - chance) * n).sum()
         found.append(

@@ -196,13 +196,18 @@ def best_prior(
     if not choice.learnt:
         return choice
     evidence = []
+    chosen_for = way
     for name, sizes in more.items():
+        if name == "half_life" and way != chosen_for:
+            # Under a prior that is too wide, old games would seem to count too much.
+            choice, chosen_for = search.width(tried, way)._replace(learnt=True), way
         found = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd})
         evidence.append(found)
         if found.used:
             way = _with(way, name, found.value)
     if any(found.used for found in evidence):
-        choice = search.width(tried, way)._replace(learnt=True)
+        if way != chosen_for:
+            choice = search.width(tried, way)._replace(learnt=True)
         best = {**way, "prior_sd": choice.prior_sd}
         evidence = [search.sharpened(found, best) for found in evidence]
         for found in evidence:

@@ -40,6 +40,8 @@ _TYPES: dict[str, Any] = {
     "team_a": object,
     "team_b": object,
     "division": object,
+    "level_a": object,
+    "level_b": object,
     "forfeit": np.bool_,
     "unscored": np.bool_,
 }
@@ -82,6 +84,9 @@ class Results:
         any text.
     team_a, team_b, division
         the team of each player and the division of the match; '' where not stated.
+    level_a, level_b
+        the class, the skill level or the rating by which the league handicaps each player, as
+        text; '' where not stated.
     forfeit
         whether the match was a forfeit; its scores then do not count as games played.
     unscored
@@ -119,6 +124,8 @@ class Results:
     team_a: NDArray[np.object_] | None = None
     team_b: NDArray[np.object_] | None = None
     division: NDArray[np.object_] | None = None
+    level_a: NDArray[np.object_] | None = None
+    level_b: NDArray[np.object_] | None = None
     forfeit: Bools | None = None
     unscored: Bools | None = None
 
@@ -180,11 +187,10 @@ class Results:
         frame
             with the columns of a results file: `player_a`, `player_b`, `score_a` and
             `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
-            `break_format`, `racks`, `event`, `team_a`, `team_b`, `division` and `forfeit` that
-            are known. `winner` and
-            `first_break` are a, b or a name. A forfeit may leave its scores empty, and so may a
-            match of which the races and the winner are known. Other columns are not used, which
-            a warning says.
+            `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
+            and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit
+            may leave its scores empty, and so may a match of which the races and the winner are
+            known. Other columns are not used, which a warning says.
 
         Raises
         ------

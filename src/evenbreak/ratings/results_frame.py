@@ -21,7 +21,7 @@ Meaning = TypeVar("Meaning")
 
 NAMES, SCORES, RACES = ("player_a", "player_b"), ("score_a", "score_b"), ("race_a", "race_b")
 SIDES = ("winner", "first_break")
-GROUPS = ("team_a", "team_b", "division")
+GROUPS = ("team_a", "team_b", "division", "level_a", "level_b")
 _OTHERS = ("date", "break_format", "racks", "event", *GROUPS, "forfeit")
 COLUMNS = (*NAMES, *SCORES, *RACES, *SIDES, *_OTHERS)
 _MOST_PROBLEMS = 20

@@ -10,18 +10,12 @@ from typing import Literal
 import numpy as np
 
 from evenbreak.checks import seed_of
-from evenbreak.ratings.advantages import (
-    FirstBreaks,
-    FirstColumn,
-    break_advantage,
-    first_breaks,
-    first_column,
-    side_advantage,
-)
+from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.by_experience import ByExperience, by_experience
 from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.first_column import FirstColumn, first_column, side_advantage
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
@@ -32,6 +26,7 @@ from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scored import How, Of, Predictions, Scored
+from evenbreak.ratings.starts import Starts, starts
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
 from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
 
@@ -85,6 +80,9 @@ class Validation:
         how often favourites won short races and long ones, where there are both.
     spots
         how often the player with the longer race won.
+    starts
+        what the games given take back of the difference between players; None where there are
+        too few.
     experience
         how the less experienced player of a match fared, by the games played before.
     drawn
@@ -112,6 +110,7 @@ class Validation:
     breaker: Estimate | None
     first_breaks: FirstBreaks | None
     spots: tuple[HandicapFairness, ...]
+    starts: Starts | None
     lengths: tuple[RaceLengths, ...]
     experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
@@ -238,6 +237,7 @@ def validate(
         breaker=break_advantage(walk),
         first_breaks=first_breaks(walk),
         spots=tuple(handicap_fairness(walk)),
+        starts=starts(walk.results),
         lengths=tuple(race_lengths(walk)),
         experience=tuple(by_experience(walk)),
         drawn="dates" if by_dates else "matches",

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from evenbreak import answers, files, ratings
+from evenbreak import answers, files, handicaps, ratings
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import results_options, scale_option, seed_option
@@ -76,4 +76,6 @@ def command(
         from evenbreak.plots.calibration import calibration_figure
 
         write_plot(calibration_figure(found), plot)
-    return answers.validate_answer(file, found, scale, seed=seed)
+    return answers.validate_answer(
+        file, found, scale, seed=seed, chart=handicaps.league_chart(file.results)
+    )

@@ -1,0 +1,200 @@
+"""Which chart of the catalogue a league plays by, as far as its results show it.
+
+Where results state a rating or a skill level for each player, the race of every match is compared
+with that of each chart. Where they state races alone, the races that occur are compared with those
+that a chart has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.starts import level_numbers, levels
+
+Race = tuple[int, int]
+
+FEWEST = 30
+"""Matches with unequal races from which a chart is looked for."""
+
+RARE = 0.005
+"""A race in a smaller share of the matches may be a slip of the pen."""
+
+HALF = 0.5
+"""The share of the cells, and of the matches, that a chart must share with a league to be named."""
+
+FEWEST_IN_COMMON = 4
+"""Unequal races that a chart must have in common with a league, where only races are known."""
+
+
+class PlayedCell(NamedTuple):
+    """A place of a chart where the league plays another race.
+
+    Parameters
+    ----------
+    where
+        such as '29 to 36 points apart' or 'level 5 against 3'; '' where only races are known.
+    chart, played
+        the games that the stronger and the weaker player need by the chart, and in most matches;
+        where only races are known, one of them is None: the league never plays a race of the
+        chart, or plays one that the chart does not have.
+    matches
+        the matches there.
+    """
+
+    where: str
+    chart: Race | None
+    played: Race | None
+    matches: int
+
+
+class PlayedChart(NamedTuple):
+    """The chart that is nearest to the races of a league.
+
+    Parameters
+    ----------
+    name, title
+        of the chart.
+    by
+        what was compared: ratings, skill levels, or the races alone.
+    matches, agree
+        the matches compared, and those whose race is the chart's.
+    cells
+        the places of the chart that were compared: its rows or pairs of levels, or its races.
+    changed
+        those where the league plays another race.
+    """
+
+    name: str
+    title: str
+    by: Literal["rating", "level", "race"]
+    matches: int
+    agree: int
+    cells: int
+    changed: tuple[PlayedCell, ...]
+
+    @property
+    def same(self) -> bool:
+        """Whether the league plays by this chart, but for single matches."""
+        return not self.changed
+
+
+def played_chart(results: Results) -> PlayedChart | None:
+    """Return the chart of the catalogue that is nearest; None where none is near.
+
+    >>> season = Results.from_names(["Ann"] * 40, ["Bo"] * 40, [5] * 40, [1] * 40,
+    ...     race_a=[5] * 40, race_b=[4] * 40, level_a=["90"] * 40, level_b=["80"] * 40)
+    >>> found = played_chart(season)
+    >>> found.name, found.agree, found.changed
+    ('npl_10', 40, ())
+    """
+    race_a, race_b = results.races
+    season = results.select((race_a > 0) & (race_b > 0))
+    race_a, race_b = season.races
+    if (race_a != race_b).sum() < FEWEST:
+        return None
+    level = tuple(level_numbers_of(season))
+    known = ~np.isnan(level[0]) & ~np.isnan(level[1])
+    if known.mean() > HALF:
+        found = _by_level(season.select(known), *(one[known] for one in level))
+    else:
+        found = _by_race(season)
+    near = [one for one in found if one.agree > HALF * one.matches]
+    near = [one for one in near if len(one.changed) <= HALF * one.cells or one.by == "race"]
+    return max(near, key=_closeness, default=None)
+
+
+def _closeness(one: PlayedChart) -> tuple[float, int]:
+    return one.agree / one.matches, -len(one.changed)
+
+
+def level_numbers_of(results: Results) -> Iterator[Floats]:
+    """Yield the levels of a and of b in each match as numbers, NaN where they are none."""
+    for column in levels(results):
+        texts, code = np.unique(column, return_inverse=True)
+        yield level_numbers(texts)[code.ravel()]
+
+
+def _by_level(season: Results, level_a: Floats, level_b: Floats) -> Iterator[PlayedChart]:
+    ahead = level_a >= level_b
+    races = np.where(ahead, season.races, season.races[::-1])
+    high, low = np.maximum(level_a, level_b), np.minimum(level_a, level_b)
+    whole = np.rint(high).astype(np.int64), np.rint(low).astype(np.int64)
+    for name, title in CHARTS.items():
+        one = chart(name)
+        starts = np.array([row.difference_from for row in one.rows])
+        place = np.searchsorted(starts, whole[0] - whole[1], side="right") - 1
+        texts = [_points_apart(one, k) for k in range(len(starts))]
+        yield _compared(name, title, "rating", races, one.races(whole[0] - whole[1]), place, texts)
+    for name, title in LEVEL_CHARTS.items():
+        by_level = level_chart(name)
+        if not np.isin([high, low], by_level.levels).all():
+            continue
+        many = int(max(by_level.levels)) + 1
+        pairs, place = np.unique(whole[0] * many + whole[1], return_inverse=True)
+        texts = [f"level {pair // many} against {pair % many}" for pair in pairs.tolist()]
+        said = by_level.races(*whole)
+        yield _compared(name, title, "level", races, said, place.ravel(), texts)
+
+
+def _points_apart(one: Chart, place: int) -> str:
+    row = one.rows[place]
+    last = "or more" if row.difference_to is None else f"to {row.difference_to}"
+    return f"{row.difference_from} {last} points apart"
+
+
+def _compared(
+    name: str,
+    title: str,
+    by: Literal["rating", "level"],
+    races: Ints,
+    said: tuple[Ints, Ints],
+    place: NDArray[np.intp],
+    texts: list[str],
+) -> PlayedChart:
+    """Return how a chart compares, given the races played and said, and the cell of each match."""
+    # An equal difference has no stronger player, so either may be called a.
+    same = (races == said).all(0) | ((races[::-1] == said).all(0) & (said[0] == said[1]))
+    changed, cells = [], 0
+    for cell in np.unique(place).tolist():
+        rows = place == cell
+        cells += 1
+        played, often = np.unique(races[:, rows], axis=1, return_counts=True)
+        most = int(often.argmax())
+        needs = played[0, most].item(), played[1, most].item()
+        by_chart = said[0][rows][0].item(), said[1][rows][0].item()
+        if needs != by_chart and often[most] > HALF * rows.sum():
+            changed.append(PlayedCell(texts[cell], by_chart, needs, int(rows.sum())))
+    return PlayedChart(name, title, by, len(same), int(same.sum()), cells, tuple(changed))
+
+
+def _by_race(season: Results) -> Iterator[PlayedChart]:
+    """Yield the charts that have enough of the races that are played."""
+    pairs = np.column_stack([np.maximum(*season.races), np.minimum(*season.races)])
+    races, often = np.unique(pairs, axis=0, return_counts=True)
+    played = {(m, n): many for (m, n), many in zip(races.tolist(), often.tolist(), strict=True)}
+    usual = {race for race, many in played.items() if many >= max(2, RARE * len(season))}
+    for name, title in {**CHARTS, **LEVEL_CHARTS}.items():
+        of_chart = set(_races_of(chart(name) if name in CHARTS else level_chart(name)))
+        common = usual & of_chart
+        if sum(m != n for m, n in common) < FEWEST_IN_COMMON or len(common) < HALF * len(of_chart):
+            continue
+        changed = [PlayedCell("", race, None, 0) for race in sorted(of_chart - set(played))]
+        changed += [PlayedCell("", None, race, played[race]) for race in sorted(usual - of_chart)]
+        agree = sum(many for race, many in played.items() if race in of_chart)
+        yield PlayedChart(name, title, "race", len(season), agree, len(of_chart), tuple(changed))
+
+
+def _races_of(one: Chart | LevelChart) -> Iterator[Race]:
+    if isinstance(one, Chart):
+        yield from ((row.stronger_needs, row.weaker_needs) for row in one.rows)
+        return
+    for high, row in enumerate(one.needs):
+        yield from ((needs, one.needs[low][high]) for low, needs in enumerate(row[: high + 1]))

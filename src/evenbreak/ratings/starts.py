@@ -1,0 +1,220 @@
+"""What a league's starts take back of the difference between players, and what they should.
+
+A race m:n takes back the difference at which it is even (see `stated_strength`). How large the
+difference is in fact, the games show: on average over all handicap matches, for each size of the
+start, and for a class, where the results say in which class each player is.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import betaincinv, logit
+
+from evenbreak.arrays import Floats
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.handicap_slope import handicap_slope
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.stated_strength import implied_difference
+
+FEWEST = 100
+"""Handicap matches from which starts are judged."""
+
+FEWEST_ALIKE = 30
+"""Matches from which one size of the start is judged."""
+
+LARGEST_LEVEL = 1e6
+
+MOST_CLASSES = 12
+"""A league with more levels than this has ratings rather than classes."""
+
+
+class StartGroup(NamedTuple):
+    """Matches between players who are equally many classes apart, or with equal starts.
+
+    Parameters
+    ----------
+    apart
+        by how many classes one player is above the other, or how many games they give.
+    matches
+        how many there are.
+    race
+        the race that is played most: the games of the player above, and of the other.
+    stronger
+        by how much the player above is stronger, in log-odds.
+    taken
+        what the races take back of it on average.
+    """
+
+    apart: int
+    matches: int
+    race: tuple[int, int]
+    stronger: Estimate
+    taken: float
+
+
+class Starts(NamedTuple):
+    """What starts take back of the difference between players, in log-odds.
+
+    Parameters
+    ----------
+    matches
+        races that are not even.
+    stronger
+        by how much those who give games are stronger on average.
+    taken
+        what the races take back on average.
+    share
+        the difference between players for each unit that races take back: 1 where starts are
+        right, above 1 where they are too small.
+    classes
+        the names of the classes, the lowest first; empty where they are not known.
+    a_class
+        what a class is worth; None where classes are not known.
+    groups
+        by classes apart where classes are known, or else by games given.
+    """
+
+    matches: int
+    stronger: Estimate
+    taken: float
+    share: Estimate
+    classes: tuple[str, ...]
+    a_class: Estimate | None
+    groups: tuple[StartGroup, ...]
+
+    @property
+    def numbered(self) -> bool:
+        """Whether the classes are numbers, such as skill levels."""
+        return not np.isnan(level_numbers(np.array(self.classes, dtype=str))).any()
+
+
+def starts(results: Results) -> Starts | None:
+    """Return what starts take back; None with fewer than 100 races that are not even.
+
+    >>> season = Results.from_names(["A", "A"], ["B", "B"], [7, 5], [2, 6], race_a=[7, 7],
+    ...     race_b=[6, 6])
+    >>> starts(season) is None
+    True
+    """
+    season = results.played().results
+    implied = implied_difference(season)
+    season, implied = season.select(~np.isnan(implied)), implied[~np.isnan(implied)]
+    gives = season.races[0] - season.races[1]
+    uneven = gives != 0
+    if uneven.sum() < FEWEST:
+        return None
+    share = handicap_slope(season, implied)
+    stronger = handicap_slope(season.select(uneven), np.sign(gives[uneven]).astype(float))
+    if share is None or stronger is None:
+        return None
+    classes, above = class_steps(season, implied)
+    known = np.isfinite(above)
+    a_class = handicap_slope(season.select(known), above[known]) if classes else None
+    apart = gives if a_class is None else np.where(known, above, 0).astype(np.int64)
+    return Starts(
+        int(uneven.sum()),
+        stronger,
+        float(np.abs(implied[uneven]).mean()),
+        share,
+        () if a_class is None else classes,
+        a_class,
+        tuple(_groups(season, apart, implied)),
+    )
+
+
+def even_start(race: int, difference: float) -> int:
+    """Return the games that the weaker player should need where the stronger one needs `race`.
+
+    Parameters
+    ----------
+    race
+        the games of the stronger player.
+    difference
+        by how much they are stronger, in log-odds.
+
+    >>> even_start(7, 0.0), even_start(7, 0.53)
+    (7, 4)
+    """
+    needs = np.arange(1, race + 1)
+    return int(needs[np.abs(logit(betaincinv(race, needs, 0.5)) - difference).argmin()])
+
+
+def class_steps(results: Results, implied: Floats) -> tuple[tuple[str, ...], Floats]:
+    """Return the classes, the lowest first, and by how many of them a is above b in each match.
+
+    Classes without numbers are put in order by the races between them. Where `level_a` and
+    `level_b` hold no classes, or too many, there are none; where a match does not state them, NaN.
+    """
+    none: tuple[str, ...] = ()
+    a, b = levels(results)
+    stated = (a != "") & (b != "")
+    names, code = np.unique(np.concatenate([a[stated], b[stated]]), return_inverse=True)
+    if not 2 <= len(names) <= MOST_CLASSES:
+        return none, np.full(len(results), np.nan)
+    of_a, of_b = np.split(code.ravel(), 2)
+    numbers = level_numbers(names)
+    if np.isnan(numbers).any():
+        numbers = np.argsort(np.argsort(_strengths(of_a, of_b, implied[stated]))).astype(float)
+    elif (numbers % 1.0 != 0.0).any():
+        return none, np.full(len(results), np.nan)
+    above = np.full(len(results), np.nan)
+    above[stated] = numbers[of_a] - numbers[of_b]
+    return tuple(names[np.argsort(numbers)].tolist()), above
+
+
+def levels(results: Results) -> tuple[NDArray[np.str_], NDArray[np.str_]]:
+    """Return the class, skill level or rating of a and b in each match, '' where not stated."""
+    columns = (results.level_a, results.level_b)
+    if any(column is None for column in columns):
+        columns = (np.full(len(results), ""),) * 2
+    a, b = (np.asarray(column).astype(str) for column in columns)
+    return a, b
+
+
+def level_numbers(texts: NDArray[np.str_]) -> Floats:
+    """Return the numbers that texts are, NaN where they are none up to a million.
+
+    >>> level_numbers(np.array(["87", "B", "4.5", "inf"]))
+    array([87. ,  nan,  4.5,  nan])
+    """
+
+    def number(text: str) -> float:
+        try:
+            found = float(text.replace(",", "."))
+        except ValueError:
+            return math.nan
+        return found if abs(found) <= LARGEST_LEVEL else math.nan
+
+    return np.array([number(text) for text in texts.tolist()])
+
+
+def _strengths(of_a: NDArray[np.intp], of_b: NDArray[np.intp], implied: Floats) -> Floats:
+    """Return how strong the races say that each class is, by least squares."""
+    contrast = np.zeros((len(of_a), int(max(of_a.max(), of_b.max())) + 1))
+    np.add.at(contrast, (np.arange(len(of_a)), of_a), 1.0)
+    np.add.at(contrast, (np.arange(len(of_b)), of_b), -1.0)
+    return np.asarray(np.linalg.lstsq(contrast, implied)[0])
+
+
+def _groups(season: Results, apart: NDArray[np.int64], implied: Floats) -> list[StartGroup]:
+    found = []
+    sign = np.sign(apart)
+    for size in np.unique(np.abs(apart[sign != 0])).tolist():
+        rows = np.abs(apart) == size
+        if rows.sum() < FEWEST_ALIKE:
+            continue
+        stronger = handicap_slope(season.select(rows), sign[rows].astype(float))
+        if stronger is None:
+            continue
+        race_a, race_b = (race[rows] for race in season.races)
+        ahead = sign[rows] > 0
+        races = np.column_stack([np.where(ahead, race_a, race_b), np.where(ahead, race_b, race_a)])
+        played, often = np.unique(races, axis=0, return_counts=True)
+        needs, gets = played[often.argmax()].tolist()
+        taken = float((sign[rows] * implied[rows]).mean())
+        found.append(StartGroup(size, int(rows.sum()), (needs, gets), stronger, taken))
+    return found
