@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
 from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)
+_TRIED = 500  # evenings on which each call is tried
 
 
 class Start(NamedTuple):
@@ -126,9 +127,10 @@ class Finish:
     def calls(self) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 
-        All are tried on the same evenings, so that small differences are real.
+        All are tried on the same evenings, some of those played out, so that small differences
+        are real.
         """
-        room = self._room
+        room = self._room.on_the_first(_TRIED)
         ready = [name for name in self.standing.to_play if name not in room.on_tables]
         ends = {name: room.ends(room.planned(self.names.index(name))) for name in ready}
         if not ends:
@@ -154,6 +156,12 @@ class _Room:
     tables: Floats
     now: float
     playing: tuple[InPlay, ...]
+
+    def on_the_first(self, runs: int) -> _Room:
+        """Return the same with the first of the evenings only."""
+        evenings = self.evenings
+        cells = (getattr(evenings, one.name)[:runs] for one in fields(evenings)[1:])
+        return replace(self, evenings=Evenings(evenings.names, *cells))
 
     @property
     def on_tables(self) -> tuple[str, ...]:
