@@ -19,6 +19,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot
 from evenbreak.tournaments.brackets.standing import Standing
+from evenbreak.tournaments.evening.later_draws import TO_DRAW
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 
 
@@ -40,6 +41,9 @@ class Tournament:
         what the points mean.
     seeding
         where the order of the seeds comes from, in words.
+    to_draw
+        what is drawn later: '' (nothing), the 'lines' of everybody, the 'qualifiers' of the
+        losers' side, or the 'rounds' of a Swiss.
     """
 
     file: RosterFile
@@ -48,6 +52,7 @@ class Tournament:
     races: Races
     scale: Scale
     seeding: str
+    to_draw: str = ""
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:
@@ -146,15 +151,28 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
     """
     if isinstance(slot, int):
         return bracket.players[slot]
+    if slot.match == TO_DRAW:
+        return "a qualifier to be drawn"
+    if _of_swiss(bracket, slot):
+        return "to be drawn"
     if isinstance(slot.outcome, int):
         return f"number {slot.outcome} of {slot.match}"
     return f"{slot.outcome} of {slot.match}"
 
 
+def _of_swiss(bracket: Bracket, slot: Slot) -> bool:
+    """Return whether a slot is one of a round that is paired when the round before is over."""
+    if isinstance(slot, int) or slot.match not in bracket.by_name:
+        return False
+    return bracket.by_name[slot.match].side == "Swiss"
+
+
 def pair_words(now: Standing, match: str) -> tuple[str, str]:
     """Return who plays a match, as `slot_words` does, with the players who are known by now."""
     one, other = (
-        slot_words(now.bracket, slot) if seat is None else now.bracket.players[seat]
+        slot_words(now.bracket, slot)
+        if seat is None or _of_swiss(now.bracket, slot)
+        else now.bracket.players[seat]
         for slot, seat in zip(now.bracket.match(match).slots, now.seats[match], strict=True)
     )
     return one, other

@@ -14,12 +14,14 @@ from evenbreak.tournaments.evening.events import (
     Dropped,
     Event,
     Late,
+    LaterDraw,
     Ranked,
     Result,
     Scored,
     What,
 )
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.moves import score_words
 from evenbreak.tournaments.evening.settling import TieBreak
 
@@ -38,8 +40,19 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
         return []
     result = event.what
     said = [f"{score_words(result)} in {result.match}."]
-    said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
+    if any(_leads_on(after, result.match)):
+        said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
     return [*said, *reopened(before, after, result.match)]
+
+
+def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
+    """Return whether a match decides a place, and whether it leads to another match."""
+    played = state.bracket.match(match)
+    slots = [slot for one in state.bracket.matches for slot in one.slots]
+    return (
+        played.winner_place is not None or played.loser_place is not None,
+        any(isinstance(slot, Source) and slot.match == match for slot in slots),
+    )
 
 
 def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
@@ -138,6 +151,20 @@ def _entered(state: Evening, name: str) -> str:
     return f"{name} has entered."
 
 
+def draw_words(before: Evening, after: Evening) -> str:
+    """Return what was drawn."""
+    said = [] if before.drawn else [f"{len(after.order)} players are drawn."]
+    for stage in after.later.keys() - before.later.keys():
+        if stage == KNOCK_OUT:
+            said.append("The losers' qualifiers are drawn.")
+        else:
+            pairs = pairings(after.later)[int(stage[1:]) - 1]
+            byes = [p.first for p in pairs if p.second is None]
+            bye = f"; {byes[0]} has a bye" if byes else ""
+            said.append(f"Round {stage[1:]} is drawn{bye}.")
+    return " ".join(said)
+
+
 def undone_words(what: What) -> str:
     """Return what was taken back.
 
@@ -156,6 +183,9 @@ def undone_words(what: What) -> str:
             words = f"the call of {what.match} to table {what.table}"
         case Drawn():
             words = "the draw"
+        case LaterDraw(stage=stage):
+            round_of = stage != KNOCK_OUT
+            words = f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
         case Changed():
             words = "the change of tables or races"
         case Late():

@@ -15,11 +15,19 @@ from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.wording import count_of, listed
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Finish
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import (
+    can_draw,
+    pairings,
+    stage_to_draw,
+    swiss_of,
+)
 from evenbreak.tournaments.evening.moves import free_tables, score_words
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.settling import tied_groups
 
 _SHOWN = 6  # players whose title odds everybody sees
 
@@ -73,11 +81,20 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
     odds = night.odds
     words = list(said)
     parts: list[Part] = []
-    to_play = list(state.standing.to_play)
-    if to_play:
+    tied = tied_groups(state)
+    under_way = bool(state.standing.to_play or tied) or stage_to_draw(state) is not None
+    if under_way:
         found = night.finish()
         tables = _tables(state, found)
-        words.append(_next_words(state, tables))
+        if tied:
+            words.append(
+                f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
+                "ties with: evenbreak tournament tiebreak"
+            )
+        if can_draw(state):
+            words.append(_draw_words(state))
+        elif state.standing.to_play:
+            words.append(_next_words(state, tables))
         words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
         keys = ("finish_p10", "finish_p50", "finish_p90")
         parts += [
@@ -89,12 +106,13 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
         if len(first) == 1:
             words.append(f"{first[0]} wins the tournament.")
         else:
-            words.append(
-                f"First place is tied: {listed(first)}. Break the ties with: evenbreak "
-                "tournament tiebreak"
-            )
+            words.append(f"First place is tied: {listed(first)}.")
+            if state.plan.form != "swiss":
+                words[-1] += " Break the ties with: evenbreak tournament tiebreak"
         parts.append(_places(state, odds.p_place, odds.bracket.places))
-    if to_play:
+    if state.plan.form == "swiss" and state.counted:
+        parts.append(_swiss_table(state))
+    if under_way:
         parts.append(_title_table(night))
     data = {
         "odds": [
@@ -108,6 +126,30 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
     return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
+
+
+def _draw_words(state: Evening) -> str:
+    """Return that something can be drawn now."""
+    stage = str(stage_to_draw(state))
+    what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
+    return f"{what} can be drawn now, with: evenbreak tournament draw"
+
+
+def _swiss_table(state: Evening) -> Table:
+    """Return the standings of a Swiss, after the rounds that are over."""
+    over = [
+        pairs
+        for pairs in pairings(state.later, state.counted)
+        if all(p.winner or p.second is None for p in pairs)
+    ]
+    rows = swiss_standings(swiss_of(state.plan, state.order), over)
+    columns = [
+        Column("name", "player", left=True),
+        Column("won", "matches\nwon"),
+        Column("buchholz", "won by their\nopponents"),
+    ]
+    title = f"Standings after round {len(over)}"
+    return Table("standings", columns, [list(row) for row in rows], title=title)
 
 
 def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
@@ -169,7 +211,8 @@ def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
         (one.call.table, name) for name, one in state.on_tables.items()
     )
     free: list[int | None] = [*free_tables(state)]
-    calls = [call.match for call in found.calls()]
+    ready = state.standing.to_play
+    calls = [call.match for call in found.calls() if call.match in ready]
     free += [None] * len(calls)
     return [*playing, *zip(free, calls, strict=False)]
 

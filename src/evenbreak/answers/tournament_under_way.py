@@ -20,8 +20,11 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace
 from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
+from evenbreak.tournaments.odds.title import TitleOdds
 
 _WORTH_SAYING = 3.0  # minutes
 
@@ -49,23 +52,33 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     """
     state, odds, sure = outlook.state, outlook.odds, outlook.as_if_sure
     table = odds_table(state.ratings, sure, odds, prizes)
-    quantities = Quantities(
-        [
+    quantities = [
+        Quantity("exact", sure.exact and odds is sure),
+        Quantity("ratings_averaged", odds is not sure),
+    ]
+    if isinstance(odds, TitleOdds):
+        quantities = [
             Quantity("p_second_final", odds.p_second_final),
             Quantity("matches_mean", odds.matches_mean),
-            Quantity("exact", sure.exact and odds is sure),
-            Quantity("ratings_averaged", odds is not sure),
+            *quantities,
         ]
-    )
-    parts: list[Part] = [favourite_words(odds), quantities, table]
+    parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
     if state.standing.to_play:
-        parts.append(_at_stake(outlook, prizes))
-        parts.append(how_words(sure, odds))
+        if (at_stake := _at_stake(outlook, prizes)).rows:
+            parts.append(at_stake)
+        parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
     if odds is not sure and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
         )
     return Answer(heading(outlook, source), parts, csv=table)
+
+
+def _to_draw(state: Evening) -> str:
+    """Return what the odds take as still to be drawn."""
+    if stage_to_draw(state) is None:
+        return "rounds" if state.plan.form == "swiss" and state.standing.to_play else ""
+    return "rounds" if state.plan.form == "swiss" else "qualifiers"
 
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
@@ -126,7 +139,7 @@ def time_under_way(
         if nothing is left to play.
     """
     state = outlook.state
-    if not state.standing.to_play:
+    if not state.standing.to_play and stage_to_draw(state) is None:
         raise InputError("all matches have been played")
     usual = state.plan.tables if tables is None else tables
 
@@ -136,7 +149,7 @@ def time_under_way(
 
     races = state.races
     found = outlook.finish(tables=usual, turnover=turnover)
-    changes = what_if(found, ask, state.bracket, usual, races)
+    changes = what_if(found, ask, state.whole, usual, races)
     begun = begun_at(outlook)
     early, middle, late = found.bands
     keys = ("finish_p10", "finish_p50", "finish_p90")

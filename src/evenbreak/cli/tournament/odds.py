@@ -45,6 +45,17 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
     help="Take the ratings as right, even if the file states their standard errors.",
 )
 @click.option(
+    "--before-draw",
+    is_flag=True,
+    help="The odds before a blind draw: every draw is equally likely.",
+)
+@click.option(
+    "--fairest",
+    is_flag=True,
+    help="With --race-to or --chart: also list the races by side that make the tournament fairest "
+    "for about as many games.",
+)
+@click.option(
     "--walkovers",
     metavar="P",
     type=WALKOVERS,
@@ -63,6 +74,7 @@ def command(
     tournament: Tournament,
     warnings: list[str],
     sure: bool,
+    fairest: bool,
     walkovers: float,
     prizes: str | None,
     seed: int,
@@ -82,11 +94,14 @@ def command(
 
     if np.isnan(tournament.file.roster.rating).all():
         refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")
+    if fairest and isinstance(tournament.races.race, int):
+        refuse("--fairest is for handicapped races; give --race-to N or --chart NAME, not --race")
     return tournament_odds_answer(
         tournament,
         sure=sure,
         walkovers=walkovers,
         prizes=_prizes(prizes, len(tournament.roster)),
+        fairest=fairest,
         seed=seed,
         warnings=warnings,
     )

@@ -138,6 +138,9 @@ class Finish:
         best = min(ends, key=lambda name: float(ends[name].mean()))
         calls = []
         for name, end in ends.items():
+            if np.isinf(end).any():  # it has to wait for its round
+                calls.append(Call(name, np.inf, np.inf, 0.0))
+                continue
             later = end - ends[best]
             error = float(later.std() / np.sqrt(len(later)))
             calls.append(Call(name, float(end.mean()), float(later.mean()), error))

@@ -22,10 +22,16 @@ class Plan:
     Parameters
     ----------
     form
-        double, single, consolation, round-robin, king-of-the-hill, or the format of a bracket
-        from another program, in words.
-    final, qualifiers, drops
+        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, or the
+        format of a bracket from another program, in words.
+    final, drops
         as in `double_elimination`.
+    qualifiers
+        how many a double elimination leads to, or how many go on from each group or pod.
+    placement
+        how qualifiers of a double elimination are paired: half shift or redraw.
+    groups, pod_size, rounds
+        how many groups, the lines of a pod, the rounds of a Swiss.
     third_place
         as in `single_elimination`.
     seeding
@@ -66,6 +72,10 @@ class Plan:
     starter_error: float = 0.0
     tables: int = 4
     discipline: str = "9-ball"
+    placement: str = "half shift"
+    groups: int | None = None
+    pod_size: int = 8
+    rounds: int | None = None
     layout: tuple[Draft, ...] = ()
     by_match: Mapping[str, int] = field(default_factory=dict)
 
@@ -168,6 +178,23 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class LaterDraw:
+    """Something was drawn in the course of the evening.
+
+    Parameters
+    ----------
+    stage
+        R1, R2, ...: a round of a Swiss; K1: the losers' qualifiers, for the knock-out.
+    order
+        the players of the round in pairs (None: a bye), or the matches that the qualifiers come
+        from, in the order of the matches that they go into.
+    """
+
+    stage: str
+    order: tuple[str | None, ...]
+
+
+@dataclass(frozen=True)
 class Changed:
     """Other tables or races from now on, in the matches that have not begun; None: as before."""
 
@@ -183,7 +210,17 @@ class Undone:
 
 
 What: TypeAlias = (
-    Opened | Drawn | Late | Dropped | Called | Scored | Result | Ranked | Changed | Undone
+    Opened
+    | Drawn
+    | Late
+    | Dropped
+    | Called
+    | Scored
+    | Result
+    | Ranked
+    | Changed
+    | LaterDraw
+    | Undone
 )
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
@@ -194,6 +231,7 @@ KINDS: dict[str, type[What]] = {
     "scored": Scored,
     "result": Result,
     "ranked": Ranked,
+    "later draw": LaterDraw,
     "changed": Changed,
     "undone": Undone,
 }

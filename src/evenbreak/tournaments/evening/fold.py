@@ -17,9 +17,9 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
-from evenbreak.tournaments.brackets.double import double_elimination
+from evenbreak.tournaments.brackets.double import double_elimination, pods
 from evenbreak.tournaments.brackets.group_ranks import ranked
-from evenbreak.tournaments.brackets.groups import round_robin
+from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
 from evenbreak.tournaments.brackets.knockout import (
     consolation,
     king_of_the_hill,
@@ -27,6 +27,7 @@ from evenbreak.tournaments.brackets.knockout import (
 )
 from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
+from evenbreak.tournaments.brackets.swiss import swiss_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -35,6 +36,7 @@ from evenbreak.tournaments.evening.events import (
     Entrant,
     Event,
     Late,
+    LaterDraw,
     Opened,
     Plan,
     Ranked,
@@ -42,10 +44,11 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
+from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
 
-ELIMINATIONS = ("double", "single", "consolation")
+ELIMINATIONS = ("double", "single", "pods", "consolation")
 
 
 class Played(NamedTuple):
@@ -93,6 +96,8 @@ class Evening:
         the last live score of each match.
     ties
         the last breaking of the ties of each group.
+    later
+        what was drawn in the course of the evening, by stage.
     events
         the events that were not undone.
     """
@@ -106,6 +111,7 @@ class Evening:
     calls: Mapping[str, OnTable]
     scores: Mapping[str, LiveScore]
     ties: Mapping[str, Ranked]
+    later: Mapping[str, tuple[str | None, ...]]
     events: tuple[Event, ...]
 
     @property
@@ -126,6 +132,15 @@ class Evening:
             raise InputError(
                 "the draw has not been made yet; make it with evenbreak tournament draw"
             )
+        return bracket_now(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def whole(self) -> Bracket:
+        """The bracket with a stand-in for what is drawn in the course of the evening."""
+        return whole_bracket(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def _drawn_up(self) -> Bracket:
         return bracket_of(self.plan, self.order, self.lines)
 
     @property
@@ -294,6 +309,7 @@ def evening(events: Iterable[Event]) -> Evening:
         calls,
         scores,
         ties,
+        {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
     )
 
@@ -351,6 +367,23 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
             return single_elimination(order, third_place=plan.third_place, lines=lines)
         case "consolation":
             return consolation(order, lines=lines)
+        case "pods":
+            each: Any = plan.qualifiers or 1
+            return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
+        case "groups":
+            many = groups_of(plan, len(order))
+            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
         case "round-robin":
             return round_robin(order)
+        case "swiss":
+            return swiss_bracket(swiss_of(plan, order))
     return king_of_the_hill(order)
+
+
+def groups_of(plan: Plan, players: int) -> int:
+    """Return the number of groups: unless given, groups of four, or of three and four.
+
+    >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
+    [2, 3, 4, 4]
+    """
+    return plan.groups or max(2, -(-players // 4))

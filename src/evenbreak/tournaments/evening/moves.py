@@ -21,11 +21,13 @@ from evenbreak.tournaments.evening.events import (
     Dropped,
     Entrant,
     Late,
+    LaterDraw,
     Result,
     Scored,
     Undone,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.later_draws import draw_later
 
 MOST_PLAYERS = 256
 
@@ -49,6 +51,22 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
         names = blind_draw(names, rng)
     lines = tuple(seeded_lines(len(names))) if state.plan.form in ELIMINATIONS else None
     return Drawn(tuple(names), lines)
+
+
+def draw_next(state: Evening, rng: np.random.Generator) -> list[Drawn | LaterDraw]:
+    """Draw what is to be drawn next: the bracket, the next round of a Swiss, or qualifiers.
+
+    Raises
+    ------
+    InputError
+        if there is nothing to draw, or it must wait for matches.
+    """
+    if state.drawn:
+        return [draw_later(state, rng)]
+    first = draw(state, rng)
+    if state.plan.form != "swiss":
+        return [first]
+    return [first, draw_later(replace(state, order=first.order), rng)]
 
 
 def result(state: Evening, match: str, score: tuple[int, int]) -> Result:

@@ -23,11 +23,18 @@ from evenbreak.tournaments.clock.event_pace import Timed
 from evenbreak.tournaments.clock.finish import Finish, finish
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
+from evenbreak.tournaments.evening.later_draws import pairings, stage_to_draw, swiss_of
 from evenbreak.tournaments.evening.skills import Games, skills_tonight
 from evenbreak.tournaments.odds.leverage import Leverage, leverages
 from evenbreak.tournaments.odds.races import PairOdds, Races, chances_given, from_score, pair_odds
-from evenbreak.tournaments.odds.title import TitleOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import over_ratings
+from evenbreak.tournaments.odds.redraws import redraw_odds
+from evenbreak.tournaments.odds.swiss_odds import swiss_odds
+from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
+from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+
+_REDRAWS = 6  # of the qualifiers, if there are more ways than 24
+_SWISSES = 600  # are played out
+_RATINGS = 200  # draws of the ratings among them
 
 
 class _InScore(NamedTuple):
@@ -74,10 +81,10 @@ class Outlook:
     def laws_of(self, races: Races) -> dict[str, PairOdds]:
         """Return the same with other races in the matches that have not begun."""
         state = self.state
-        laws = pair_odds(state.bracket, state.ratings, races, scale=state.scale)
+        laws = pair_odds(state.whole, state.ratings, races, scale=state.scale)
         begun = {**state.on_tables, **state.live}
         if races is not state.races and begun:
-            usual = pair_odds(state.bracket, state.ratings, state.races, scale=state.scale)
+            usual = pair_odds(state.whole, state.ratings, state.races, scale=state.scale)
             laws |= {name: usual[name] for name in begun}
         if state.dropped:
             made = {id(law): self._without_dropped(law) for law in laws.values()}
@@ -115,24 +122,43 @@ class Outlook:
         return found
 
     @cached_property
-    def as_if_sure(self) -> TitleOdds:
+    def as_if_sure(self) -> PlaceOdds:
         """The odds from here on, if the ratings are right."""
         state = self.state
         rng = np.random.default_rng(0)
-        return title_odds(
-            state.bracket, self.chances(state.ratings), results=state.results, rng=rng
-        )
+        chances = self.chances(state.ratings)
+        if state.plan.form == "swiss":
+            return self._swiss_odds(chances)
+        if stage_to_draw(state) is not None:
+            return redraw_odds(state.whole, chances, results=state.results, samples=_REDRAWS)
+        return title_odds(state.bracket, chances, results=state.results, rng=rng)
 
     @cached_property
-    def odds(self) -> TitleOdds:
+    def odds(self) -> PlaceOdds:
         """The odds from here on, averaged over how far off the ratings may be."""
         if not self.errors.any() or not self.state.standing.to_play:
             return self.as_if_sure
         state = self.state
         skills, covariance = skills_tonight(state.ratings, self.errors, self.games, state.scale)
+        if state.plan.form == "swiss":
+            asked = state.whole, self.chances, skills, covariance
+            rng = np.random.default_rng(0)
+            return self._swiss_odds(drawn_chances(*asked, samples=_RATINGS, rng=rng))
+        if stage_to_draw(state) is not None:
+            return self.as_if_sure
         return over_ratings(
             state.bracket, self.chances, skills, covariance, results=state.results
         ).averaged
+
+    def _swiss_odds(self, chances: Mapping[str, Floats]) -> PlaceOdds:
+        state = self.state
+        win = chances[state.whole.matches[-1].name].copy()
+        for name, (one, other), _, _ in self._in_score:
+            win[one, other], win[other, one] = (
+                chances[name][pair] for pair in ((one, other), (other, one))
+            )
+        event = swiss_of(state.plan, state.order)
+        return swiss_odds(event, win, played=pairings(state.later, state.counted), runs=_SWISSES)
 
     @cached_property
     def errors(self) -> Floats:
@@ -143,7 +169,7 @@ class Outlook:
     def chances(self) -> Callable[[Floats], dict[str, Floats]]:
         """The chances of the matches from here on, given the players' skills."""
         state = self.state
-        usual = chances_given(state.bracket, state.ratings, state.races, scale=state.scale)
+        usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
 
         gone = [state.order.index(name) for name in state.dropped]
 
@@ -184,6 +210,8 @@ class Outlook:
             the money for first place, second, ...: then it is the prizes. None: the title.
         """
         state = self.state
+        if stage_to_draw(state) is not None or state.plan.form == "swiss":
+            return []
         win = self.chances(state.ratings)
         try:
             return leverages(state.bracket, win, payouts=payouts, results=state.results)
@@ -208,7 +236,7 @@ class Outlook:
         state = self.state
         playing = [self._in_play(name, one.at) for name, one in state.on_tables.items()]
         return finish(
-            state.bracket,
+            state.whole,
             self.laws if laws is None else laws,
             tables=state.plan.tables if tables is None else tables,
             pace=state.plan.discipline if pace is None else pace,

@@ -58,6 +58,17 @@ def stand(state: Evening, match: str) -> list[Result]:
     return found
 
 
+def tied_groups(state: Evening) -> list[str]:
+    """Return the groups that are played out and tied, so that it is open who goes on."""
+    return [
+        group.name
+        for group in state.bracket.groups
+        if None in group.places
+        and all(name in state.counted for name in group.matches)
+        and Source(group.name, 1) not in state.standing.sent
+    ]
+
+
 class TieBreak(NamedTuple):
     """How the ties of a group were broken.
 
@@ -96,13 +107,16 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
     InputError
         if there is no tie.
     """
+    broken = []
     for group in state.bracket.groups:
         if group.name in state.ties and group.name in state.results:
-            raise InputError("the ties are broken already; undo takes that back")
-        if all(name in state.counted for name in group.matches):
+            broken.append(group.name)
+        elif group.matches and all(name in state.counted for name in group.matches):
             ahead = tied_ranks(state.standing, group)
             if len(set(ahead)) < len(ahead):
                 return _broken(state, group, ahead, rng, only_lots=only_lots)
+    if broken:
+        raise InputError("the ties are broken already; undo takes that back")
     raise InputError("there is no tie to break; ties are broken when all matches are played")
 
 
