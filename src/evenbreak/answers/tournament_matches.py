@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
+from evenbreak.files.event_list import TITLES, event_rows
+from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import played_matches
 
@@ -60,3 +64,18 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
     table = Table("matches", columns, rows)
     said = f"{count_of(len(rows), 'match was', 'matches were')} played."
     return Answer(event, [said, table], csv=table)
+
+
+def tournament_events_answer(events: Sequence[Event], name: str) -> Answer:
+    """Return all that happened, in its order; what was undone is there too.
+
+    Parameters
+    ----------
+    events
+        the events.
+    name
+        the tournament's name.
+    """
+    columns = [Column(title, title, left=True) for title in TITLES]
+    table = Table("events", columns, [list(row) for row in event_rows(events)])
+    return Answer(name, [f"{count_of(len(events), 'event')}.", table], csv=table)

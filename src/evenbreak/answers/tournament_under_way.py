@@ -15,7 +15,7 @@ from evenbreak.answers.tournament_night import begun_at, heading
 from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
 from evenbreak.answers.tournament_time import assumed_words, starts_table
 from evenbreak.answers.tournament_what_if import savings_words, what_if
-from evenbreak.answers.wording import percent
+from evenbreak.answers.wording import decimals, percent
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace
@@ -64,7 +64,7 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
         ]
     parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
     if state.standing.to_play:
-        if (at_stake := _at_stake(outlook)).rows:
+        if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)
         parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
     if odds is not sure and outlook.games:
@@ -81,26 +81,30 @@ def _to_draw(state: Evening) -> str:
     return "rounds" if state.plan.form == "swiss" else "qualifiers"
 
 
-def _at_stake(outlook: Outlook) -> Table:
-    """Return what each match to come changes for the title and the finish."""
-    found = outlook.finish()
+def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
+    """Return what the matches that can be played change for the title, prizes and the finish."""
+    found, ready = outlook.finish(), outlook.state.standing.to_play
+    money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}
     rows: list[list[Any]] = []
     for lever in outlook.leverages():
         name = lever.match
-        first, second = found.if_won(name)
-        moves = None if lever.players is None or np.isnan(first - second) else first - second
-        rows.append(
-            [name, pair_words(outlook.state.standing, name), float(lever.swing.sum()) / 2.0, moves]
-        )
+        if name in ready:
+            first, second = found.if_won(name)
+            later = None if np.isnan(first - second) else first - second
+            pair = pair_words(outlook.state.standing, name)
+            rows.append([name, pair, float(lever.swing.sum()) / 2.0, later])
+            if name in money:
+                rows[-1].append(float(money[name].sum()) / 2.0)
     rows.sort(key=lambda row: -row[2])
-    ready = [row for row in rows if row[0] in outlook.state.standing.to_play]
     columns = [
         Column("match", "match", left=True),
         Column(("player_a", "player_b"), "between", " - ".join, left=True),
         Column("title_at_stake", "title odds\nthat move", percent),
         Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
     ]
-    return Table("at_stake", columns, ready, title="What the next matches decide")
+    if money:
+        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
+    return Table("at_stake", columns, rows, title="What the next matches decide")
 
 
 def _later(minutes: float) -> str:

@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+from evenbreak.files.tournament_store import read_events
 from places import ROOT
 
 SAVED = ROOT / "tests" / "files" / "saved"
@@ -39,7 +40,10 @@ def test_odds_and_time_follow_the_results(begun):
     assert sum(before.values()) == pytest.approx(1.0)
     scored = begun("score", "W1.1", "1:2", "--at", "19:20")
     assert scored["next"][0]["score_b"] in (2, None)
-    live = {one["name"]: one["p_title"] for one in begun("odds", "--prizes", "100")["players"]}
+    paid = begun("odds", "--prizes", "100")
+    for row in paid["at_stake"]:
+        assert row["prize_at_stake"] == pytest.approx(100.0 * row["title_at_stake"])
+    live = {one["name"]: one["p_title"] for one in paid["players"]}
     assert live["Ann"] < before["Ann"]
     after = begun("result", "W1.1", "3:2", "--at", "19:30")
     odds = begun("odds")
@@ -85,6 +89,12 @@ def test_export_writes_a_file_and_a_chart_says_the_races(night, tmp_path):
     first = night("draw")["next"][0]
     assert (first["race_a"], first["race_b"]) == (7, 2)
     night("result", first["match"], "7:1")
+    night("score", night("next")["next"][0]["match"], "1:0")
+    night("undo")
+    events, again = tmp_path / "events.csv", str(tmp_path / "again.db")
+    night("export", "--events", "--out", str(events))
+    night.run("tournament", "import", str(events), "--out", again)
+    assert read_events(again) == read_events(night.file)
     out = tmp_path / "matches.csv"
     night("export", "--out", str(out))
     (row,) = csv.DictReader(out.read_text().splitlines())

@@ -20,7 +20,7 @@ Examples:
 
 
 @click.command("import", epilog=EXAMPLES)
-@click.argument("saved", metavar="FILE.json")
+@click.argument("saved", metavar="FILE")
 @click.option("--ratings", metavar="ENTRANTS.csv", help="The players' ratings.")
 @scale_option("the one that the ratings' file states, else fargo", fixed=False)
 @click.option(
@@ -56,7 +56,8 @@ def command(
 ) -> Answer:
     """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
 
-    The bracket, the results and the times are those of FILE.json; go on with the other commands.
+    The bracket, the results and the times are those of FILE; go on with the other commands. FILE
+    may also be the CSV of evenbreak tournament export --events.
     Players without a rating are taken as average ones.
     """
     from dataclasses import replace
@@ -66,6 +67,7 @@ def command(
     from evenbreak import files
     from evenbreak.answers.tournament import unrated_words
     from evenbreak.answers.wording import count_of
+    from evenbreak.files.event_list import is_event_list, read_event_list
     from evenbreak.files.saved_tournament import read_saved_tournament
     from evenbreak.files.tournament_store import new_tournament
     from evenbreak.ratings.scale import SCALES
@@ -94,11 +96,18 @@ def command(
         tables=tables or 0,
         discipline=discipline or "",
     )
-    events = read_saved_tournament(saved, plan, known, at)
+    if is_event_list(saved):
+        events = read_event_list(saved)
+    else:
+        events = read_saved_tournament(saved, plan, known, at)
     state = new_tournament(out, events)
-    players, played = len(state.order), len(state.winners)
+    players, played = len(state.entrants), len(state.winners) if state.drawn else 0
     said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
-    unrated = [name for name in state.order if name not in known]
+    unrated = [
+        one.name
+        for one in state.entrants.values()
+        if one.name not in known and one.standard_error == plan.starter_error
+    ]
     if unrated:
         said.append(unrated_words(unrated, plan.starter, plan.starter_error))
     answer = answer_of(out, state, at, said)

@@ -6,7 +6,7 @@ into what is expected of the matches to come.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import cached_property
@@ -201,13 +201,20 @@ class Outlook:
             Games(seat(what.players[0]), seat(what.players[1]), *what.score) for what in everything
         ]
 
-    def leverages(self) -> list[Leverage]:
-        """Return what each match to come changes; nothing if the bracket is too large for that."""
+    def leverages(self, payouts: Sequence[float] | None = None) -> list[Leverage]:
+        """Return what each match to come changes; nothing if the bracket is too large for that.
+
+        Parameters
+        ----------
+        payouts
+            the money for first place, second, ...: then it is the prizes. None: the title.
+        """
         state = self.state
         if stage_to_draw(state) is not None or state.plan.form == "swiss":
             return []
+        win = self.chances(state.ratings)
         try:
-            return leverages(state.bracket, self.chances(state.ratings), results=state.results)
+            return leverages(state.bracket, win, payouts=payouts, results=state.results)
         except InputError:
             return []
 
