@@ -142,6 +142,17 @@ def test_a_tied_group_waits_for_the_tie_to_be_broken() -> None:
     assert night.state.standing.to_play == ("F",)
 
 
+def test_nobody_is_called_to_two_tables() -> None:
+    night = Night(Plan("groups", 3, groups=2, tables=5), 8)
+    calls = tournament_night.next_calls(Outlook(night.state, AT))
+    players = [name for _, match in calls for name in night.state.pair(match)]
+    assert len(players) == len(set(players)) == 8
+    night.add(*[moves.call(night.state, match, table) for table, match in calls])
+    busy = night.state.on_tables["A:1.1"].call.players[0]
+    with pytest.raises(InputError, match=f"{busy} is playing A:1.1"):
+        moves.call(night.state, "A:2.1", None)
+
+
 def test_events_are_plain_data() -> None:
     drawn = LaterDraw("R1", ("Ann", "Bo", "Cy", None))
     assert event_of("later draw", as_dict(drawn)) == drawn

@@ -29,6 +29,7 @@ from evenbreak.tournaments.evening.moves import free_tables, score_words
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
 
+_LISTED = 8  # waiting matches that are named
 _SHOWN = 6  # players whose title odds everybody sees
 
 
@@ -210,11 +211,21 @@ def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
     playing: list[tuple[int | None, str]] = sorted(
         (one.call.table, name) for name, one in state.on_tables.items()
     )
-    free: list[int | None] = [*free_tables(state)]
-    ready = state.standing.to_play
-    calls = [call.match for call in found.calls() if call.match in ready]
-    free += [None] * len(calls)
-    return [*playing, *zip(free, calls, strict=False)]
+    free = free_tables(state)
+    calls = [call.match for call in found.calls() if call.match in state.standing.to_play]
+    grouped = {name for group in state.bracket.groups for name in group.matches}
+    calls.sort(key=lambda name: state.bracket.match(name).round if name in grouped else 0)
+    now: list[str] = []
+    later: list[tuple[None, str]] = []
+    busy = {player for one in state.on_tables.values() for player in one.call.players}
+    for name in calls:
+        pair = set(state.pair(name))
+        if len(now) < len(free) and not pair & busy:
+            busy |= pair
+            now.append(name)
+        else:
+            later.append((None, name))
+    return [*playing, *zip(free, now, strict=False), *later]
 
 
 def next_calls(night: Outlook) -> list[tuple[int, str]]:
@@ -235,7 +246,10 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
         said.append(f"Now play {'; '.join(ready)}.")
     if waiting:
         verb = "waits" if len(waiting) == 1 else "wait"
-        said.append(f"{listed(waiting)} {verb} for a table.")
+        if len(waiting) <= _LISTED:
+            said.append(f"{listed(waiting)} {verb} for a table.")
+        else:
+            said.append(f"{len(waiting)} matches wait for a table or for their players.")
     return " ".join(said) or "No match can be called before one of those on the tables ends."
 
 

@@ -178,6 +178,9 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     if chosen not in free:
         there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
         raise InputError(f"table {chosen} is taken by {there}")
+    for there, one in state.on_tables.items():
+        for player in set(state.pair(name)) & set(one.call.players):
+            raise InputError(f"{player} is playing {there} on table {one.call.table}")
     return Called(name, chosen, state.pair(name))
 
 
