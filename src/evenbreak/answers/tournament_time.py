@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import Tournament, pair_words
@@ -58,12 +59,15 @@ def tournament_time_answer(
     It ends at about 22:05; 8 times out of 10 between 21:19 and 23:06.
     """
     asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
-    found = finish(tournament.bracket, tournament.laws, tables=tables, **asked)
+    form = tournament.file.form
+    laws = tournament.laws_of(tournament.races, form=form)
+    found = finish(tournament.bracket, laws, tables=tables, **asked)
     show = clock if start is None else (lambda minutes: time_of_day(start + minutes))
 
     def ask(tables: int, races: Races) -> Finish:
-        laws = tournament.laws if races is tournament.races else tournament.laws_of(races)
-        return finish(tournament.bracket, laws, tables=tables, **asked)
+        others = races is not tournament.races
+        chances = tournament.laws_of(races, form=form) if others else laws
+        return finish(tournament.bracket, chances, tables=tables, **asked)
 
     changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
     early, middle, late = found.bands
@@ -80,7 +84,8 @@ def tournament_time_answer(
     words = "\n".join(filter(None, [when, savings_words(changes)]))
     parts: list[Part] = [words, quantities, table, changes]
     unrated = tournament.unrated_words(spread=False)
-    parts += filter(None, [tournament.byes, unrated, assumed_words(tables, pace, turnover)])
+    how = [assumed_words(tables, pace, turnover), form_used_words(form, tournament.scale)]
+    parts += filter(None, [tournament.byes, unrated, *how])
     return Answer(
         tournament.heading,
         parts,
