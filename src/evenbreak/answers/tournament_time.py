@@ -60,14 +60,13 @@ def tournament_time_answer(
     """
     asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
     form = tournament.file.form
-    laws = tournament.laws_of(tournament.races, form=form)
-    found = finish(tournament.bracket, laws, tables=tables, **asked)
+    laws_now = tournament.laws_of(tournament.races, form=form)
+    found = finish(tournament.bracket, laws_now, tables=tables, **asked)
     show = clock if start is None else (lambda minutes: time_of_day(start + minutes))
 
     def ask(tables: int, races: Races) -> Finish:
-        others = races is not tournament.races
-        chances = tournament.laws_of(races, form=form) if others else laws
-        return finish(tournament.bracket, chances, tables=tables, **asked)
+        laws = laws_now if races is tournament.races else tournament.laws_of(races, form=form)
+        return finish(tournament.bracket, laws, tables=tables, **asked)
 
     changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
     early, middle, late = found.bands
@@ -83,9 +82,10 @@ def tournament_time_answer(
     when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
     words = "\n".join(filter(None, [when, savings_words(changes)]))
     parts: list[Part] = [words, quantities, table, changes]
+    assumed = assumed_words(tables, pace, turnover)
     unrated = tournament.unrated_words(spread=False)
-    how = [assumed_words(tables, pace, turnover), form_used_words(form, tournament.scale)]
-    parts += filter(None, [tournament.byes, unrated, *how])
+    lines = [tournament.byes, unrated, assumed, form_used_words(form, tournament.scale)]
+    parts += filter(None, lines)
     return Answer(
         tournament.heading,
         parts,
