@@ -152,6 +152,15 @@ def test_many_rows_keep_their_order_and_lines(read):
     assert table.lines.tolist() == [2 + k + (k + 4) // 5 for k in range(5_000)]
 
 
+def test_rows_that_were_there_before_in_every_column_are_found(tmp_path):
+    names = [f"column {k}" for k in range(8)]
+    rows = [",".join([str(k)] * 8) for k in range(300)]  # 300⁸ is more than 64 bits hold
+    path = tmp_path / "t.csv"
+    path.write_text("\n".join([",".join(names), *rows, rows[7], rows[7].replace("7", "8", 1)]))
+    table = read_table(path, {name: [] for name in names})
+    assert table.repeated().nonzero()[0].tolist() == [300]
+
+
 @given(st.binary(max_size=200))
 def test_any_bytes_give_a_table_or_a_data_error(tmp_path_factory, content):
     path = tmp_path_factory.getbasetemp() / "any.csv"

@@ -18,11 +18,12 @@ def season(matches=60, players=9, seed=5):
     rng = np.random.default_rng(seed)
     a = rng.integers(0, players, matches)
     b = (a + rng.integers(1, players, matches)) % players
-    won, race = rng.integers(0, 8, matches), np.full(matches, 7)
+    lost, race = rng.integers(0, 7, matches), np.full(matches, 7)
+    a_won = rng.random(matches) < 0.5
     unscored = rng.random(matches) < 0.3
     return Results(
-        tuple("ABCDEFGHI"[:players]), a, b, np.where(unscored, 0, won),
-        np.where(unscored, 0, 7 - won),
+        tuple("ABCDEFGHI"[:players]), a, b, np.where(unscored, 0, np.where(a_won, 7, lost)),
+        np.where(unscored, 0, np.where(a_won, lost, 7)),
         date=np.datetime64("2026-01-01") + np.sort(rng.integers(0, 90, matches)),
         race_a=race, race_b=race, unscored=unscored,
         break_format=np.full(matches, FORMATS.index("alternate")),

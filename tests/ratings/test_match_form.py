@@ -1,5 +1,7 @@
 """Form of the day in simulated leagues of which it is known."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.special import expit
@@ -24,6 +26,7 @@ def league(form_sd, seed, players=24, days=40, race=7):
     )  # fmt: skip
 
 
+@cache
 def form(form_sd, seed):
     walk = walk_forward(league(form_sd, seed), prior_sd=0.5)
     return match_form(walk, walk.date_of, np.random.default_rng(1))
