@@ -94,15 +94,13 @@ def test_a_chart_that_was_found_is_named(answer_of):
     assert "npl_10" in answer_of(found_chart=True).sentences[1]
 
 
-def test_other_races_than_the_charts_and_several_dates_are_warnings(answer_of):
+def test_other_races_than_the_charts_are_warnings(answer_of):
     header = f"date,{HEADER},race_a,race_b\n"
     one = "2025-11-20,Ann,Bo,5,3,5,4\n2025-11-20,Ann,Cy,5,3,5,5\n"
     (off,) = answer_of(header + one).warnings
     assert "night.csv:3: " in off
     assert "5:5" in off
     assert "6:4" in off
-    dates, off = answer_of(f"{header}{one}2025-11-27,Bo,Ann,4,2,4,5\n").warnings
-    assert "2 dates" in dates
 
 
 def test_the_list_after_the_night_keeps_the_scale_of_the_list_before(answer_of):
