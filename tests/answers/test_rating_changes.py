@@ -107,12 +107,3 @@ def test_the_list_after_the_night_keeps_the_scale_of_the_list_before(answer_of):
     header, *rows = LAST.splitlines()
     last = "\n".join([f"{header},scale", *(f"{row},npl" for row in rows)])
     assert {row["scale"] for row in answer_of(last=last).to_dict()["players"]} == {"npl"}
-
-
-@pytest.mark.parametrize("by", [NPL_10, None])
-def test_a_season_taken_as_one_night_is_named(answer_of, by):
-    night = (
-        "date,player_a,player_b,score_a,score_b,race_a,race_b\n"
-        "2024-09-03,Ann,Bo,5,3,5,4\n2024-09-10,Cy,Ann,2,6,4,6\n"
-    )
-    assert any("2 dates" in warning for warning in answer_of(night, by=by).warnings)

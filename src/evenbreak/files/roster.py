@@ -52,6 +52,7 @@ WRITTEN = dict.fromkeys(
     (
         *("won", "lost"),
         *("rating_before", "change", "matches_won", "matches_lost", "why"),
+        *("prior_mean", "prior", "as_of"),
     ),
     (),
 )

@@ -190,8 +190,8 @@ class Results:
             `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
             and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit
             may leave its scores empty, and so may a match of which the races and the winner are
-            known. Other columns are not used, and names that
-            differ in case or blanks alone are one player's, which warnings say.
+            known. Other columns are not used, and names that differ in case or blanks
+            alone are one player's; warnings say so.
 
         Raises
         ------
