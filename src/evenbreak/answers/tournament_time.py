@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament, slot_words
 from evenbreak.answers.wording import clock, count_of, percent
@@ -62,12 +63,15 @@ def tournament_time_answer(
     It ends at about 22:05; 8 times out of 10 between 21:19 and 23:06.
     """
     asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
-    found = finish(tournament.bracket, tournament.laws, tables=tables, **asked)
+    form = tournament.file.form
+    laws = tournament.laws_of(tournament.races, form=form)
+    found = finish(tournament.bracket, laws, tables=tables, **asked)
     show = clock if start is None else _time_of_day(start)
-    more_tables = finish(tournament.bracket, tournament.laws, tables=tables + 1, **asked)
+    more_tables = finish(tournament.bracket, laws, tables=tables + 1, **asked)
     savings = {"one_more_table": minutes_later(found, more_tables)[0]}
     if (shorter := tournament.shorter_races) is not None:
-        other = finish(tournament.bracket, tournament.laws_of(shorter), tables=tables, **asked)
+        laws = tournament.laws_of(shorter, form=form)
+        other = finish(tournament.bracket, laws, tables=tables, **asked)
         savings["races_one_shorter"] = minutes_later(found, other)[0]
     early, middle, late = found.bands
     quantities = Quantities(
@@ -81,7 +85,14 @@ def tournament_time_answer(
     table = _table(tournament, found, show)
     parts: list[Part] = [_in_words(found, savings, show, timed=start is not None)]
     parts += [quantities, table]
-    parts += filter(None, [tournament.byes, _assumed(tables, pace, turnover)])
+    parts += filter(
+        None,
+        [
+            tournament.byes,
+            _assumed(tables, pace, turnover),
+            form_used_words(form, tournament.scale),
+        ],
+    )
     return Answer(
         tournament.heading,
         parts,
