@@ -146,6 +146,43 @@ def pair_odds(
     return laws
 
 
+def from_score(
+    law: PairOdds,
+    players: tuple[int, int],
+    needs: tuple[int, int],
+    score: tuple[int, int],
+    p: float,
+) -> PairOdds:
+    """Return the odds of a match in play, for the two who play it.
+
+    Parameters
+    ----------
+    law
+        the odds at its start.
+    players
+        the two players, by position.
+    needs
+        the games that each needs in all.
+    score
+        the games that each has won.
+    p
+        P(the first player wins a game).
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> start = pair_odds(single_elimination(2), [500, 500], 5)["F"]
+    >>> from_score(start, (0, 1), (5, 5), (4, 3), 0.5).win[0, 1]
+    np.float64(0.75)
+    """
+    one, other = players
+    won, lost = race_endings(needs[0] - score[0], needs[1] - score[1], Rack(p), None, 1)
+    played = sum(score)
+    ends = law.ends.copy()
+    ends[one, other] = ends[other, one] = 0.0
+    ends[one, other, played : played + len(won)] = won
+    ends[other, one, played : played + len(lost)] = lost
+    return PairOdds(ends)
+
+
 def chances_given(
     bracket: Bracket,
     ratings: ArrayLike,
