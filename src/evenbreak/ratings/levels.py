@@ -24,6 +24,9 @@ from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 SETTLED = 50.0
 """Games after which half of a newcomer's disadvantage is gone."""
 
+OPENING = 28.0
+"""Days within which everybody belongs to those who were there from the start."""
+
 BROUGHT_SD = math.log(2.0) / 2.0
 """How far off a rating that players bring along is taken to be, if nothing says it."""
 
@@ -40,6 +43,9 @@ class Levels:
     newcomers
         how far below an experienced player somebody without a game is expected to be. Of this
         the part 1 / (1 + games / 50) is left after some games.
+    joined
+        how far below those who were there from the start somebody is expected to be who joins
+        later than in the first four weeks; it does not shrink with games.
     race
         what part of the difference that a stated race implies is taken as real: 1 where the
         races are right.
@@ -58,10 +64,11 @@ class Levels:
         if a number is not finite, or a standard deviation is not in 0 to 100.
 
     >>> Levels(newcomers=0.4, team_sd=0.2)
-    Levels(newcomers=0.4, race=0.0, team_sd=0.2, division_sd=0.0, brought_sd=0.0)
+    Levels(newcomers=0.4, joined=0.0, race=0.0, team_sd=0.2, division_sd=0.0, brought_sd=0.0)
     """
 
     newcomers: float = 0.0
+    joined: float = 0.0
     race: float = 0.0
     team_sd: float = 0.0
     division_sd: float = 0.0
@@ -88,6 +95,26 @@ def begun(beginning: Beginning | None) -> Levels:
     """
     unknown = beginning is not None and beginning.unknown_error
     return Levels(beginning=beginning, brought_sd=BROUGHT_SD if unknown else 0.0)
+
+
+def joined_late(results: Results) -> Floats:
+    """Return 1 for each player whose first match is later than in the first four weeks, else 0.
+
+    >>> season = Results.from_names(
+    ...     ["Ann", "Cy"], ["Bo", "Ann"], [7, 7], [5, 5], date=["2026-01-01", "2026-02-05"]
+    ... )
+    >>> joined_late(season)
+    array([0., 0., 1.])
+    """
+    many = len(results.players)
+    if results.date is None or np.isnat(results.date).all():
+        return np.zeros(many)
+    dated = ~np.isnat(results.date)
+    days = (results.date - results.date[dated].min()).astype(float)
+    first = np.full(many, np.inf)
+    for players in (results.player_a, results.player_b):
+        np.minimum.at(first, players[dated], days[dated])
+    return ((first > OPENING) & np.isfinite(first)).astype(float)
 
 
 def newness(games: Floats | Ints) -> Floats:
@@ -120,6 +147,7 @@ class Knowledge:
         self._sides = results.player_a, results.player_b
         self._games = games_of(results)
         self._behind = np.zeros(self._players)
+        self._late = joined_late(results)
         self._known: Known | None = None
         if levels.beginning is not None:
             self._behind = levels.beginning.games_of(results.players)
@@ -150,6 +178,8 @@ class Knowledge:
             np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd")) for one in self._groups
         ]
         mean = -self._levels.newcomers * newness(self._behind)
+        if self._levels.joined:
+            mean -= self._levels.joined * self._late
         if self._stated is not None:
             mean += self._levels.race * self._stated.strength()
         whole = PriorMeans(
@@ -193,6 +223,7 @@ def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[
         "race": has_handicaps(results),
         "division_sd": has_groups(results, "division"),
         "team_sd": has_groups(results, "team"),
+        "joined": bool(joined_late(results).any()),
         "newcomers": True,
         "brought_sd": beginning is not None and beginning.unknown_error,
     }

@@ -44,6 +44,7 @@ TRIED = {
     "race": (0.25, 0.5, 0.75, 1.0, 1.25),
     "division_sd": (0.1, 0.2, 0.4, 0.8),
     "team_sd": (0.1, 0.2, 0.4, 0.8),
+    "joined": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
     "newcomers": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
 }
 """The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
@@ -274,7 +275,7 @@ class _Search:
         One step of Newton's method from the best of them; the error is the sandwich's, stretches
         being independent of each other.
         """
-        if not found.used or found.of not in ("newcomers", "race"):
+        if not found.used or found.of not in ("newcomers", "joined", "race"):
             return found
         sizes = found.value + np.array([-STEP, 0.0, STEP])
         losses = self._losses([_with(way, found.of, size) for size in sizes.tolist()]).losses
