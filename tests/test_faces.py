@@ -133,6 +133,12 @@ ASKED = {
     "--race-to 5 --sure",
     "tournament_odds_large": "tournament odds data/demo_league_roster.csv --format round-robin "
     "--race 3",
+    "tournament_before_draw": "tournament odds data/demo_entrants.csv --format single --race 5 "
+    "--before-draw --sure",
+    "chips_odds": "chips odds data/demo_entrants.csv --left "
+    "'Mei-Lin Oduya=2,Aiko Tanabe=5,Ruben Castellan=1'",
+    "chips_audit": "chips audit hoboken",
+    "chips_design": "chips design data/demo_entrants.csv --bands 560 --most 6",
     "tournament_time": "tournament time data/demo_entrants.csv --race 5 --tables 4 "
     "--discipline 9-ball",
     "tournament_time_of_day": "tournament time data/demo_entrants.csv --format single "

@@ -1,13 +1,12 @@
 """A tournament in words: what is raced to, who is in a slot, whose first round is a bye."""
 
 import numpy as np
-import pytest
 
 from evenbreak.answers.tournament import Tournament, races_words, slot_words
 from evenbreak.files.roster import RosterFile
 from evenbreak.handicaps import chart
 from evenbreak.ratings import SCALES, Roster
-from evenbreak.tournaments import Fairest, Races, double_elimination, groups_then_knockout
+from evenbreak.tournaments import Races, double_elimination, groups_then_knockout
 
 
 def tournament(races, names=("Ann", "Bo", "Cy", "Di", "Ed")):
@@ -15,21 +14,6 @@ def tournament(races, names=("Ann", "Bo", "Cy", "Di", "Ed")):
     file = RosterFile(club, np.arange(len(names)), "a/club.csv", (), "")
     bracket = double_elimination(club.players)
     return Tournament(file, club, bracket, races, SCALES["fargo"], "seeded")
-
-
-@pytest.mark.parametrize(
-    ("races", "shorter"),
-    [
-        (Races(7), Races(6)),
-        (Races(7, losers=5, final=9), Races(6, losers=4, final=8)),
-        (Races(Fairest(7), losers=Fairest(2)), Races(Fairest(6), losers=Fairest(1))),
-        (Races(1), None),
-        (Races(7, losers=1), None),
-        (Races(chart("npl_10")), None),
-    ],
-)
-def test_races_one_game_shorter(races, shorter):
-    assert tournament(races).shorter_races == shorter
 
 
 def test_words():

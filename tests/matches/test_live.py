@@ -1,3 +1,4 @@
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -193,3 +194,23 @@ def test_wrong_use_says_how_to_mend_it(match, winners, options, remedy):
 def test_a_break_for_one_player_only():
     live = live_odds(Race(3, 3, Rack(0.6, 0.5), breaks=player_1_breaks, first_breaker=2), [2])
     assert [standing.breaker for standing in live.course] == [2, 1]
+
+
+def test_with_form_the_course_is_that_of_the_law_of_scores():
+    race = Race(5, 4, Rack(0.55))
+    live = live_odds(race, [1, 1, 2], form=0.5)
+    for standing in (live.course[0], *live.comebacks()):
+        (score,) = standing.scores
+        odds = match_odds(replace(race, score=score), form=0.5)
+        assert standing.p_win_1 == pytest.approx(odds.p_win_1, abs=1e-12)
+        assert standing.p_win_2 == pytest.approx(odds.p_win_2, abs=1e-12)
+        assert standing.mean_racks == pytest.approx(odds.mean_games, abs=1e-12)
+    assert live.now.racks_p90 == match_odds(replace(race, score=(2, 1)), form=0.5).games_p90
+    plain = live_odds(race, [1, 1, 2], form=0.0)
+    assert plain.course == live_odds(race, [1, 1, 2]).course
+    assert live.swings[0] > plain.swings[0]  # a rack won also shows form
+
+
+def test_form_is_refused_where_order_matters():
+    with pytest.raises(InputError, match="form"):
+        live_odds(Race(3, 3, Rack(0.6), win_by=2), form=0.3)

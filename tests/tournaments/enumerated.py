@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import cache
 from itertools import permutations
 from typing import Any
 
@@ -42,10 +43,10 @@ def _play(bracket, chance, at, sent, met, weight):
         if share:
             after = {**sent, **_came(match.name, won, lost, slot)}
             here = [*met, (match.name, one, other, won)]
-            for ranks, lots in _lots(bracket, match.name, here):
-                yield from _play(
-                    bracket, chance, at + 1, {**after, **ranks}, here, weight * share * lots
-                )
+            taken = weight * share
+            for ranks, orders in _lots(bracket, match.name, here):
+                lots = taken if orders == 1 else taken / orders
+                yield from _play(bracket, chance, at + 1, after | ranks, here, lots)
 
 
 def _came(name, won, lost, slot):
@@ -57,16 +58,16 @@ def _came(name, won, lost, slot):
 
 
 def _lots(bracket, name, met):
-    """Yield the orders of a group once its last match is over, with the chance of the lots."""
+    """Yield the orders of a group once its last match is over, and how many there are."""
     for group in bracket.groups:
         if group.matches[-1] == name:
             results = [(a, b, won) for match, a, b, won in met if match in group.matches]
             orders = list(_orders(list(group.members), results))
             for order in orders:
                 ranks = {(group.name, k): {None: who} for k, who in enumerate(order, 1)}
-                yield ranks, Fraction(1, len(orders))
+                yield ranks, len(orders)
             return
-    yield {}, Fraction(1)
+    yield {}, 1
 
 
 def _orders(level, results):
@@ -90,21 +91,11 @@ def _joined(blocks, results):
 
 
 def _places(bracket, sent, met):
-    played = {name: (one, other, won) for name, one, other, won in met}
-    waiting = {slot for match in bracket.matches for slot in match.slots}
-    grouped = {name for group in bracket.groups for name in group.matches}
-    places = {}
-    for match in bracket.matches:
-        if match.name not in played or match.name in grouped:
-            continue
-        one, other, won = played[match.name]
-        lost = other if won == one else one
-        for outcome, who, place in (
-            ("winner", won, match.winner_place),
-            ("loser", lost, match.loser_place),
-        ):
-            sat = 1 if who == one else 2
-            if not {Source(match.name, outcome), Source(match.name, outcome, sat)} & waiting:
+    ends, places = _ends(bracket), {}
+    for name, one, other, won in met:
+        for outcome, who in (("winner", won), ("loser", other if won == one else one)):
+            place = ends.get((name, outcome, 1 if who == one else 2))
+            if place is not None:
                 places[who] = place
     for group in bracket.groups:
         for rank, place in enumerate(group.places, 1):
@@ -113,24 +104,51 @@ def _places(bracket, sent, met):
     return places
 
 
+@cache
+def _ends(bracket):
+    """Return the place of each outcome, by the slot that the player sat in, with no next match."""
+    waiting = {slot for match in bracket.matches for slot in match.slots}
+    grouped = {name for group in bracket.groups for name in group.matches}
+    return {
+        (match.name, outcome, sat): place
+        for match in bracket.matches
+        for outcome, place in (("winner", match.winner_place), ("loser", match.loser_place))
+        for sat in (1, 2)
+        if match.name not in grouped
+        and not {Source(match.name, outcome), Source(match.name, outcome, sat)} & waiting
+    }
+
+
 def place_odds(bracket: Bracket, chance: Chance) -> list[list[Fraction]]:
     """Return P(each player has each place)."""
-    law = [[Fraction(0)] * len(bracket.places) for _ in bracket.players]
-    for weight, places, _ in courses(bracket, chance):
-        for player, place in places.items():
-            law[player][bracket.places.index(place)] += weight
-    return law
+    return odds(bracket, chance)[0]
+
+
+def odds(bracket: Bracket, chance: Chance) -> tuple[list[list[Fraction]], Fraction]:
+    """Return P(each player has each place), and the mean number of matches."""
+    column = {place: k for k, place in enumerate(bracket.places)}
+    law = [[Fraction(0)] * len(column) for _ in bracket.players]
+    matches = Fraction(0)
+    for places, weight, count in _gathered(bracket, chance):
+        matches += weight * count
+        for player, place in places:
+            law[player][column[place]] += weight
+    return law, matches
+
+
+def _gathered(bracket: Bracket, chance: Chance):
+    """Yield the outcomes: the places, the chance of all courses to them, how many matches."""
+    total: dict[Any, Fraction] = {}
+    for weight, places, met in courses(bracket, chance):
+        outcome = tuple(places.items()), len(met)
+        total[outcome] = total.get(outcome, 0) + weight
+    for (places, count), weight in total.items():
+        yield places, weight, count
 
 
 def expected(bracket: Bracket, chance: Chance, value: Callable[[list[Any]], int]) -> Fraction:
     """Return the mean of a value of who met whom."""
     return sum((weight * value(met) for weight, _, met in courses(bracket, chance)), Fraction(0))
-
-
-def rematches(met: list[tuple[str, int, int, int]]) -> int:
-    """Return how many matches were between two who had met before."""
-    pairs = [frozenset((one, other)) for _, one, other, _ in met]
-    return len(pairs) - len(set(pairs))
 
 
 def by_strength(strengths: list[int]) -> Chance:

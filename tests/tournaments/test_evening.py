@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import (
     NAMES,
@@ -24,6 +25,8 @@ from evenbreak.tournaments.evening.events import (
     event_of,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.settling import break_ties, stand
+from evenbreak.tournaments.odds.races import Fairest
 
 AT = "2025-03-01T19:30:00"
 
@@ -42,6 +45,39 @@ def facts(state: Evening) -> object:
     found: list[object] = [state.plan, dict(state.entrants), state.order, state.lines]
     found += [state.dropped, dict(state.calls), dict(state.records)]
     return [*found, state.counted, state.standing.seats] if state.drawn else found
+
+
+def directly(state: Evening) -> dict[str, Result]:
+    """Return the results that count, match after match in the order of the bracket."""
+    came: dict[Source, str] = {}  # "" for nobody
+    counted: dict[str, Result] = {}
+    for match in state.bracket.matches:
+        one, other = (
+            state.order[slot] if isinstance(slot, int) else came.get(slot) for slot in match.slots
+        )
+        if one is None or other is None:
+            continue
+        result = _result(state, match.name, one, other)
+        if result is None and one and other:
+            continue
+        if result is not None:
+            counted[match.name] = result
+        won = (one or other) if result is None else result.winner
+        for outcome, player in (("winner", won), ("loser", other if won == one else one)):
+            sat = 1 if player == one else 2
+            came[Source(match.name, outcome)] = came[Source(match.name, outcome, sat)] = player
+            came[Source(match.name, outcome, 3 - sat)] = ""
+    return counted
+
+
+def _result(state: Evening, match: str, one: str, other: str) -> Result | None:
+    for played in reversed(state.records.get(match, ())):
+        if {one, other} == set(played.result.players):
+            return played.result
+    gone = [name for name in state.dropped if name in (one, other)]
+    if not gone or not (one and other):
+        return None
+    return Result(match, (one, other), (0, 0), other if gone[-1] == one else one, forfeit=True)
 
 
 class Night(RuleBasedStateMachine):
@@ -92,7 +128,7 @@ class Night(RuleBasedStateMachine):
     def forfeit(self, data: st.DataObject) -> None:
         name = data.draw(st.sampled_from(self.state.standing.to_play))
         loser = data.draw(st.sampled_from(self.state.pair(name)))
-        self.add(moves.forfeit(self.state, name, loser))
+        self.add(moves.forfeit(self.state, loser, name))
 
     @precondition(lambda self: self.state.standing.to_play and moves.free_tables(self.state))
     @rule(data=st.data())
@@ -101,12 +137,34 @@ class Night(RuleBasedStateMachine):
         if ready:
             self.add(moves.call(self.state, data.draw(st.sampled_from(ready)), None))
 
+    @precondition(lambda self: self.state.standing.to_play)
+    @rule(data=st.data(), one=st.integers(0, 4), other=st.integers(0, 4))
+    def score(self, data: st.DataObject, one: int, other: int) -> None:
+        name = data.draw(st.sampled_from(self.state.standing.to_play))
+        self.add(moves.score(self.state, name, (one, other)))
+        assert self.state.live[name].what.score == (one, other)
+
+    @precondition(lambda self: self.state.aside)
+    @rule(data=st.data())
+    def stand(self, data: st.DataObject) -> None:
+        result = data.draw(st.sampled_from(self.state.aside)).result
+        try:
+            (what,) = stand(self.state, result.match)
+        except (InputError, ValueError):  # settle an earlier match first, or two corrections
+            return
+        self.add(what)
+        assert self.state.counted[result.match] == result
+
     @rule(data=st.data())
     def drop(self, data: st.DataObject) -> None:
         name = data.draw(st.sampled_from(self.state.order))
         if name not in self.state.dropped:
             self.add(moves.drop(self.state, name))
             assert not any(name in self.state.pair(n) for n in self.state.standing.to_play)
+
+    @rule(tables=st.integers(4, 6), race=st.none() | st.just(5))
+    def change(self, tables: int, race: int | None) -> None:
+        self.add(moves.change(self.state, tables=tables, race=race))
 
     @rule()
     def late(self) -> None:
@@ -133,6 +191,11 @@ class Night(RuleBasedStateMachine):
                 for one in self.events
             ]
             assert facts(evening(plain)) == facts(self.state)
+
+    @invariant()
+    def the_state_is_the_direct_one(self) -> None:
+        if self.states:
+            assert directly(self.state) == self.state.counted
 
 
 Night.TestCase.settings = settings(max_examples=25, stateful_step_count=25, deadline=None)
@@ -163,6 +226,70 @@ def test_a_correction_that_sends_nobody_elsewhere_opens_nothing() -> None:
     now = evening([*events, Event(AT, moves.correct(evening(events), "W1.1", (5, 4)))])
     assert sorted(now.counted) == ["W1.1", "W1.2", "W2.1"]
     assert now.counted["W1.1"].score == (5, 4)
+
+
+def test_a_match_may_stand_after_a_correction() -> None:
+    events = played(drawn(4), W1_1=(5, 0), W1_2=(5, 1), W2_1=(5, 2), L1_1=(5, 3))
+    before = evening(events)
+    events.append(Event(AT, moves.correct(before, "W1.1", (0, 5))))
+    events += [Event(AT, what) for what in stand(evening(events), "W2.1")]
+    now = evening(events)
+    assert not now.aside
+    assert now.standing.seats == before.standing.seats
+    assert now.counted["W1.1"].score == (0, 5)
+    again = evening([*events, Event(AT, moves.correct(now, "W1.1", (0, 5)))])
+    assert sorted(one.result.match for one in again.aside) == ["L1.1", "W2.1"]
+
+
+def test_a_match_stands_only_when_those_before_it_do() -> None:
+    scores = {"W1_1": (5, 0), "W1_2": (5, 0), "W1_3": (5, 0), "W1_4": (5, 0)}
+    events = played(drawn(8), **scores, W2_1=(5, 0), W2_2=(5, 0), W3_1=(5, 0))
+    events.append(Event(AT, moves.correct(evening(events), "W1.1", (0, 5))))
+    with pytest.raises(InputError, match=r"settle W2\.1 first"):
+        stand(evening(events), "W3.1")
+
+
+@pytest.mark.parametrize("handicapped", [False, True])
+def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> None:
+    plan = Plan("double", 5, scale="fargo", handicapped=handicapped)
+    events = [Event(AT, Opened(plan, tuple(Entrant(name, 500.0) for name in "ABCD")))]
+    events.append(Event(AT, moves.draw(evening(events), np.random.default_rng(1))))
+    events = played(events, W1_1=(5, 0))
+    events.append(Event(AT, moves.change(evening(events), race=4, losers_race=3, tables=2)))
+    state = evening(events)
+    assert state.plan.tables == 2
+    assert moves.correct(state, "W1.1", (5, 1)).score == (5, 1)
+    assert state.needed("W1.2", state.pair("W1.2")) == (4, 4)
+    assert state.races.of(state.bracket.match("L1.1")) == (Fairest(3) if handicapped else 3)
+    events.append(Event(AT, moves.call(state, "W1.2", 2)))
+    with pytest.raises(InputError, match="table 2"):
+        moves.change(evening(events), tables=1)
+    with pytest.raises(InputError, match="--tables"):
+        moves.change(evening(events))
+
+
+def test_the_ties_of_a_round_robin_are_broken_by_games_and_then_by_lot() -> None:
+    ring = {("P1", "P2"): (5, 0), ("P2", "P3"): (5, 4), ("P1", "P3"): (4, 5)}
+    events = drawn(3, "round-robin")
+    for name in evening(events).bracket.by_name:
+        one, other = evening(events).pair(name)
+        score = ring.get((one, other)) or ring[other, one][::-1]
+        events.append(Event(AT, moves.result(evening(events), name, score)))
+    state = evening(events)
+    found = break_ties(state, np.random.default_rng(1))
+    assert found.ranked.order == ("P1", "P3", "P2")
+    assert found.by_lot == ()
+    settled = evening([*events, Event(AT, found.ranked)])
+    assert settled.results["R"] == ("P1", "P3", "P2")
+    drawn_lots = {
+        break_ties(state, np.random.default_rng(seed), only_lots=True).ranked.order[0]
+        for seed in range(20)
+    }
+    assert drawn_lots == {"P1", "P2", "P3"}
+    name = next(iter(state.counted))
+    one, other = state.counted[name].score
+    fair = evening([*settled.events, Event(AT, moves.correct(settled, name, (other, one)))])
+    assert "R" not in fair.results
 
 
 def test_a_handicapped_race_is_won_by_the_games_that_each_needs() -> None:
@@ -196,8 +323,11 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         (lambda s: moves.result(s, "W1.1", (5, 5)), "5:5"),
         (lambda s: moves.result(s, "W2.1", (5, 0)), "not ready"),
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
-        (lambda s: moves.forfeit(s, "W1.1", "P2"), "P2 is not in W1.1"),
-        (lambda s: moves.drop(s, "P9"), "P9"),
+        (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in W1.1"),
+        (lambda s: moves.score(s, "W1.1", (5, 0)), "result W1.1 5:0"),
+        (lambda s: stand(s, "W1.1"), "cannot stand"),
+        (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
+        (lambda s: moves.drop(s, "P99"), "P99"),
         (lambda s: moves.late(s, Entrant("p1", 1.0)), "P1 has entered"),
         (lambda s: moves.call(s, "W1.1", 5), "table 5"),
         (lambda s: moves.draw(s, np.random.default_rng()), "draw"),
@@ -231,3 +361,15 @@ def _seconds(events: list[Event]) -> float:
     state = evening(events)
     assert isinstance(state.counted["W1.1"], Result)
     return time.perf_counter() - started
+
+
+def test_the_beginning_of_a_name_will_do_if_it_is_clear() -> None:
+    plan = Plan("single", 5)
+    names = "Ann Lee", "Anton Bo", "Cy Anders"
+    state = evening([Event(AT, Opened(plan, tuple(Entrant(name, 1.0) for name in names)))])
+    assert moves.known_player(state, "ann l") == "Ann Lee"
+    assert moves.known_player(state, "bo") == "Anton Bo"
+    with pytest.raises(InputError, match="Ann Lee, Anton Bo, Cy Anders"):
+        moves.known_player(state, "an")
+    with pytest.raises(InputError, match="not in this tournament"):
+        moves.known_player(state, "nders")

@@ -23,16 +23,23 @@ FAIR = {"Ann": 0.5, "Bo": 0.3, "Cy": 0.2}
 
 def test_tables_as_published() -> None:
     hoboken = PAYOUTS["hoboken"]
-    assert hoboken.shares(8) == (1.0,)
-    assert hoboken.shares(22) == (0.50, 0.25, 0.15, 0.10)
-    assert hoboken.shares(32) == (0.50, 0.20, 0.15, 0.08, 0.07)
-    assert hoboken.shares(40)[5:] == (0.05, 0.05, 0.05)
-    assert len(hoboken.shares(60)) == 10
+    rows = {
+        (2, 9): (1.0,),
+        (20, 24): (0.50, 0.25, 0.15, 0.10),
+        (25, 32): (0.50, 0.20, 0.15, 0.08, 0.07),
+        (33, 49): (0.40, 0.18, 0.14, 0.07, 0.06, *[0.05] * 3),
+        (50, 80): (0.35, 0.15, 0.12, 0.07, 0.06, *[0.05] * 5),
+    }
+    for ends, shares in rows.items():
+        for players in ends:
+            assert hoboken.shares(players) == shares
     for row in hoboken.rows:
         assert sum(row.shares) == pytest.approx(1.0)
     with pytest.raises(InputError, match="15"):
         hoboken.shares(15)
     assert payout_table("40/30/15").amounts(16, 1000) == [400.0, 300.0, 150.0]
+    assert payout_table("40/30/20/10").shares(16) == (0.4, 0.3, 0.2, 0.1)
+    assert payout_table("70/30").shares(8) == (0.7, 0.3)
 
 
 @pytest.mark.parametrize(

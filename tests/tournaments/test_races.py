@@ -7,8 +7,10 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import alternate_breaks, winner_breaks
+from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps import chart, fair_races
+from evenbreak.matches import match_length, match_odds
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments import Fairest, Races, chances_given, double_elimination, pair_odds
@@ -93,3 +95,15 @@ def test_what_cannot_be_played_is_refused() -> None:
         pair_odds(BRACKET, [500, 600], 7)
     with pytest.raises(InputError, match="ratings"):
         pair_odds(BRACKET, [500, 600, np.nan, 500], 7)
+
+
+def test_with_form_lengths_are_those_of_single_matches() -> None:
+    laws = pair_odds(BRACKET, RATINGS, Races(7, losers=5), form=0.4)
+    for name, race in (("W1.1", 7), ("L1.1", 5)):
+        match = Race(race, race, scale_of("fargo").rack(640.0 - 500.0))
+        odds, length = match_odds(match, form=0.4), match_length(match, form=0.4)
+        assert laws[name].win[0, 2] == pytest.approx(odds.p_win_1, abs=1e-9)
+        both = laws[name].ends[0, 2] + laws[name].ends[2, 0]
+        assert both[length.games] == pytest.approx(length.probability, abs=1e-9)
+    plain, same = (pair_odds(BRACKET, RATINGS, 7, **how)["F"] for how in ({}, {"form": 0.0}))
+    assert (plain.ends == same.ends).all()

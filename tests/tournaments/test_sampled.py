@@ -52,7 +52,7 @@ def test_standard_errors_are_honest() -> None:
     bracket, win = double_elimination(8), by_seed(8)
     exact = title_odds(bracket, win).title
     scores = []
-    for seed in range(20):
+    for seed in range(12):
         rng = np.random.default_rng(seed)
         drawn = title_odds(bracket, win, most_states=0, samples=400, rng=rng)
         scores.append((drawn.title - exact) / np.maximum(drawn.error[:, 0], 1e-12))
@@ -88,6 +88,16 @@ def test_what_would_be_too_large_is_not_begun() -> None:
     assert exact_plan(double_elimination(64)) is None
     assert exact_plan(double_elimination(16), (), 1000) is None
     assert plan_of(double_elimination(8)).states < 2000
+
+
+@pytest.mark.parametrize(
+    ("players", "drops", "most"),
+    [(8, "usual", 672), (16, "usual", 73_728), (32, "straight", 115_200)],
+)
+def test_few_joint_states_are_open(players: int, drops, most: int) -> None:
+    """No more than with a plain dictionary of states."""
+    plan = plan_of(double_elimination(players, drops=drops))
+    assert max(step.size for step in plan.steps) <= most
 
 
 def test_the_estimate_is_on_the_safe_side() -> None:

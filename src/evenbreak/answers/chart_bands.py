@@ -30,7 +30,11 @@ class Band(NamedTuple):
 
 
 def chart_bands(
-    offered: OfferedRaces, scale: Scale, furthest: float, error: float = 0.0
+    offered: OfferedRaces,
+    scale: Scale,
+    furthest: float,
+    error: float = 0.0,
+    form: float = 0.0,
 ) -> list[Band]:
     """Return the chart of races by rating difference that the fairest races come to.
 
@@ -45,6 +49,8 @@ def chart_bands(
         the difference, in points, up to which the chart goes.
     error
         the standard error of a difference, over which chances are averaged.
+    form
+        how much the log-odds of a game vary from match to match, over which they are too.
 
     Returns
     -------
@@ -67,17 +73,18 @@ def chart_bands(
     last = math.ceil(furthest / unit) + 1
 
     # From one band to the next the stronger gives one game more, or the weaker gets one.
-    _, (most, least) = offered.fairest([0.0, last * unit], error, scale)
+    _, (most, least) = offered.fairest([0.0, last * unit], error, scale, form)
     if most - least >= MOST_BANDS:
         return []
     difference = np.arange(last + 1) * unit
-    stronger, weaker = offered.fairest(difference, error, scale)
+    stronger, weaker = offered.fairest(difference, error, scale, form)
     starts = np.flatnonzero(np.diff(stronger) | np.diff(weaker)) + 1
     bands = []
     for first, after in pairwise([0, *starts[starts < last].tolist(), last]):
         m, n = int(stronger[first]), int(weaker[first])
         ends = np.round(difference[[first, after]], decimals)
-        chances = win_given_ratings(difference[[first, after]], error, m, n, scale=scale)
+        both = difference[[first, after]]
+        chances = win_given_ratings(both, error, m, n, scale=scale, form=form)
         (low, high), (p_low, p_high) = ends.tolist(), chances.tolist()
         bands.append(Band(low, high, m, n, p_low, p_high))
     return bands

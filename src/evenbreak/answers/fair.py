@@ -59,7 +59,7 @@ def fair_answer(
                 rows,
             ),
             *_way(via, players, races),
-            *filter(None, [players.averaged]),
+            *filter(None, [players.averaged, players.by_form]),
         ],
         warnings=players.doubts,
         data={"target": target, **players.named},

@@ -37,7 +37,9 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
     """
     order = ratings.strongest_first(players)
     pairs = np.array(list(combinations(order, 2)), dtype=np.int64).reshape(-1, 2)
-    return roster_matchups(_as_listed(ratings), pairs, scale=ratings.scale, offered=offered).frame
+    return roster_matchups(
+        _as_listed(ratings), pairs, scale=ratings.scale, offered=offered, form=ratings.match_form
+    ).frame
 
 
 def _as_listed(ratings: Ratings) -> Roster:

@@ -50,7 +50,7 @@ def live_answer(
     *_, last = course.records()
     return Answer(
         f"{players.description}\n{_standing_words(match, now, players)}",
-        [part for part in [*parts, players.taken_as_right] if part],
+        [part for part in [*parts, players.taken_as_right, _by_form(players)] if part],
         warnings=players.doubts,
         data={
             "now": dict(zip(course.names, last, strict=True)),
@@ -60,6 +60,11 @@ def live_answer(
         },
         csv=to_come if comebacks else course,
     )
+
+
+def _by_form(players: TwoPlayers) -> str:
+    learns = " Each game played shows how well both play today." if players.form else ""
+    return players.by_form + learns
 
 
 def _place(moment: Standing) -> tuple[Any, ...]:

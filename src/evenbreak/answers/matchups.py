@@ -7,6 +7,7 @@ from typing import Any
 import pandas as pd
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.remarks import Remarks
 from evenbreak.answers.report_frames import file_name
@@ -63,6 +64,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         parts.append(about_time(tonight))
     if doubtful(tonight):
         parts.append("'A wins' is averaged over how far the ratings may be off.")
+    parts += filter(None, [form_used_words(tonight.form, tonight.scale)])
     parts += [" ".join(about_levels(tonight))] if tonight.levels is not None else []
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += [Remarks(remarks)] if remarks else []
@@ -75,6 +77,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         data={
             "evening": tonight.evening,
             "pace": _pace(tonight),
+            "form": tonight.form,
             "levels": tonight.levels
             and dict(zip(tonight.levels.levels, tonight.levels.strengths, strict=True)),
         },

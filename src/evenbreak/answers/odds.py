@@ -24,7 +24,7 @@ def odds_answer(
 ) -> Answer:
     """Return the chances of a match between two players, and its length.
 
-    They are averaged over how far ratings from a list may be off.
+    They are averaged over how far ratings from a list may be off, and over form of the day.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def odds_answer(
             *([_exact_words(p_win, players.names)] if exact else []),
             Quantities(quantities),
             *_way(via, odds, match),
-            *filter(None, [players.averaged]),
+            *filter(None, [players.averaged, players.by_form]),
         ],
         warnings=players.doubts,
         data=players.named,
@@ -123,11 +123,13 @@ def fraction_words(p: Fraction) -> str:
 
 
 def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
-    if not players.error or players.scale is None:
-        return match_odds(match)
+    if players.scale is None or not (players.error or players.form):
+        return match_odds(match, form=players.form)
     from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
 
-    return odds_given_ratings(match, players.difference, players.error, scale=players.scale)
+    return odds_given_ratings(
+        match, players.difference, players.error, scale=players.scale, form=players.form
+    )
 
 
 def _way(via: Way | None, odds: MatchOdds, match: Match) -> list[Part]:

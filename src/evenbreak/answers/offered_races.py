@@ -40,14 +40,16 @@ class OfferedRaces:
                 f"games is {self.games!r} and race_to is {self.race_to!r}; give exactly one of them"
             )
 
-    def fairest(self, gap: ArrayLike, error: ArrayLike, scale: Scale) -> tuple[Ints, Ints]:
+    def fairest(
+        self, gap: ArrayLike, error: ArrayLike, scale: Scale, form: float = 0.0
+    ) -> tuple[Ints, Ints]:
         """Return (m, n), the races nearest to even for these rating differences.
 
         Chances are averaged over how far each difference may be off, `error` being its
-        standard error; 0 takes the ratings as right.
+        standard error; 0 takes the ratings as right. They are averaged over form of the day too.
         """
         return fair_races_given_ratings(
-            gap, error, games=self.games, race_to=self.race_to, scale=scale
+            gap, error, games=self.games, race_to=self.race_to, scale=scale, form=form
         )
 
     @property

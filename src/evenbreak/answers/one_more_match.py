@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -68,7 +68,8 @@ def one_more_match(
         needs, other = now.race[winner], now.race[1 - winner]
         score = (needs, _likeliest_loss(needs, other, 1.0 - p if winner == 0 else p))
         a_first = score if winner == 0 else score[::-1]
-        then = refit(results.with_match(*pair, *a_first, date=day))
+        again = refit(results.with_match(*pair, *a_first, date=day))
+        then = replace(again, form=ratings.form)
         found.append(
             OneMore(
                 ratings.players[pair[winner]],

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_data, form_details, form_words
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.prior_words import (
     evidence_rows,
@@ -66,10 +67,17 @@ def rate_answer(
         first, table = _highest_in_words(ratings), _players_table(ratings)
     return Answer(
         f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
-        [first, *_fit_in_words(ratings, choice), *unlinked_words(ratings), table],
+        [
+            first,
+            *_fit_in_words(ratings, choice),
+            *form_words(ratings.form, ratings.scale),
+            *unlinked_words(ratings),
+            table,
+        ],
         details=[
             *([] if pairs else [_ERRORS_IN_WORDS]),
             *prior_details(ratings, choice),
+            *form_details(ratings.form, ratings.scale),
             *groups_table(ratings),
         ],
         csv=table,
@@ -79,7 +87,7 @@ def rate_answer(
             *prior_warnings(file, ratings, choice),
             *warnings,
         ],
-        data=_how(ratings, choice),
+        data={**_how(ratings, choice), "form": form_data(ratings.form)},
     )
 
 
@@ -103,12 +111,17 @@ def _players_table(ratings: Ratings) -> Table:
         Column("races_won", "matches won" if by_winner else None),
         Column("races_lost", "matches lost" if by_winner else None),
         Column("component", "group" if ratings.component.max() > 1 else None),
+        *([Column("match_form")] if ratings.match_form else []),
         Column("scale"),
     ]
+    shared = [*([ratings.match_form] if ratings.match_form else []), ratings.scale.text]
     order = ratings.strongest_first()
     order.sort(key=lambda k: ratings.component[k])
-    values = [np.asarray(getattr(ratings, str(one.name)))[order].tolist() for one in columns[1:-1]]
-    values.append([ratings.scale.text] * len(order))
+    values = [
+        np.asarray(getattr(ratings, str(one.name)))[order].tolist()
+        for one in columns[1 : -len(shared)]
+    ]
+    values += [[value] * len(order) for value in shared]
     names = [ratings.players[k] for k in order]
     return Table("players", columns, list(zip(names, *values, strict=True)))
 

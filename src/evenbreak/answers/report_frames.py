@@ -48,6 +48,7 @@ def summary_frame(
         "team_sd_points": float(scale.points(ratings.levels.team_sd)),
         "division_sd_points": float(scale.points(ratings.levels.division_sd)),
         "half_life_days": ratings.half_life,
+        "match_form_log_odds": ratings.match_form,
         "as_of": None if ratings.as_of is None else str(ratings.as_of),
         "race_to": offered.race_to,
         "games_lo": offered.games[0] if offered.games else None,

@@ -107,15 +107,23 @@ class Races:
 
     @classmethod
     def of(
-        cls, gap: Floats, error: Floats, m: Ints, n: Ints, scale: Scale, pace: Pace | None = None
+        cls,
+        gap: Floats,
+        error: Floats,
+        m: Ints,
+        n: Ints,
+        scale: Scale,
+        pace: Pace | None = None,
+        form: float = 0.0,
     ) -> Races:
         """Return the races m:n of pairs with these differences and standard errors."""
+        way: dict[str, Any] = {"scale": scale, "form": form}
         mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
         minutes = np.zeros((2, len(gap)))
         lengths: list[Length] = [Length([], [])] * len(gap)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
-            length = length_given_ratings(gap[of_race], error[of_race], *race, scale=scale)
+            length = length_given_ratings(gap[of_race], error[of_race], *race, **way)
             mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
             if pace is not None:
                 timed = match_minutes(length.games, length.probability, pace)
@@ -125,8 +133,8 @@ class Races:
         return cls(
             m,
             n,
-            win_given_ratings(gap, error, m, n, scale=scale),
-            win_given_ratings(gap, 0.0, m, n, scale=scale),
+            win_given_ratings(gap, error, m, n, **way),
+            win_given_ratings(gap, 0.0, m, n, **way),
             mean,
             p90,
             lengths,
@@ -167,6 +175,7 @@ def roster_matchups(
     levels: LevelScale | None = None,
     offered: OfferedRaces | None = None,
     pace: Pace | None = None,
+    form: float = 0.0,
 ) -> RosterMatchups:
     """Return the races of pairs of players, their chances and their lengths.
 
@@ -187,6 +196,8 @@ def roster_matchups(
         the races among which the fairest is sought.
     pace
         how fast matches are played; None: no minutes.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation).
 
     Returns
     -------
@@ -226,10 +237,10 @@ def roster_matchups(
     }
     by_chart = best = None
     if chart is not None:
-        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace)
+        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace, form)
         columns |= _columns("chart_", by_chart)
     if offered is not None:
-        best = Races.of(gap, error, *offered.fairest(gap, error, scale), scale, pace)
+        best = Races.of(gap, error, *offered.fairest(gap, error, scale, form), scale, pace, form)
         columns |= _columns("", best)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],

@@ -63,6 +63,8 @@ class Round:
         the time between two matches on a table.
     seed
         for an evening that has to be simulated.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation).
     listed
         whether the pairs are a list of matches; otherwise they are all pairs.
     """
@@ -78,6 +80,7 @@ class Round:
     tables: int | None = None
     turnover: Turnover = field(default_factory=Turnover)
     seed: int = 0
+    form: float = 0.0
     listed: bool = False
 
     def __repr__(self) -> str:
@@ -110,6 +113,7 @@ class Round:
             levels=self.levels,
             offered=self.offered,
             pace=self.pace,
+            form=self.form,
         )
 
     @cached_property

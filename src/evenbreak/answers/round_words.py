@@ -165,6 +165,12 @@ def about_method(tonight: Round) -> Iterator[Remark]:
             "each chance and each length is averaged over it, with the errors of two players taken "
             "as independent and normal",
         )
+    if tonight.form:
+        yield Remark(
+            "Form of the day",
+            "each chance and each length is averaged over it; the chance of a single game stays "
+            "the same",
+        )
     for end in tonight.evening:
         if not end.exact:
             yield Remark(
@@ -206,6 +212,8 @@ def about_levels(tonight: Round) -> Iterator[str]:
 
 def game_model(tonight: Round) -> str:
     """Return how a game's chance follows from two ratings, in a sentence."""
+    alone = "independently of every other game"
+    alone += " but for form of the day, whoever breaks." if tonight.form else ", whoever breaks."
     if tonight.levels is not None:
         placed = ", ".join(
             f"{level} at {strength:.2f}"
@@ -214,7 +222,7 @@ def game_model(tonight: Round) -> str:
         return (
             f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
             f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
-            "independently of every other game, whoever breaks."
+            f"{alone}"
         )
     text = game_chance(tonight.scale)
-    return f"{text[:1].upper()}{text[1:]}, independently of every other game, whoever breaks."
+    return f"{text[:1].upper()}{text[1:]}, {alone}"

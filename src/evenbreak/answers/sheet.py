@@ -104,7 +104,8 @@ class Sheet:
         if not self.sure:
             return []
         furthest = max(pair.difference for pair in self.sure)
-        return chart_bands(self.offered, self.ratings.scale, furthest, self.typical_error)
+        of = self.ratings
+        return chart_bands(self.offered, of.scale, furthest, self.typical_error, of.match_form)
 
     @property
     def typical_error(self) -> float:

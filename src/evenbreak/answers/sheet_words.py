@@ -5,6 +5,7 @@ from typing import Any
 
 import pandas as pd
 
+from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.prior_words import level_words
 from evenbreak.answers.report_frames import count_groups, dates_of, file_name
 from evenbreak.answers.scale_words import game_chance, like_scale_words
@@ -100,7 +101,8 @@ def how_rated(sheet: Sheet) -> str:
     as_of = "" if ratings.as_of is None else f", as of {ratings.as_of}"
     if ratings.half_life is not None:
         text += f". A match counts half after {ratings.half_life:g} days"
-    return " ".join([f"{text}{as_of}.", *level_words(ratings, sheet.choice)])
+    form = form_used_words(ratings.match_form, ratings.scale)
+    return " ".join([f"{text}{as_of}.", *level_words(ratings, sheet.choice), *filter(None, [form])])
 
 
 def rating_model(sheet: Sheet) -> str:

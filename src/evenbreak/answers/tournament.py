@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from evenbreak.answers.remarks import Remark
 from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import count_of, some_of
@@ -14,6 +18,8 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot
+from evenbreak.tournaments.brackets.standing import Standing
+from evenbreak.tournaments.evening.later_draws import TO_DRAW
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 
 
@@ -35,6 +41,9 @@ class Tournament:
         what the points mean.
     seeding
         where the order of the seeds comes from, in words.
+    to_draw
+        what is drawn later: '' (nothing), the 'lines' of everybody, the 'qualifiers' of the
+        losers' side, or the 'rounds' of a Swiss.
     """
 
     file: RosterFile
@@ -43,30 +52,21 @@ class Tournament:
     races: Races
     scale: Scale
     seeding: str
+    to_draw: str = ""
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:
         """Who wins each match in how many games, if the ratings are right."""
         return self.laws_of(self.races)
 
-    def laws_of(self, races: Races) -> dict[str, PairOdds]:
-        """Return the same for other races."""
-        return pair_odds(self.bracket, self.ratings, races, scale=self.scale)
+    def laws_of(self, races: Races, *, form: float = 0.0) -> dict[str, PairOdds]:
+        """Return the same for other races, or with form of the day."""
+        return pair_odds(self.bracket, self.ratings, races, scale=self.scale, form=form)
 
     @property
     def ratings(self) -> Floats:
         """The ratings, in seed order."""
         return self.roster.rating
-
-    @property
-    def shorter_races(self) -> Races | None:
-        """All races one game shorter; None where they come from a chart, or one game is all."""
-        races = self.races
-        found = [_one_less(race) for race in (races.race, races.losers, races.final)]
-        given = [race for race in (races.race, races.losers, races.final) if race is not None]
-        if found.count(None) > 3 - len(given) or found[0] is None:
-            return None
-        return replace(races, race=found[0], losers=found[1], final=found[2])
 
     @property
     def heading(self) -> str:
@@ -86,14 +86,30 @@ class Tournament:
             return ""
         return f"Byes in the first round: {some_of(names)}."
 
+    @property
+    def unrated(self) -> tuple[str, ...]:
+        """The players who have no rating on the list."""
+        read = self.file.roster
+        names = (read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist())
+        return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
-def _one_less(race: Race | None) -> Race | None:
-    match race:
-        case Fairest(race_to=games) if games > 1:
-            return Fairest(games - 1)
-        case int() if race > 1:
-            return race - 1
-    return None
+    def unrated_words(self, *, spread: bool = True) -> str:
+        """Return what is assumed of players without a rating, as a sentence; '' if all have one."""
+        if not (names := self.unrated):
+            return ""
+        seat = self.roster.players.index(names[0])
+        error = float(self.roster.standard_error[seat]) if spread else 0.0
+        return unrated_words(names, float(self.roster.rating[seat]), error)
+
+
+def unrated_words(names: Sequence[str], rating: float, error: float) -> str:
+    """Return what is assumed of players without a rating.
+
+    >>> unrated_words(["Ann"], 80.0, 30.0)
+    '1 player without a rating (Ann): taken as 80 ± 30.'
+    """
+    taken = f"taken as {rating:g} ± {error:g}" if error > 0.0 else f"taken as {rating:g}"
+    return str(Remark(f"{count_of(len(names), 'player')} without a rating", taken, names))
 
 
 def races_words(races: Races) -> str:
@@ -135,6 +151,28 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
     """
     if isinstance(slot, int):
         return bracket.players[slot]
+    if slot.match == TO_DRAW:
+        return "a qualifier to be drawn"
+    if _of_swiss(bracket, slot):
+        return "to be drawn"
     if isinstance(slot.outcome, int):
         return f"number {slot.outcome} of {slot.match}"
     return f"{slot.outcome} of {slot.match}"
+
+
+def _of_swiss(bracket: Bracket, slot: Slot) -> bool:
+    """Return whether a slot is one of a round that is paired when the round before is over."""
+    if isinstance(slot, int) or slot.match not in bracket.by_name:
+        return False
+    return bracket.by_name[slot.match].side == "Swiss"
+
+
+def pair_words(now: Standing, match: str) -> tuple[str, str]:
+    """Return who plays a match, as `slot_words` does, with the players who are known by now."""
+    one, other = (
+        slot_words(now.bracket, slot)
+        if seat is None or _of_swiss(now.bracket, slot)
+        else now.bracket.players[seat]
+        for slot, seat in zip(now.bracket.match(match).slots, now.seats[match], strict=True)
+    )
+    return one, other

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
-from evenbreak.tournaments.evening.fold import Evening, Played
+from evenbreak.files.event_list import TITLES, event_rows
+from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.outlook import played_matches
 
 
 def tournament_matches_answer(state: Evening, event: str) -> Answer:
@@ -39,9 +44,11 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
         Column("forfeit", "forfeit", lambda yes: "yes" if yes else "", left=True),
     ]
     rows = []
-    for result, at in sorted(_played(state), key=lambda one: one.at):
+    for result, at in sorted(played_matches(state), key=lambda one: one.at):
         score = None if result.forfeit else result.score
-        race = state.needed(result.match, result.players)
+        needs = state.needed(result.match, result.players)
+        ended = score is None or (score[0] == needs[0]) != (score[1] == needs[1])
+        race = needs if ended else None  # a match that was imported may have had head starts
         rows.append(
             [
                 at[:10],
@@ -50,7 +57,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
                 result.players,
                 score,
                 race,
-                result.winner,
+                result.loser if result.stands else result.winner,
                 result.forfeit,
             ]
         )
@@ -59,11 +66,16 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
     return Answer(event, [said, table], csv=table)
 
 
-def _played(state: Evening) -> list[Played]:
-    """Return the last result of each two players in each match."""
-    found = {
-        (name, frozenset(one.result.players)): one
-        for name, played in state.records.items()
-        for one in played
-    }
-    return list(found.values())
+def tournament_events_answer(events: Sequence[Event], name: str) -> Answer:
+    """Return all that happened, in its order; what was undone is there too.
+
+    Parameters
+    ----------
+    events
+        the events.
+    name
+        the tournament's name.
+    """
+    columns = [Column(title, title, left=True) for title in TITLES]
+    table = Table("events", columns, [list(row) for row in event_rows(events)])
+    return Answer(name, [f"{count_of(len(events), 'event')}.", table], csv=table)

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from evenbreak.answers.tournament import slot_words
+from evenbreak.answers.tournament import slot_words, unrated_words
+from evenbreak.answers.tournament_night import waits_for
 from evenbreak.answers.wording import some_of
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Event,
     Late,
+    LaterDraw,
+    Ranked,
     Result,
+    Scored,
     What,
 )
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.moves import score_words
+from evenbreak.tournaments.evening.settling import TieBreak
 
 
 def happened(before: Evening, after: Evening, event: Event) -> list[str]:
@@ -33,11 +40,53 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
         return []
     result = event.what
     said = [f"{score_words(result)} in {result.match}."]
-    said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
-    gone = [name for name in before.winners if name not in after.counted]
+    if any(_leads_on(after, result.match)):
+        said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
+    return [*said, *reopened(before, after, result.match)]
+
+
+def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
+    """Return whether a match decides a place, and whether it leads to another match."""
+    played = state.bracket.match(match)
+    slots = [slot for one in state.bracket.matches for slot in one.slots]
+    return (
+        played.winner_place is not None or played.loser_place is not None,
+        any(isinstance(slot, Source) and slot.match == match for slot in slots),
+    )
+
+
+def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
+    """Return in words which matches are open again, and which results count again.
+
+    Parameters
+    ----------
+    before, after
+        the state before and after something happened.
+    besides
+        the match in which it happened.
+    """
+    if not (before.drawn and after.drawn):
+        return []
+    said = []
+    gone = [name for name in before.counted if name not in after.counted and name != besides]
     if gone:
-        said.append(f"Open again: {some_of(gone)}.")
+        said.append(f"Open again: {some_of([_open_words(after, name) for name in gone])}.")
+    back = [
+        f"{score_words(result)} in {name}"
+        for name, result in after.counted.items()
+        if name not in before.counted and name != besides and name in after.records
+    ]
+    if back:
+        said.append(f"Counts again: {'; '.join(back)}.")
     return said
+
+
+def _open_words(state: Evening, match: str) -> str:
+    """Return a match with whoever plays it now, or what it waits for."""
+    if match in state.standing.to_play:
+        return f"{match} ({' against '.join(state.pair(match))})"
+    waits = waits_for(state, match)
+    return f"{match} (waits for {waits})" if waits else match
 
 
 def _moves(state: Evening, match: str, player: str) -> str:
@@ -83,6 +132,14 @@ def forfeited(before: Evening, after: Evening) -> list[str]:
 
 def entry_words(state: Evening, name: str) -> str:
     """Return in words where a late player plays first."""
+    entrant = state.entrants[name]
+    plan = state.plan
+    if (entrant.rating, entrant.standard_error) == (plan.starter, plan.starter_error):
+        return f"{_entered(state, name)} {unrated_words([name], plan.starter, plan.starter_error)}"
+    return _entered(state, name)
+
+
+def _entered(state: Evening, name: str) -> str:
     if not state.drawn:
         return f"{name} has entered."
     seat = state.order.index(name)
@@ -94,6 +151,20 @@ def entry_words(state: Evening, name: str) -> str:
     return f"{name} has entered."
 
 
+def draw_words(before: Evening, after: Evening) -> str:
+    """Return what was drawn."""
+    said = [] if before.drawn else [f"{len(after.order)} players are drawn."]
+    for stage in after.later.keys() - before.later.keys():
+        if stage == KNOCK_OUT:
+            said.append("The losers' qualifiers are drawn.")
+        else:
+            pairs = pairings(after.later)[int(stage[1:]) - 1]
+            byes = [p.first for p in pairs if p.second is None]
+            bye = f"; {byes[0]} has a bye" if byes else ""
+            said.append(f"Round {stage[1:]} is drawn{bye}.")
+    return " ".join(said)
+
+
 def undone_words(what: What) -> str:
     """Return what was taken back.
 
@@ -101,13 +172,22 @@ def undone_words(what: What) -> str:
     'Taken back: Ann beat Bo 7:5 in W1.1.'
     """
     match what:
-        case Result(corrects=corrects):
-            kind = "the correction " if corrects else ""
+        case Result(corrects=corrects, stands=stands):
+            kind = "the correction " if corrects and not stands else ""
             words = f"{kind}{score_words(what)} in {what.match}"
+        case Scored(match=match, score=score):
+            words = f"the score {score[0]}:{score[1]} of {match}"
+        case Ranked():
+            words = "the breaking of the ties"
         case Called():
             words = f"the call of {what.match} to table {what.table}"
         case Drawn():
             words = "the draw"
+        case LaterDraw(stage=stage):
+            round_of = stage != KNOCK_OUT
+            words = f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
+        case Changed():
+            words = "the change of tables or races"
         case Late():
             words = f"the entry of {what.entrant.name}"
         case Dropped():
@@ -115,3 +195,13 @@ def undone_words(what: What) -> str:
         case _:
             words = "nothing"
     return f"Taken back: {words}."
+
+
+def tie_words(found: TieBreak) -> list[str]:
+    """Return in words how ties were broken."""
+    said = [f"The order is {', '.join(found.ranked.order)}."]
+    if found.by_lot:
+        said.append(f"Drawn by lot: {', '.join(found.by_lot)}.")
+    else:
+        said.append("Games won minus games lost broke the ties.")
+    return said

@@ -2,116 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from datetime import datetime, timedelta
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.tournament import races_words, slot_words
+from evenbreak.answers.times_of_day import ends_words, time_of_day
+from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_odds import share
-from evenbreak.answers.wording import count_of
-from evenbreak.tournaments.brackets.bracket import Place
+from evenbreak.answers.wording import count_of, listed
+from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.clock.evenings import InPlay
-from evenbreak.tournaments.clock.event_pace import Timed
-from evenbreak.tournaments.clock.finish import Finish, finish
-from evenbreak.tournaments.evening.events import (
-    Called,
-    Drawn,
-    Result,
-    as_dict,
-)
+from evenbreak.tournaments.brackets.swiss import swiss_standings
+from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import (
+    can_draw,
+    pairings,
+    stage_to_draw,
+    swiss_of,
+)
 from evenbreak.tournaments.evening.moves import free_tables, score_words
-from evenbreak.tournaments.odds.races import PairOdds, pair_odds
-from evenbreak.tournaments.odds.title import title_odds
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.settling import tied_groups
 
+_LISTED = 8  # waiting matches that are named
 _SHOWN = 6  # players whose title odds everybody sees
 
 
-@dataclass(frozen=True, eq=False)
-class Night:
-    """A tournament under way, at a moment.
-
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    now
-        what time it is, such as 2025-03-01T19:30:00.
-    """
-
-    state: Evening
-    now: str
-
-    @property
-    def heading(self) -> str:
-        """What is played by whom."""
-        state = self.state
-        races = races_words(state.races)
-        if not state.drawn:
-            return f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
+def heading(outlook: Outlook, source: str = "") -> str:
+    """Return what is played by whom."""
+    state = outlook.state
+    races = races_words(state.races)
+    if not state.drawn:
+        text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
+    else:
         form = state.bracket.format
         players, played = count_of(len(state.order), "player"), len(state.winners)
-        return (
+        text = (
             f"{form[0].upper()}{form[1:]}: {players}, "
             f"{count_of(played, 'match', 'matches')} decided\n{races}"
         )
-
-    def laws(self) -> dict[str, PairOdds]:
-        """Who wins each match in how many games, if the ratings are right."""
-        state = self.state
-        return pair_odds(state.bracket, state.ratings, state.races, scale=state.scale)
-
-    @property
-    def start(self) -> datetime:
-        """When the first match was called, or else the draw was made."""
-        events = self.state.events
-        firsts = [e.at for kind in (Called, Drawn) for e in events if isinstance(e.what, kind)]
-        return datetime.fromisoformat(min([*firsts[:1], self.now]))
-
-    def minutes(self, at: str) -> float:
-        """Return a time in minutes since the start."""
-        passed = datetime.fromisoformat(at) - self.start
-        return max(0.0, passed.total_seconds() / 60.0)
-
-    def clock(self, minutes: float) -> str:
-        """Return minutes since the start as a time of day."""
-        return f"{self.start + timedelta(minutes=round(minutes)):%H:%M}"
-
-    def finish(self, laws: Mapping[str, PairOdds]) -> Finish:
-        """Return when it ends, given what has been played and what is on the tables."""
-        state = self.state
-        playing = [InPlay(name, self.minutes(one.at)) for name, one in state.on_tables.items()]
-        return finish(
-            state.bracket,
-            laws,
-            tables=state.plan.tables,
-            pace=state.plan.discipline,
-            results=state.winners,
-            played=self._timed(),
-            playing=playing,
-            now=max([self.minutes(self.now), *(one.started for one in playing)]),
-        )
-
-    def _timed(self) -> list[Timed]:
-        state, found = self.state, []
-        for name, result in state.counted.items():
-            call = state.calls.get(name)
-            ends = [one.at for one in state.records.get(name, ()) if one.result is result]
-            if call is None or not ends or not any(result.score):
-                continue
-            minutes = self.minutes(ends[0]) - self.minutes(call.at)
-            if minutes >= 1.0:  # shorter ones were typed in afterwards
-                found.append(Timed(sum(result.score), minutes))
-        return found
+    return f"{source}: {text}" if source else text
 
 
-def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") -> Answer:
+def begun_at(outlook: Outlook) -> int:
+    """Return the time of day at which the evening began, in minutes after midnight."""
+    return 60 * outlook.start.hour + outlook.start.minute
+
+
+def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") -> Answer:
     """Return the state of a tournament: what is played next, the title odds, when it ends.
 
     Parameters
@@ -123,34 +66,37 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
     source
         the name of its file, for the heading.
 
-    >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
     >>> both = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
     >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
     >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
-    >>> answer = night_answer(Night(state, "2025-03-01T19:30:00"))
+    >>> answer = night_answer(Outlook(state, "2025-03-01T19:30:00"))
     >>> print(answer.sentences[0])
     Now play F, Ann against Bo, on table 1.
     It ends at about 20:08; 8 times out of 10 between 19:54 and 20:30.
     """
     state = night.state
-    heading = f"{source}: {night.heading}" if source else night.heading
     if not state.drawn:
-        return _before_the_draw(state, heading, said)
-    laws = night.laws()
-    odds = title_odds(state.bracket, laws, results=state.winners, rng=np.random.default_rng(0))
+        return _before_the_draw(state, heading(night, source), said)
+    odds = night.odds
     words = list(said)
     parts: list[Part] = []
-    to_play = list(state.standing.to_play)
-    if to_play:
-        found = night.finish(laws)
+    tied = tied_groups(state)
+    under_way = bool(state.standing.to_play or tied) or stage_to_draw(state) is not None
+    if under_way:
+        found = night.finish()
         tables = _tables(state, found)
-        early, middle, late = found.bands
-        words.append(_next_words(state, tables))
-        words.append(
-            f"It ends at about {night.clock(middle)}; 8 times out of 10 between "
-            f"{night.clock(early)} and {night.clock(late)}."
-        )
+        if tied:
+            words.append(
+                f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
+                "ties with: evenbreak tournament tiebreak"
+            )
+        if can_draw(state):
+            words.append(_draw_words(state))
+        elif state.standing.to_play:
+            words.append(_next_words(state, tables))
+        words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
         keys = ("finish_p10", "finish_p50", "finish_p90")
         parts += [
             Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
@@ -161,26 +107,64 @@ def night_answer(night: Night, said: Sequence[str] = (), *, source: str = "") ->
         if len(first) == 1:
             words.append(f"{first[0]} wins the tournament.")
         else:
-            words.append(f"First place is tied: {' and '.join(first)}.")
+            words.append(f"First place is tied: {listed(first)}.")
+            if state.plan.form != "swiss":
+                words[-1] += " Break the ties with: evenbreak tournament tiebreak"
         parts.append(_places(state, odds.p_place, odds.bracket.places))
-    if to_play:
-        order = np.argsort(-odds.title, kind="stable").tolist()
-        rows = [[state.order[k], float(odds.title[k])] for k in order]
-        columns = [Column("name", "player", left=True), Column("p_title", "title", share)]
-        alive = [row for row in rows if row[1] > 0.0]
-        parts += [
-            Table("", columns, alive[:_SHOWN], title="Odds of the title"),
-        ]
+    if state.plan.form == "swiss" and state.counted:
+        parts.append(_swiss_table(state))
+    if under_way:
+        parts.append(_title_table(night))
     data = {
         "odds": [
-            {"name": name, "p_title": float(p)}
-            for name, p in zip(state.order, odds.title, strict=True)
+            {"name": name, "p_title": p, "p_title_if_sure": sure}
+            for name, p, sure in _title_odds(night)
         ],
         "odds_exact": odds.exact,
+        "ratings_averaged": odds is not night.as_if_sure,
         "set_aside": [as_dict(one.result) for one in state.aside],
     }
     warnings = [_aside_words(state, one.result) for one in state.aside]
-    return Answer(heading, ["\n".join(words), *parts], warnings=warnings, data=data)
+    above = heading(night, source)
+    return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
+
+
+def _draw_words(state: Evening) -> str:
+    """Return that something can be drawn now."""
+    stage = str(stage_to_draw(state))
+    what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
+    return f"{what} can be drawn now, with: evenbreak tournament draw"
+
+
+def _swiss_table(state: Evening) -> Table:
+    """Return the standings of a Swiss, after the rounds that are over."""
+    over = [
+        pairs
+        for pairs in pairings(state.later, state.counted)
+        if all(p.winner or p.second is None for p in pairs)
+    ]
+    rows = swiss_standings(swiss_of(state.plan, state.order), over)
+    columns = [
+        Column("name", "player", left=True),
+        Column("won", "matches\nwon"),
+        Column("buchholz", "won by their\nopponents"),
+    ]
+    title = f"Standings after round {len(over)}"
+    return Table("standings", columns, [list(row) for row in rows], title=title)
+
+
+def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
+    averaged, sure = night.odds.title.tolist(), night.as_if_sure.title.tolist()
+    return list(zip(night.state.order, averaged, sure, strict=True))
+
+
+def _title_table(night: Outlook) -> Table:
+    rows = sorted((row for row in _title_odds(night) if row[1] > 0.0), key=lambda row: -row[1])
+    columns = [Column("name", "player", left=True), Column("p_title", "title", share)]
+    sure = Column("p_title_if_sure", "title, if the\nratings are right", share)
+    shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
+    few = [row[: len(shown)] for row in rows[:_SHOWN]]
+    return Table("", shown, few, title="Odds of the title")
 
 
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
@@ -192,15 +176,34 @@ def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answe
 
 def _aside_words(state: Evening, result: Result) -> str:
     """Return what is to be done about a match that the wrong players have played."""
-    seats = state.standing.seats[result.match]
-    if None in seats or NOBODY in seats:
-        now = "its players are not known now"
+    name = result.match
+    seats = state.standing.seats[name]
+    if NOBODY in seats:
+        now, play = "the match is not needed now", ""
+    elif None in seats:
+        waits = waits_for(state, name)
+        now, play = f"the match waits for {waits} now", f"Play {name} again, "
     else:
-        now = f"it is now {' against '.join(state.pair(result.match))}"
+        now = f"it is {' against '.join(state.pair(name))} now"
+        play = f"Play {name} again, "
+    stand = f"let it stand (evenbreak tournament stand {name})"
+    settle = f"{play}{stand}" if play else f"{stand[0].upper()}{stand[1:]}"
     return (
-        f"{score_words(result)} in {result.match}, but {now}; the result is kept but does not "
-        f"count. Play {result.match} again, or undo"
+        f"{score_words(result)} in {name}, but {now}; the result is kept but does not count. "
+        f"{settle} or undo the correction"
     )
+
+
+def waits_for(state: Evening, match: str) -> str:
+    """Return the matches whose result decides who plays a match."""
+    seats = state.standing.seats[match]
+    slots = state.bracket.match(match).slots
+    sources = [
+        slot.match
+        for slot, seat in zip(slots, seats, strict=True)
+        if seat is None and isinstance(slot, Source)
+    ]
+    return " and ".join(dict.fromkeys(sources))
 
 
 def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
@@ -208,15 +211,26 @@ def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
     playing: list[tuple[int | None, str]] = sorted(
         (one.call.table, name) for name, one in state.on_tables.items()
     )
-    free: list[int | None] = [*free_tables(state)]
-    calls = [call.match for call in found.calls()]
-    free += [None] * len(calls)
-    return [*playing, *zip(free, calls, strict=False)]
+    free = free_tables(state)
+    calls = [call.match for call in found.calls() if call.match in state.standing.to_play]
+    grouped = {name for group in state.bracket.groups for name in group.matches}
+    calls.sort(key=lambda name: state.bracket.match(name).round if name in grouped else 0)
+    now: list[str] = []
+    later: list[tuple[None, str]] = []
+    busy = {player for one in state.on_tables.values() for player in one.call.players}
+    for name in calls:
+        pair = set(state.pair(name))
+        if len(now) < len(free) and not pair & busy:
+            busy |= pair
+            now.append(name)
+        else:
+            later.append((None, name))
+    return [*playing, *zip(free, now, strict=False), *later]
 
 
-def next_calls(night: Night) -> list[tuple[int, str]]:
+def next_calls(night: Outlook) -> list[tuple[int, str]]:
     """Return which matches to call to which of the free tables."""
-    tables = _tables(night.state, night.finish(night.laws()))
+    tables = _tables(night.state, night.finish())
     return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
 
 
@@ -226,20 +240,26 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
         for table, name in tables
         if table is not None and name not in state.on_tables
     ]
+    waiting = [name for table, name in tables if table is None]
+    said = []
     if ready:
-        return f"Now play {'; '.join(ready)}."
-    waiting = sum(table is None for table, _ in tables)
+        said.append(f"Now play {'; '.join(ready)}.")
     if waiting:
-        return f"All tables are taken; {count_of(waiting, 'match waits', 'matches wait')}."
-    return "No match can be called before one of those on the tables ends."
+        verb = "waits" if len(waiting) == 1 else "wait"
+        if len(waiting) <= _LISTED:
+            said.append(f"{listed(waiting)} {verb} for a table.")
+        else:
+            said.append(f"{len(waiting)} matches wait for a table or for their players.")
+    return " ".join(said) or "No match can be called before one of those on the tables ends."
 
 
-def _next_table(night: Night, tables: Sequence[tuple[int | None, str]]) -> Table:
+def _next_table(night: Outlook, tables: Sequence[tuple[int | None, str]]) -> Table:
     state = night.state
     columns = [
         Column("match", "match", left=True),
         Column(("player_a", "player_b"), "between", " - ".join, left=True),
         Column(("race_a", "race_b"), "race", _colon),
+        Column(("score_a", "score_b"), "score", _colon),
         Column("table", "table"),
         Column("state", "", left=True),
     ]
@@ -247,10 +267,14 @@ def _next_table(night: Night, tables: Sequence[tuple[int | None, str]]) -> Table
     for table, name in tables:
         pair = state.pair(name)
         if name in state.on_tables:
-            words = f"playing since {night.clock(night.minutes(state.on_tables[name].at))}"
+            since = begun_at(night) + night.minutes(state.on_tables[name].at)
+            words = f"playing since {time_of_day(since)}"
         else:
             words = "call" if table else "waits for a table"
-        rows.append([name, pair, state.needed(name, pair), table, words])
+        score = night.scores.get(name)
+        rows.append([name, pair, state.needed(name, pair), score, table, words])
+    if not any(row[3] for row in rows):
+        columns[3] = Column(("score_a", "score_b"))
     return Table("next", columns, rows)
 
 
@@ -285,10 +309,7 @@ def bracket_table(state: Evening) -> Table:
         seats = state.standing.seats[match.name]
         if NOBODY in seats:
             continue
-        names = tuple(
-            slot_words(state.bracket, slot) if seat is None else state.order[seat]
-            for slot, seat in zip(match.slots, seats, strict=True)
-        )
+        names = pair_words(state.standing, match.name)
         result = state.counted.get(match.name)
         score = winner = None
         if result is not None:

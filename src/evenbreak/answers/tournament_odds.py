@@ -10,12 +10,13 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
+from evenbreak.answers.tournament_handicap import fairer_races, favours, favours_words
+from evenbreak.answers.tournament_solved import solved
 from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Place
-from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
-from evenbreak.tournaments.odds.title import TitleOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import over_ratings
+from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds
 
 _NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
 _SHOWN = 3  # places that everybody sees; the others are details
@@ -27,6 +28,7 @@ def tournament_odds_answer(
     sure: bool = False,
     walkovers: float = 0.0,
     prizes: Sequence[float] = (),
+    fairest: bool = False,
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
@@ -43,6 +45,8 @@ def tournament_odds_answer(
         the chance that a match is a walkover.
     prizes
         the money for each place, for each player's average prize.
+    fairest
+        whether to find the races by side that make a handicapped tournament fairest.
     seed
         of what has to be sampled.
     warnings
@@ -59,21 +63,34 @@ def tournament_odds_answer(
     An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
     who have met before; a second final is needed 41% of the time.
     """
-    plug_in, odds = _odds(tournament, sure=sure, walkovers=walkovers, seed=seed)
-    rng = np.random.default_rng(seed)
-    rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng)
-    quantities = Quantities(
-        [
+    found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
+    plug_in, odds = found
+    quantities = [
+        Quantity("exact", plug_in.exact and not found.averaged),
+        Quantity("ratings_averaged", found.averaged),
+    ]
+    words = _in_words(odds)
+    if isinstance(odds, TitleOdds):
+        rng = np.random.default_rng(seed)
+        rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng).mean
+        quantities = [
             Quantity("p_second_final", odds.p_second_final),
             Quantity("matches_mean", odds.matches_mean),
-            Quantity("rematches_mean", rematches.mean),
-            Quantity("exact", plug_in.exact and odds is plug_in),
-            Quantity("ratings_averaged", odds is not plug_in),
+            Quantity("rematches_mean", rematches),
+            *quantities,
         ]
-    )
-    table = _table(tournament, plug_in, odds, prizes)
-    parts: list[Part] = [_in_words(tournament, odds, rematches.mean), quantities, table]
-    parts += filter(None, [tournament.byes, _how(plug_in, odds, walkovers)])
+        words += f" {_matches_words(odds, rematches)}"
+    handicapped = not isinstance(tournament.races.race, int)
+    if handicapped:
+        words += f"\n{favours_words(tournament.ratings, odds)}"
+        quantities += favours(tournament.ratings, odds)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes, shares=handicapped)
+    parts: list[Part] = [words, Quantities(quantities), table]
+    if fairest:
+        parts += fairer_races(tournament)
+    unrated = tournament.unrated_words(spread=not sure)
+    how = how_words(plug_in, odds, walkovers, tournament.to_draw)
+    parts += filter(None, [tournament.byes, unrated, how])
     return Answer(
         tournament.heading,
         parts,
@@ -82,25 +99,28 @@ def tournament_odds_answer(
     )
 
 
-def _odds(
-    tournament: Tournament, *, sure: bool, walkovers: float, seed: int
-) -> tuple[TitleOdds, TitleOdds]:
-    """Return the odds if the ratings are right, and averaged over their errors if they have any."""
-    asked: Any = {"walkovers": walkovers, "rng": np.random.default_rng(seed)}
-    errors = np.nan_to_num(tournament.roster.standard_error)
-    if sure or not errors.any():
-        odds = title_odds(tournament.bracket, tournament.laws, **asked)
-        return odds, odds
-    win_of = chances_given(
-        tournament.bracket, tournament.ratings, tournament.races, scale=tournament.scale
-    )
-    both = over_ratings(tournament.bracket, win_of, tournament.ratings, errors, **asked)
-    return both.as_if_sure, both.averaged
-
-
-def _table(
-    tournament: Tournament, plug_in: TitleOdds, odds: TitleOdds, prizes: Sequence[float]
+def odds_table(
+    ratings: Floats,
+    plug_in: PlaceOdds,
+    odds: PlaceOdds,
+    prizes: Sequence[float] = (),
+    *,
+    shares: bool = False,
 ) -> Table:
+    """Return each player's chance of each place, beside those that take the ratings as right.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating, in the bracket's order.
+    plug_in, odds
+        the odds if the ratings are right, and averaged over how far off they may be; the same
+        if they are not averaged.
+    prizes
+        the money for each place.
+    shares
+        whether to say how many times an equal share the title odds are.
+    """
     places = odds.bracket.places
     columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
     columns += [
@@ -109,7 +129,7 @@ def _table(
     ]
     seats = range(len(odds.title))
     rows: list[list[Any]] = [
-        [k + 1, odds.bracket.players[k], float(tournament.ratings[k]), *odds.p_place[k].tolist()]
+        [k + 1, odds.bracket.players[k], float(ratings[k]), *odds.p_place[k].tolist()]
         for k in seats
     ]
     if odds is not plug_in:
@@ -121,6 +141,13 @@ def _table(
         columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
         for k in seats:
             rows[k].append(float(odds.error[k, first]))
+    if shares:
+        wide = odds is not plug_in
+        columns.append(
+            Column("times_equal_share", "times an\nequal share", decimals(2), detail=wide)
+        )
+        for k in seats:
+            rows[k].append(float(len(seats) * odds.title[k]))
     if prizes:
         columns.append(Column("prize_mean", "prize,\naverage", decimals(2)))
         for k, prize in enumerate(odds.expected_prize(prizes).tolist()):
@@ -156,46 +183,83 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def _in_words(tournament: Tournament, odds: TitleOdds, rematches: float) -> str:
+def favourite_words(odds: PlaceOdds) -> str:
+    """Return who is likely to win."""
     players, title = odds.bracket.players, odds.title
-    best, *others = np.argsort(-title, kind="stable")[:3].tolist()
-    following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+    alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
+    best, *others = alive
+    if not others:
+        return f"{players[best]} wins the tournament."
     text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
-        f"time; next {'are' if len(others) > 1 else 'is'} {following}.\n"
-        f"An equal share would be {percent(1.0 / len(players))}. "
+        "time"
     )
+    if others:
+        following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+        text += f"; next {'are' if len(others) > 1 else 'is'} {following}"
+    return f"{text}."
+
+
+def _in_words(odds: PlaceOdds) -> str:
+    share = percent(1.0 / len(odds.bracket.players))
+    return f"{favourite_words(odds)}\nAn equal share would be {share}."
+
+
+def _matches_words(odds: TitleOdds, rematches: float) -> str:
     matches = odds.matches_mean
     if abs(matches - round(matches)) < 1e-9:
-        text += f"{count_of(round(matches), 'match is', 'matches are')} played"
+        text = f"{count_of(round(matches), 'match is', 'matches are')} played"
     else:
-        text += f"On average {matches:.1f} matches are played"
+        text = f"On average {matches:.1f} matches are played"
     if rematches > 0.0:
         text += f", {rematches:.1f} of them between players who have met before"
-    if "F2" in tournament.bracket.by_name:
+    if "F2" in odds.bracket.by_name:
         text += f"; a second final is needed {percent(odds.p_second_final)} of the time"
     return f"{text}."
 
 
-def _how(plug_in: TitleOdds, odds: TitleOdds, walkovers: float) -> str:
-    """Return how exact the odds are, and what they assume."""
+def how_words(
+    plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float = 0.0, to_draw: str = ""
+) -> str:
+    """Return how exact the odds are, what they assume, and what is still to be drawn."""
+    averaged = odds is not plug_in
+    samples, off = f"{odds.samples:,}", _off(odds)
+    title = _off(odds, title=True)
     lines = []
-    if odds is not plug_in:
+    if to_draw == "lines":
+        lines.append("These are the odds before the draw; every draw is equally likely.")
+    elif to_draw == "qualifiers":
+        lines.append("The qualifiers of the losers' side are still to be drawn.")
+    if to_draw == "rounds":
+        drawn = ", each time with other ratings" if averaged else ""
         lines.append(
-            f"The odds are averaged over {odds.samples:,} draws of how far the ratings may be off, "
-            f"by their standard errors; chance moves them by {_off(odds)} at most."
+            f"The rounds to come were paired and played {samples} times{drawn}; other luck would "
+            f"move no title odds by more than about {title}."
         )
-    elif not odds.exact:
+    elif averaged:
         lines.append(
-            f"The first rounds were sampled {odds.samples:,} times and the rest calculated "
-            f"exactly; chance moves the odds by {_off(odds)} at most."
+            f"The odds are averaged over {samples} draws of how far the ratings may be off, by "
+            f"their standard errors; other draws would move no figure by more than about {off}."
+        )
+    elif odds.exact:
+        lines.append("The odds are exact, if the ratings are right.")
+    elif to_draw == "lines":
+        lines.append(
+            f"{samples} draws were sampled and each of them calculated; other samples would move "
+            f"no title odds by more than about {title}."
         )
     else:
-        lines.append("The odds are exact, if the ratings are right.")
+        lines.append(
+            f"The first rounds were sampled {samples} times and the rest calculated exactly; "
+            f"other samples would move no figure by more than about {off}."
+        )
     if walkovers:
         lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
     return " ".join(lines)
 
 
-def _off(odds: TitleOdds) -> str:
-    return percent(2.0 * float(odds.error.max()))
+def _off(odds: PlaceOdds, *, title: bool = False) -> str:
+    points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
+    if points < 0.05:
+        return "0.1 percentage points"
+    return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"

@@ -6,18 +6,15 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.tournament import Tournament, slot_words
+from evenbreak.answers.times_of_day import ends_words, time_of_day
+from evenbreak.answers.tournament import Tournament, pair_words
+from evenbreak.answers.tournament_what_if import savings, savings_words, what_if
 from evenbreak.answers.wording import clock, count_of, percent
 from evenbreak.matches.pace import Pace, Turnover
-from evenbreak.tournaments.clock.finish import Finish, finish, minutes_later
-
-_DAY = 24 * 60
-_WORTH_SAYING = 10.0  # minutes
-_CHANGES = {
-    "one_more_table": "With one more table",
-    "races_one_shorter": "With all races one game shorter",
-}
+from evenbreak.tournaments.clock.finish import Finish, finish
+from evenbreak.tournaments.odds.races import Races
 
 
 def tournament_time_answer(
@@ -62,26 +59,33 @@ def tournament_time_answer(
     It ends at about 22:05; 8 times out of 10 between 21:19 and 23:06.
     """
     asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
-    found = finish(tournament.bracket, tournament.laws, tables=tables, **asked)
-    show = clock if start is None else _time_of_day(start)
-    more_tables = finish(tournament.bracket, tournament.laws, tables=tables + 1, **asked)
-    savings = {"one_more_table": minutes_later(found, more_tables)[0]}
-    if (shorter := tournament.shorter_races) is not None:
-        other = finish(tournament.bracket, tournament.laws_of(shorter), tables=tables, **asked)
-        savings["races_one_shorter"] = minutes_later(found, other)[0]
+    form = tournament.file.form
+    laws_now = tournament.laws_of(tournament.races, form=form)
+    found = finish(tournament.bracket, laws_now, tables=tables, **asked)
+    show = clock if start is None else (lambda minutes: time_of_day(start + minutes))
+
+    def ask(tables: int, races: Races) -> Finish:
+        laws = laws_now if races is tournament.races else tournament.laws_of(races, form=form)
+        return finish(tournament.bracket, laws, tables=tables, **asked)
+
+    changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
     early, middle, late = found.bands
     quantities = Quantities(
         [
             Quantity("finish_p10", early),
             Quantity("finish_p50", middle),
             Quantity("finish_p90", late),
-            *(Quantity(f"minutes_saved_{what}", saved) for what, saved in savings.items()),
+            *(Quantity(f"minutes_saved_{what}", saved) for what, saved in savings(changes).items()),
         ]
     )
-    table = _table(tournament, found, show)
-    parts: list[Part] = [_in_words(found, savings, show, timed=start is not None)]
-    parts += [quantities, table]
-    parts += filter(None, [tournament.byes, _assumed(tables, pace, turnover)])
+    table = starts_table(found, show)
+    when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
+    words = "\n".join(filter(None, [when, savings_words(changes)]))
+    parts: list[Part] = [words, quantities, table, changes]
+    assumed = assumed_words(tables, pace, turnover)
+    unrated = tournament.unrated_words(spread=False)
+    lines = [tournament.byes, unrated, assumed, form_used_words(form, tournament.scale)]
+    parts += filter(None, lines)
     return Answer(
         tournament.heading,
         parts,
@@ -90,15 +94,13 @@ def tournament_time_answer(
     )
 
 
-def _time_of_day(start: int) -> Callable[[float], str]:
-    def show(minutes: float) -> str:
-        moment = (start + round(minutes)) % _DAY
-        return f"{moment // 60}:{moment % 60:02d}"
-
-    return show
+def _takes(found: Finish) -> str:
+    early, middle, late = map(clock, found.bands)
+    return f"It takes about {middle}; 8 times out of 10 between {early} and {late}."
 
 
-def _table(tournament: Tournament, found: Finish, show: Callable[[float], str]) -> Table:
+def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
+    """Return when each match still to be played starts, soonest first."""
     columns = [
         Column("match", "match", left=True),
         Column(("player_1", "player_2"), "between", " - ".join, left=True),
@@ -110,10 +112,9 @@ def _table(tournament: Tournament, found: Finish, show: Callable[[float], str]) 
         ),
         Column("p_played", "is\nneeded", percent),
     ]
-    bracket = tournament.bracket
     rows: list[list[Any]] = []
     for name in found.names:
-        players = tuple(slot_words(bracket, slot) for slot in bracket.by_name[name].slots)
+        players = pair_words(found.standing, name)
         early, middle, late, played = found.start(name)
         if played:  # some of a consolation event never are
             rows.append([name, players, middle, (early, late), played])
@@ -121,21 +122,7 @@ def _table(tournament: Tournament, found: Finish, show: Callable[[float], str]) 
     return Table("matches", columns, rows)
 
 
-def _in_words(
-    found: Finish, savings: dict[str, float], show: Callable[[float], str], *, timed: bool
-) -> str:
-    early, middle, late = map(show, found.bands)
-    text = f"It {'ends at' if timed else 'takes'} about {middle}; 8 times out of 10 "
-    text += f"between {early} and {late}."
-    said = [
-        f"{_CHANGES[what]} it would end {clock(saved)} earlier."
-        for what, saved in savings.items()
-        if saved >= _WORTH_SAYING
-    ]
-    return "\n".join(filter(None, [text, " ".join(said)]))
-
-
-def _assumed(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:
+def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:
     """Return what the times assume."""
     of_games = (
         f"Matches take as long as {pace} matches do in real tournaments"
@@ -145,6 +132,7 @@ def _assumed(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:
     between = "about 4 minutes" if turnover is None else f"{turnover.mean:g} minutes on average"
     return (
         f"{of_games}, on {count_of(tables, 'table')}, with {between} between two matches on a "
-        "table. A round starts when the rounds that feed it are over; of the matches that can "
-        "start, the one with the longest way to the end goes first."
+        "table. As on most evenings, a round starts when the rounds that feed it are over; of the "
+        "matches that can start, the one with the longest way to the end goes first. Matches that "
+        "are called sooner, as soon as both players and a table are free, gain time on this."
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from evenbreak.answers.scale_doubts import two_ratings_doubts
 from evenbreak.answers.scale_words import decimals_of, scale_words
@@ -37,6 +38,8 @@ class TwoPlayers:
         what the two are called.
     errors
         how far each rating may be off (standard errors), if they come from a list.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation).
 
     >>> from evenbreak.ratings import scale_of
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
@@ -52,6 +55,7 @@ class TwoPlayers:
     scale: Scale | None = None
     names: tuple[str, str] = ("A", "B")
     errors: tuple[float, float] | None = None
+    form: float = 0.0
 
     @classmethod
     def rated(
@@ -88,10 +92,11 @@ class TwoPlayers:
         return math.hypot(*self.errors) if self.errors else 0.0
 
     @property
-    def named(self) -> dict[str, str]:
-        """The names, for JSON, where the players have any."""
+    def named(self) -> dict[str, Any]:
+        """The names and the form, for JSON, where there are any."""
         a, b = self.names
-        return {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
+        names = {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
+        return {**names, **({"form": self.form} if self.form else {})}
 
     @property
     def averaged(self) -> str:
@@ -99,6 +104,15 @@ class TwoPlayers:
         if not self.error:
             return ""
         return "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+
+    @property
+    def by_form(self) -> str:
+        """The sentence that form of the day is allowed for, '' where it is not."""
+        if not self.form:
+            return ""
+        from evenbreak.answers.form_words import form_used_words
+
+        return form_used_words(self.form, self.scale)
 
     @property
     def taken_as_right(self) -> str:

@@ -21,6 +21,7 @@ SECTIONS = {
     },
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
+        "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
     },
     "Run teams": {
         "lineup": Entry("team.lineup", "Whom to put up now, and what each choice is worth."),

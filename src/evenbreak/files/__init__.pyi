@@ -5,6 +5,7 @@ from .arcs import read_arcs as read_arcs
 from .chain_forms import read_chain as read_chain
 from .chart import find_chart as find_chart
 from .chart import read_chart as read_chart
+from .chip_chart import read_chip_chart as read_chip_chart
 from .csv_writer import to_csv as to_csv
 from .drill_log import DrillLogFile as DrillLogFile
 from .drill_log import read_drill_log as read_drill_log

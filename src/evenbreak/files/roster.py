@@ -44,6 +44,7 @@ OPTIONAL = {
     "matches": ("matches played",),
     "races_won": (),
     "races_lost": (),
+    "match_form": (),
     "scale": ("rating scale", "points that double the odds"),
 }
 """The columns that a roster may have, with their other names."""
@@ -97,6 +98,8 @@ class RosterFile:
         the scale of the ratings; None if the file does not state it.
     levels
         whether the title of the ratings says that they are skill levels.
+    form
+        how much the log-odds of a game vary from match to match, 0 where the file does not say it.
     """
 
     roster: Roster
@@ -107,6 +110,7 @@ class RosterFile:
     by_quasi: frozenset[int] = frozenset()
     scale: Scale | None = None
     levels: bool = False
+    form: float = 0.0
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -176,7 +180,7 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
             np.flatnonzero(unrated & (games > 0)),
             lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
         )
-    scale = _scale(table)
+    scale, form = _scale(table), _form(table)
     table.problems.raise_any()
     roster = Roster(names, rating, error, games, component=component, matches=matches)
     similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
@@ -185,7 +189,9 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     hidden = hidden_letter_warnings(table, ["player"])
     warnings = (*table.warnings, *hidden, *similar)
     levels = "level" in _title(table)
-    return RosterFile(roster, table.lines, table.source, warnings, sha256, by_quasi, scale, levels)
+    return RosterFile(
+        roster, table.lines, table.source, warnings, sha256, by_quasi, scale, levels, form
+    )
 
 
 def _names(table: TextTable) -> list[str]:
@@ -248,6 +254,27 @@ def _scale(table: TextTable) -> Scale | None:
         lambda row: (
             f"scale {scales.values[row].text!r} differs from {first.text!r} in line "
             f"{table.lines[rows[0]]}; put all ratings on one scale"
+        ),
+    )
+    return first
+
+
+def _form(table: TextTable) -> float:
+    """Return form of the day, which is that of the whole list, noting one unlike the first."""
+    remedy = "write the standard deviation of log-odds from 0 to 3, such as 0.35"
+    column = numbers(
+        table, "match_form", at_least=0, at_most=3, remedy=remedy, may_be_empty=True
+    ).values
+    rows = np.flatnonzero(~np.isnan(column))
+    if not len(rows):
+        return 0.0
+    first = float(column[rows[0]])
+    table.problems.add_rows(
+        table.lines,
+        rows[column[rows] != first],
+        lambda row: (
+            f"match_form {column[row]:g} differs from {first:g} in line {table.lines[rows[0]]}; it "
+            "is that of the whole league, so write one number"
         ),
     )
     return first

@@ -76,7 +76,9 @@ def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> by
         for k in ratings.strongest_first()
     ]
     rows += _who_did_not_play(ratings, before)
-    return "".join(csv_lines(COLUMNS, [(*row, scale) for row in rows])).encode()
+    form = {"match_form": ratings.match_form} if ratings.match_form else {}
+    names = (*COLUMNS[:-1], *form, COLUMNS[-1])
+    return "".join(csv_lines(names, [(*row, *form.values(), scale) for row in rows])).encode()
 
 
 def _who_did_not_play(ratings: Ratings, before: Beginning | None) -> Iterator[tuple[Any, ...]]:

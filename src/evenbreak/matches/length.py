@@ -13,6 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.matches.endings import endings_of, is_bounded
+from evenbreak.matches.form import form_of, on_days
 from evenbreak.matches.game_odds import game_odds
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.outcomes import outcomes_of
@@ -26,17 +27,23 @@ def match_length(
     *,
     tail: float = 1e-12,
     via: Way | None = None,
+    form: float = 0.0,
 ) -> MatchLength[float, float | None]: ...
 @overload
 def match_length(  # type: ignore[overload-overlap]  # a match is a game too
-    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12, form: float = 0.0
 ) -> MatchLength[Floats, Floats]: ...
 @overload
 def match_length(
     match: Game, score: Any = None, *, tail: float = 1e-12, via: Way | None = None
 ) -> MatchLength[float, float | None]: ...
 def match_length(
-    match: Game, score: Any = None, *, tail: float = 1e-12, via: Way | None = None
+    match: Game,
+    score: Any = None,
+    *,
+    tail: float = 1e-12,
+    via: Way | None = None,
+    form: float = 0.0,
 ) -> MatchLength[Any, Any]:
     """Return the distribution of the number of racks that `match` still takes.
 
@@ -56,11 +63,15 @@ def match_length(
         the way, for plain numbers: 'kernel', or 'elimination' in the chain of the match's graph.
         A length is no stochastic limit, so there is no way by eigenvectors of eigenvalue 1.
         None: the kernel, or elimination for any other game, which has none.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation); see
+        `final_scores`.
 
     Raises
     ------
     InputError
-        if the score cannot be reached, `tail` is not a probability, or there is no such way.
+        if the score cannot be reached, `tail` is not a probability, there is no such way, or form
+        is not in 0 to 3, or given for a way or for another game than a match.
 
     Notes
     -----
@@ -80,6 +91,8 @@ def match_length(
         raise InputError(
             "via is 'eigen', but a length is not a stochastic limit; give 'kernel' or 'elimination'"
         )
+    if form:
+        return _with_form(match, score, tail, via, form)
     if not isinstance(match, Match) and isinstance(match, Game):
         if via == "kernel":
             raise InputError("via is 'kernel', but a game of your own has none; use elimination")
@@ -113,6 +126,36 @@ def match_length(
         p_never_ends=in_shape(never, shape),
         tail_mass=in_shape(left, shape),
         bounded=bounded,
+    )
+
+
+def _with_form(
+    match: Any, score: Score | None, tail: float, via: Way | None, form: float
+) -> MatchLength[Any, Any]:
+    if via is not None:
+        raise InputError(
+            "via is for one chain, but with form the answer is an average over many; leave one out"
+        )
+    match, shape = at_score(match, score)
+    many, weights = on_days(match, form_of(form))
+    length = match_length(many, tail=tail)
+
+    def mixed(value: Floats) -> Any:
+        return (weights * value).sum(axis=-1)
+
+    mean = mixed(length.mean)
+    return MatchLength(
+        games=length.games,
+        probability=(weights[..., np.newaxis] * length.probability).sum(axis=-2),
+        mean=_unless_endless(mean, mixed(length.p_never_ends), shape),
+        sd=_unless_endless(
+            np.sqrt(mixed(length.sd**2 + (length.mean - np.expand_dims(mean, -1)) ** 2)),
+            mixed(length.p_never_ends),
+            shape,
+        ),
+        p_never_ends=in_shape(mixed(length.p_never_ends), shape),
+        tail_mass=in_shape(mixed(length.tail_mass), shape),
+        bounded=length.bounded,
     )
 
 

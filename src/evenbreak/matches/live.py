@@ -14,10 +14,11 @@ from typing import Any, NamedTuple
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
+from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.parameters import checked_match, rack_in, unit_of
 from evenbreak.matches.rack_by_rack import racks_within
-from evenbreak.matches.rack_graph import breaker_in, rack_moves
+from evenbreak.matches.rack_graph import RackMoves, breaker_in, rack_moves
 from evenbreak.matches.score_chain import NEVER, ScoreChain
 
 
@@ -100,7 +101,11 @@ class LiveOdds:
 
 
 def live_odds(
-    match: Match, winners: Sequence[int] = (), *, set_score: Score | None = None
+    match: Match,
+    winners: Sequence[int] = (),
+    *,
+    set_score: Score | None = None,
+    form: float = 0.0,
 ) -> LiveOdds:
     """Return the odds of a match under way, after each of the racks played so far.
 
@@ -115,12 +120,16 @@ def live_odds(
         in a match of sets of racks, the score of the set under way at the beginning of the
         course; None: the set's own start score. If the match has its own break format for
         sets, the first breaker is taken to have begun that set too.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation), for races of
+        racks in which the break does not matter. Each rack played shows how well both play today.
 
     Raises
     ------
     InputError
         if the probabilities are arrays, a winner is not 1 or 2, the match is over before the
-        last rack, or the set cannot have the score `set_score`.
+        last rack, the set cannot have the score `set_score`, form is not in 0 to 3, or it is given
+        for a match in which the order of the racks matters.
 
     Notes
     -----
@@ -138,7 +147,7 @@ def live_odds(
     """
     match = checked_match(match)
     rack_in(match).of_numbers()
-    values = _Values(match, _state_at(match, set_score))
+    values = _Values(match, _state_at(match, set_score), form)
     state, scores = values.start, _scores_of(match, values.start)
     scores = (match.score, *scores[1:])
     states, listed = [state], [scores]
@@ -163,9 +172,9 @@ def live_odds(
 class _Values:
     """The odds at every state that can be reached from `start`."""
 
-    def __init__(self, match: Match, start: Any) -> None:
+    def __init__(self, match: Match, start: Any, form: float) -> None:
         self.match, self.start = match, start
-        self.moves = rack_moves(match, start)
+        self.moves = _moves_in_form(match, form) if form else rack_moves(match, start)
         reached = {start} | {state for row in self.moves.values() for state, _ in row}
         won: dict[int, dict[Any, float]] = {1: {}, 2: {}}
         for state in reached - self.moves.keys():
@@ -202,6 +211,34 @@ class _Values:
                 seen.add(here)
                 yield here
                 queue += [target for target, _ in self.moves[here]]
+
+
+def order_is_free(match: Match) -> bool:
+    """Return whether what a score shows about form does not depend on how it came about."""
+    plain = isinstance(match, Race) and match.win_by == 1 and isinstance(match.rack, Rack)
+    return plain and not match.break_matters
+
+
+def _moves_in_form(match: Match, form: float) -> RackMoves:
+    """Return the moves of a race where the racks played show how well both play today.
+
+    The next rack has the chance that it has on average over the days on which the score may have
+    come about. With these chances the scores are a Markov chain like that of any other race.
+    """
+    from evenbreak.matches.form import form_of, given_score, on_days
+
+    if not order_is_free(match):
+        raise InputError(
+            "form is given, but the match is not a race of racks in which the break does not "
+            "matter; leave it out"
+        )
+    fresh, weights = on_days(replace(match, score=(0, 0)), form_of(form))
+    p = rack_in(fresh).chance(1)
+    moves = {}
+    for score, ((won, _), (lost, _)) in rack_moves(match).items():
+        likely = given_score(replace(fresh, score=score), weights)
+        moves[score] = (won, float(likely @ p)), (lost, float(likely @ (1.0 - p)))
+    return moves
 
 
 def _state_at(match: Match, set_score: Score | None) -> Any:

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.chains.ways import Way, way_of_limit
+from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.matches.parameters import checked_match, rack_in
+from evenbreak.games.rack import Rack
+from evenbreak.matches.parameters import checked_match, rack_in, with_rack
 from evenbreak.matches.races import race_odds
+
+if TYPE_CHECKING:
+    from evenbreak.arrays import Floats
 
 
 class MatchOdds(NamedTuple):
@@ -48,7 +53,7 @@ class MatchOdds(NamedTuple):
     p_shutout_2: float | None
 
 
-def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
+def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> MatchOdds:
     """Return the odds of `match`: who wins, how long it takes, how close it gets.
 
     Parameters
@@ -60,11 +65,15 @@ def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
         the way to the chances (see `win_probability`). By 'elimination', mean and standard
         deviation of the length come from the same chain; no eigenvector of eigenvalue 1 gives
         a length, so with 'eigen' they come from the kernel, as the quantiles always do.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation); see
+        `final_scores`.
 
     Raises
     ------
     InputError
-        if the probabilities are arrays, `match` is another game, or there is no such way.
+        if the probabilities are arrays, `match` is another game, there is no such way, form is not
+        in 0 to 3, or it is combined with `via`.
 
     Notes
     -----
@@ -76,12 +85,49 @@ def match_odds(match: Match, *, via: Way | None = None) -> MatchOdds:
     (0.5, 2.5, 2, 0.5, 0.25)
     """
     way = way_of_limit(via)
+    if form:
+        return _with_form(match, via, form)
     odds = _by_kernel(checked_match(match))
     if way is None:
         return odds
     from evenbreak.matches.by_limit import match_odds_by_limit
 
     return odds._replace(**match_odds_by_limit(match, way))
+
+
+def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
+    """Return the odds of a match whose chances are drawn from some that may be right.
+
+    Parameters
+    ----------
+    match
+        the match, with arrays of chances of the length of `weights`.
+    weights
+        how likely each of them is; they sum to 1.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> mixed_odds(Race(2, 2, Rack([0.25, 0.75])), [0.5, 0.5]).p_hill_hill
+    0.375
+    """
+    import numpy as np
+
+    from evenbreak.matches.mixed_odds import mixture_of_odds
+
+    rack = rack_in(match)
+    chances = [np.atleast_1d(p).tolist() for p in (rack.p1, rack.p2) if p is not None]
+    each = [_by_kernel(with_rack(match, Rack(*both))) for both in zip(*chances, strict=True)]
+    return MatchOdds(**mixture_of_odds(match, each, np.asarray(weights)))
+
+
+def _with_form(match: Match, via: Way | None, form: float) -> MatchOdds:
+    from evenbreak.matches.form import form_of, on_days
+
+    if via is not None:
+        raise InputError(
+            "via is for one chain, but with form the answer is an average over many; leave one out"
+        )
+    rack_in(checked_match(match)).of_numbers()
+    return mixed_odds(*on_days(match, form_of(form)))
 
 
 def _by_kernel(match: Match) -> MatchOdds:

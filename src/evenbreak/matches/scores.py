@@ -14,6 +14,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import ChanceT, Rack
 from evenbreak.matches.endings import endings_of, is_bounded
+from evenbreak.matches.form import form_of, on_days
 from evenbreak.matches.outcomes import outcomes_of, unit_outcomes
 from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 
@@ -46,14 +47,14 @@ class FinalScores(Generic[ChanceT]):
 
 @overload
 def final_scores(
-    match: Match[float], score: Score | None = None, *, tail: float = 1e-12
+    match: Match[float], score: Score | None = None, *, tail: float = 1e-12, form: float = 0.0
 ) -> FinalScores[float]: ...
 @overload
 def final_scores(
-    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12
+    match: Match[Any], score: Score | None = None, *, tail: float = 1e-12, form: float = 0.0
 ) -> FinalScores[Floats]: ...
 def final_scores(
-    match: Match, score: Score | None = None, *, tail: float = 1e-12
+    match: Match, score: Score | None = None, *, tail: float = 1e-12, form: float = 0.0
 ) -> FinalScores[Any]:
     """Return the distribution of the final score of `match`.
 
@@ -66,11 +67,18 @@ def final_scores(
         the score now (see `win_probability`); None: the match's own start score.
     tail
         how much probability may be left out if there is no longest length.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation): form of
+        the day. A player in form wins more of all games of the match, so there are more clear
+        scores and fewer close ones; the chance of the first game stays what it is. The games of
+        `score` count as played and show the form of the day; where games are given on the wire,
+        take a shorter race instead.
 
     Raises
     ------
     InputError
-        if the score cannot be reached or `tail` is not a probability.
+        if the score cannot be reached, `tail` is not a probability, form is not in 0 to 3, or there
+        is form, a score, and chances that depend on who breaks.
 
     Notes
     -----
@@ -79,9 +87,13 @@ def final_scores(
     >>> from evenbreak.games import Race, Rack
     >>> final_scores(Race(2, 1, Rack(0.5))).probability
     {(2, 0): 0.25, (0, 1): 0.5, (1, 1): 0.25}
+    >>> round(final_scores(Race(2, 2, Rack(0.5)), form=0.5).probability[2, 0], 3)
+    0.264
     """
     match, shape = at_score(match, score)
     tail = number_probability(tail, "tail")
+    if form:
+        return _with_form(match, tail, form, shape)
     bounded = is_bounded(match)
     never = 0.0 if bounded else outcomes_of(match, lengths=False).never
     if isinstance(match.rack, Rack):
@@ -101,6 +113,21 @@ def final_scores(
         p_never_ends=in_shape(never, shape),
         tail_mass=in_shape(left, shape),
         span=span,
+    )
+
+
+def _with_form(match: Match, tail: float, form: float, shape: tuple[int, ...]) -> FinalScores[Any]:
+    many, weights = on_days(match, form_of(form))
+    found = final_scores(many, tail=tail)
+
+    def mixed(value: Floats) -> Any:
+        return in_shape((weights * value).sum(axis=-1), shape)
+
+    return FinalScores(
+        {score: mixed(chance) for score, chance in found.probability.items()},
+        mixed(found.p_never_ends),
+        mixed(found.tail_mass),
+        found.span,
     )
 
 

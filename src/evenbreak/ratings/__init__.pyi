@@ -1,6 +1,8 @@
 from .beginning import Beginning as Beginning
 from .consistency import Problem as Problem
 from .consistency import find_problems as find_problems
+from .day_form import DayForm as DayForm
+from .day_form import day_form as day_form
 from .fit import fit as fit
 from .fitted import Group as Group
 from .fitted import Ratings as Ratings

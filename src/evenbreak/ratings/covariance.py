@@ -166,6 +166,17 @@ class Curvature:
             product = product + with_border * (with_border @ contrast) * self.border_variance
         return product
 
+    def difference_variances(self, first: Places, second: Places) -> Floats:
+        """Return the variance of the difference of the ratings of each pair, all at once.
+
+        For up to 2,000 players, as the whole covariance is formed.
+        """
+        covariance = np.asarray(cho_solve(self._factor, np.eye(len(self._whole))))
+        if self._with_border is not None and self.border_variance is not None:
+            covariance += np.outer(self._with_border, self._with_border) * self.border_variance
+        own = np.diagonal(covariance)
+        return np.asarray(own[first] + own[second] - 2.0 * covariance[first, second])
+
     def _solve(self, right: Floats) -> Floats:
         if len(right) <= _DENSE_UP_TO:
             return np.asarray(cho_solve(self._factor, right))

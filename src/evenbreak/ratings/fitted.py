@@ -22,6 +22,8 @@ from evenbreak.ratings.scale import Scale
 if TYPE_CHECKING:
     import pandas as pd
 
+    from evenbreak.ratings.day_form import DayForm
+
 
 class Group(NamedTuple):
     """How far a team or division is above the average one, before its players' results.
@@ -79,6 +81,8 @@ class Ratings:
         the games, by weight, whose breaker is known, if the break matters.
     levels
         how much newcomers, teams and divisions differ beforehand.
+    form
+        how much players vary from match to match, if that was estimated (see `day_form`).
     """
 
     players: tuple[str, ...]
@@ -105,6 +109,7 @@ class Ratings:
     break_advantage: float | None = None
     break_games: float = 0.0
     levels: Levels = field(default_factory=Levels)
+    form: DayForm | None = None
     _played: PairCounts | LikelihoodTerms = field(repr=False)
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
@@ -129,9 +134,9 @@ class Ratings:
 
         Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
         points of the scale; games, won and lost in the matches that were used; races_won and
-        races_lost, where there are matches of which only the winner is known; component: players
-        with the same number are linked by a chain of opponents, and only their ratings can be
-        compared; and scale, the same in each row: its name, or the points that double the odds.
+        races_lost, if of some matches only the winner is known; component, the same for players who
+        are linked by a chain of opponents, so that they can be compared; match_form, if it is not
+        0; and scale: its name, or the points that double the odds.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
@@ -150,9 +155,15 @@ class Ratings:
             {
                 "player": [self.players[k] for k in order],
                 **{name: np.asarray(getattr(self, name))[order] for name in columns},
+                **({"match_form": self.match_form} if self.match_form else {}),
                 "scale": self.scale.text,
             }
         )
+
+    @property
+    def match_form(self) -> float:
+        """The established `form`, or 0: the standard deviation, rounded as in lists of ratings."""
+        return round(self.form.sd, 4) if self.form is not None and self.form.established else 0.0
 
     @property
     def idle(self) -> Bools:
@@ -313,6 +324,10 @@ class Ratings:
         contrast[second] -= 1.0
         variance = max(float(contrast @ self._curvature.times(contrast)), 0.0)
         return math.sqrt(variance) * self.scale.points_per_log_odds
+
+    def difference_variances(self, first: Ints, second: Ints) -> Floats:
+        """Return the variances of differences, in squared log-odds, by places in `players`."""
+        return np.maximum(self._curvature.difference_variances(first, second), 0.0)
 
     def covariance(self, players: Sequence[str]) -> Floats:
         """Return the covariance matrix of some players' ratings, in squared points.

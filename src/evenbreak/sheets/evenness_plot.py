@@ -43,11 +43,16 @@ class Plot(NamedTuple):
 
 
 def evenness_plot(
-    bands: Sequence[Band], pairs: Sequence[SurePair], scale: Scale, error: float = 0.0
+    bands: Sequence[Band],
+    pairs: Sequence[SurePair],
+    scale: Scale,
+    error: float = 0.0,
+    form: float = 0.0,
 ) -> Plot:
     """Return P(the stronger wins) against the rating difference: the chart, and each pair.
 
-    `error` is the standard error of a difference over which the chart's chances are averaged.
+    `error` is the standard error of a difference over which the chart's chances are averaged, and
+    `form` how much the log-odds of a game vary from match to match.
     """
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
@@ -63,7 +68,8 @@ def evenness_plot(
     curves, names = [], []
     for band in bands:
         places = [band.first + (band.after - band.first) * k / _STEPS for k in range(_STEPS + 1)]
-        curve = win_given_ratings(places, error, band.stronger, band.weaker, scale=scale)
+        race = band.stronger, band.weaker
+        curve = win_given_ratings(places, error, *race, scale=scale, form=form)
         points = zip(places, curve.tolist(), strict=True)
         curves.append(" ".join(f"{x(d):g},{y(p):g}" for d, p in points))
         if x(band.after) - x(band.first) >= _NAME:

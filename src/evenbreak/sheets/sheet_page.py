@@ -53,7 +53,8 @@ def sheet_html(sheet: Sheet) -> bytes:
     races = Section("races", "The races", drawn("races", blocks, cards, how_to_read(shown.paired)))
     ratings = [Section("ratings", "Ratings", drawn("ratings", listed, bars.ticks()))]
     if shown.sure:
-        plot = evenness_plot(shown.bands, shown.sure, scale, shown.typical_error)
+        form = shown.ratings.match_form
+        plot = evenness_plot(shown.bands, shown.sure, scale, shown.typical_error, form)
         first, *_ = how_even(shown.paired)
         chart = drawn("chart", plot, (WIDTH, HEIGHT), shown.bands, decimals_of(scale), first)
         ratings.append(Section("chart", "How even the races are", chart))

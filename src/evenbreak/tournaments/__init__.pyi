@@ -4,7 +4,9 @@ from .brackets.bracket import Match as Match
 from .brackets.bracket import Place as Place
 from .brackets.bracket import Source as Source
 from .brackets.double import double_elimination as double_elimination
+from .brackets.double import losers_qualifiers as losers_qualifiers
 from .brackets.double import pods as pods
+from .brackets.double import redrawn as redrawn
 from .brackets.groups import groups_then_knockout as groups_then_knockout
 from .brackets.groups import round_robin as round_robin
 from .brackets.knockout import consolation as consolation
@@ -19,6 +21,7 @@ from .brackets.swiss import Pairing as Pairing
 from .brackets.swiss import Swiss as Swiss
 from .brackets.swiss import SwissRank as SwissRank
 from .brackets.swiss import swiss as swiss
+from .brackets.swiss import swiss_bracket as swiss_bracket
 from .brackets.swiss import swiss_round as swiss_round
 from .brackets.swiss import swiss_standings as swiss_standings
 from .chips.chip_charts import CHIP_CHARTS as CHIP_CHARTS
@@ -55,6 +58,8 @@ from .odds.blind import blind_draw_odds as blind_draw_odds
 from .odds.fairness import Fairness as Fairness
 from .odds.fairness import fairest_races as fairest_races
 from .odds.fairness import tournament_fairness as tournament_fairness
+from .odds.fairness import unfairness as unfairness
+from .odds.fairness import upper_half as upper_half
 from .odds.leverage import Leverage as Leverage
 from .odds.leverage import leverages as leverages
 from .odds.meetings import Meeting as Meeting
@@ -66,7 +71,6 @@ from .odds.races import pair_odds as pair_odds
 from .odds.redraws import redraw_odds as redraw_odds
 from .odds.rematches import Rematches as Rematches
 from .odds.rematches import expected_rematches as expected_rematches
-from .odds.swiss_odds import SwissOdds as SwissOdds
 from .odds.swiss_odds import swiss_odds as swiss_odds
 from .odds.title import WALKOVERS as WALKOVERS
 from .odds.title import PlaceOdds as PlaceOdds
@@ -74,4 +78,5 @@ from .odds.title import TitleOdds as TitleOdds
 from .odds.title import prizes as prizes
 from .odds.title import title_odds as title_odds
 from .odds.uncertain import UncertainOdds as UncertainOdds
+from .odds.uncertain import drawn_chances as drawn_chances
 from .odds.uncertain import over_ratings as over_ratings

@@ -101,9 +101,75 @@ def test_formats_and_seeding(odds):
 
 
 @pytest.mark.parametrize(
+    ("words", "matches"),
+    [
+        (("--format", "pods", "--pod-size", "4"), 13),
+        (("--format", "pods", "--pod-size", "4", "--qualifiers", "2"), 13),
+        (("--format", "groups", "--groups", "2"), 15),
+        (("--format", "groups", "--groups", "2", "--qualifiers", "1"), 13),
+        (("--qualifiers", "4", "--drops", "usual"), 13),
+    ],
+)
+def test_formats_with_a_second_stage(odds, words, matches):
+    answer = odds("--race", "5", *FARGO, *words)
+    assert answer["matches_mean"] == matches
+    assert sum(column(answer, "p_title")) == pytest.approx(1.0)
+
+
+def test_before_the_draw(odds):
+    """A favourite meets an average opponent, whoever is drawn to them."""
+    level = "player,rating\nAnn,600\n" + "".join(f"P{k},500\n" for k in range(7))
+    answer = odds("--race", "1", *FARGO, "--before-draw", entrants=level)
+    assert answer["exact"]
+    assert column(answer, "p_title")[0] == pytest.approx(800 / 2187)
+    unsure = level.replace("rating\n", "rating,standard_error\n").replace("0\n", "0,60\n")
+    averaged = odds("--race", "1", *FARGO, "--before-draw", entrants=unsure)
+    assert averaged["ratings_averaged"]
+    assert column(averaged, "p_title_if_sure")[0] == pytest.approx(800 / 2187)
+
+
+def test_qualifiers_drawn_later(odds):
+    drawn = odds("--race", "5", *FARGO, "--qualifiers", "4", "--placement", "redraw")
+    crossed = odds("--race", "5", *FARGO, "--qualifiers", "4")
+    gap = column(drawn, "p_title")[0] - column(crossed, "p_title")[0]
+    assert 0.0 < abs(gap) < 0.05
+    assert drawn["exact"]
+
+
+def test_the_handicap_of_a_whole_tournament(odds):
+    even = odds("--race", "7", *FARGO)
+    assert "p_title_stronger_half" not in even
+    fair = odds("--race-to", "7", "--losers-race", "5", *FARGO, "--fairest")
+    assert 0.45 < fair["p_title_stronger_half"] < 0.55
+    first = fair["players"][0]
+    assert first["times_equal_share"] == pytest.approx(8 * first["p_title"])
+    today, best, *_ = fair["fairer_races"]
+    assert today["race"] == "to 7"
+    assert best["unfairness"] <= today["unfairness"] == pytest.approx(fair["unfairness"])
+    assert best["games_mean"] <= 1.02 * today["games_mean"]
+    hot = odds("--chart", "fargo_r6_hot", *FARGO)
+    assert hot["p_title_stronger_half"] > 0.6
+
+
+def test_swiss(odds):
+    pytest.importorskip("caissify_pairings", reason="needs the extra 'swiss'")
+    answer = odds("--race", "5", *FARGO, "--format", "swiss", "--rounds", "4")
+    assert not answer["exact"]
+    assert sum(column(answer, "p_title")) == pytest.approx(1.0)
+    assert column(answer, "p_title")[0] > 0.5
+
+
+@pytest.mark.parametrize(
     ("words", "named"),
     [
         ((), "--race"),
+        (("--race", "5", "--fairest"), "--fairest"),
+        (("--race", "5", "--qualifiers", "3"), "--qualifiers"),
+        (("--race", "5", "--format", "groups", "--drops", "usual"), "--drops"),
+        (("--race", "5", "--placement", "redraw"), "--placement"),
+        (("--race", "5", "--before-draw", "--seeding", "rating"), "--before-draw"),
+        (("--race", "5", "--before-draw", "--format", "swiss"), "--before-draw"),
+        (("--race", "5", "--format", "groups", "--groups", "5"), "groups is 5"),
         (("--race", "5", "--race-to", "5"), "--race-to"),
         (("--chart", "npl_10", "--losers-race", "5"), "--losers-race"),
         (("--race", "5", "--format", "single", "--final", "single"), "--final"),

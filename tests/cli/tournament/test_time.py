@@ -51,6 +51,14 @@ def test_tables_races_and_pace_matter(times):
     assert idle["finish_p50"] > four["finish_p50"] + 10.0
 
 
+def test_rounds_of_a_swiss_that_are_not_paired_yet(times):
+    answer = times("--tables", "4", "--discipline", "9-ball", "--format", "swiss", "--rounds", "2")
+    assert len(answer["matches"]) == 8
+    second = [match for match in answer["matches"] if match["match"].startswith("R2")]
+    assert {match["player_1"] for match in second} == {"to be drawn"}
+    assert min(match["start_p10"] for match in second) > 10.0
+
+
 def test_times_of_day_are_for_people_alone(run, entrants):
     words = ("--race", "5", "--tables", "4", "--discipline", "9-ball", "--start", "18:30")
     shown = run("tournament", "time", entrants, *words, "--text").stdout

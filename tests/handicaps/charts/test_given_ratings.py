@@ -8,12 +8,15 @@ from scipy.integrate import quad
 from scipy.special import betainc
 
 from evenbreak.errors import InputError
+from evenbreak.games import Race
 from evenbreak.handicaps.charts.fair import fair_races
+from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
 from evenbreak.handicaps.charts.given_ratings import (
     fair_races_given_ratings,
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.matches.odds import match_odds
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import SCALES
 
@@ -143,3 +146,18 @@ def test_many_pairs_go_in_parts():
 def test_refused(call, remedy):
     with pytest.raises(InputError, match=remedy):
         call()
+
+
+def test_form_is_one_more_error_that_keeps_the_chance_of_a_game() -> None:
+    for form in (0.2, 0.6):
+        game = win_given_ratings([35.0, -200.0], [0.0, 20.0], 1, 1, form=form)
+        assert game == pytest.approx(win_given_ratings([35.0, -200.0], [0.0, 20.0], 1, 1), rel=1e-9)
+    odds = match_odds(Race(7, 5, SCALES["npl"].rack(25.0)), form=0.4)
+    assert win_given_ratings(25.0, 0.0, 7, 5, form=0.4) == pytest.approx(odds.p_win_1, abs=1e-9)
+    length = length_given_ratings(25.0, 0.0, 7, 5, form=0.4)
+    assert length.mean == pytest.approx(odds.mean_games, abs=1e-9)
+    (best,) = nearest_races_given_ratings(25.0, 8.0, race_to=7, top=1, form=0.4)
+    m, n = fair_races_given_ratings(25.0, 8.0, race_to=7, form=0.4)
+    assert (best.race_1, best.race_2) == (m, n)
+    same = win_given_ratings([25.0, 3.0], 8.0, 7, 5, form=0.0)
+    assert (same == win_given_ratings([25.0, 3.0], 8.0, 7, 5)).all()

@@ -10,7 +10,7 @@ import click
 
 from evenbreak.chains.ways import WAYS
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Whole, meant, refuse
+from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -106,6 +106,17 @@ def chart_option(
 ) -> Decorator[Any]:
     """Return the option --chart; `what` says what the chart is for."""
     return click.option("--chart", metavar="NAME|FILE", help=what)
+
+
+form_option = click.option(
+    "--form",
+    metavar="SD",
+    type=Number(0.0, 3.0, "; give a number from 0 to 3, such as 0.35"),
+    help="Allow for form of the day: how much the log-odds of a game vary from match to match "
+    "(standard deviation), as `evenbreak rate` finds it, such as 0.35.  [default: what the list of "
+    "ratings states, else 0]",
+)
+"""The option --form of the commands that answer for matches."""
 
 
 via_option = click.option(

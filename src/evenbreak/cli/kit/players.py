@@ -1,6 +1,7 @@
 """Who plays: two ratings, two names on a list, a chance in a game, or one for each breaker."""
 
 import math
+from dataclasses import replace
 
 import click
 
@@ -23,6 +24,7 @@ def players_of(
     breaks: str | None,
     first_break: str | None,
     from_file: str | None = None,
+    form: float | None = None,
 ) -> TwoPlayers:
     """Return the players that the options describe, or refuse options that contradict."""
     by_break = p1 is not None or p2 is not None
@@ -37,24 +39,26 @@ def players_of(
         if p1 is None or p2 is None or breaks is None:
             refuse("--p1, --p2 and --breaks go together; give all three")
         first = first_break or ("b" if breaks == "b" else "a")
-        return TwoPlayers(Rack(p1, p2), breaks, 1 if first == "a" else 2)
+        return TwoPlayers(Rack(p1, p2), breaks, 1 if first == "a" else 2, form=form or 0.0)
     if breaks is not None or first_break is not None:
         refuse("the break matters only with --p1 and --p2; leave --breaks and --first-break out")
     if p is not None:
-        return TwoPlayers(Rack(p))
+        return TwoPlayers(Rack(p), form=form or 0.0)
     if from_file is not None:
-        return _named(ratings, from_file, scale)
+        return _named(ratings, from_file, scale, form)
     if len(ratings) != 2:
         given = "only one rating is" if len(ratings) == 1 else f"{len(ratings)} ratings are"
         refuse(f"{given} given, {' '.join(ratings)}; {REMEDY}")
     a, b = map(number_of, ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
-    return TwoPlayers.rated(a, b, scale or scale_of("npl"))
+    return replace(TwoPlayers.rated(a, b, scale or scale_of("npl")), form=form or 0.0)
 
 
-def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers:
-    """Return two players of a list, with its ratings, its scale and its errors."""
+def _named(
+    names: tuple[str, ...], path: str, scale: Scale | None, form: float | None
+) -> TwoPlayers:
+    """Return two players of a list, with its ratings, scale, errors and form of the day."""
     from evenbreak.answers.chosen_players import find_players
     from evenbreak.answers.roster_matchups import cannot_be_compared
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
@@ -83,17 +87,23 @@ def _named(names: tuple[str, ...], path: str, scale: Scale | None) -> TwoPlayers
             "their ratings cannot be compared"
         )
     errors = [0.0 if math.isnan(error) else error for error in roster.standard_error.tolist()]
-    return TwoPlayers.rated(
+    players = TwoPlayers.rated(
         float(roster.rating[a]),
         float(roster.rating[b]),
         scale or file.scale or scale_of("npl"),
         names=(roster.players[a], roster.players[b]),
         errors=(errors[a], errors[b]),
     )
+    return replace(players, form=file.form if form is None else form)
 
 
 def refuse_uncertain(players: TwoPlayers) -> None:
     """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
+    if players.form:
+        refuse(
+            "--via is for one chain, but with --form the answer is an average over many; leave one "
+            "out"
+        )
     if players.error:
         refuse(
             "--via is for one chain, but with --from the answer is an average over how far the "

@@ -13,6 +13,7 @@ from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name, without_folders
 from evenbreak.cli.kit.options import (
     chart_option,
+    form_option,
     players_file_option,
     race_limit_options,
     refuse_both,
@@ -72,6 +73,7 @@ Examples:
     type=TURNOVER,
     help="The time between two matches on a table, on average.  [default: 10.8]",
 )
+@form_option
 @seed_option("The seed of the evenings that have to be simulated.", default=0)
 @click.option(
     "--html",
@@ -95,6 +97,7 @@ def command(
     minutes_per_game: float | None,
     tables: int | None,
     turnover: float | None,
+    form: float | None,
     seed: int,
     html: str | None,
 ) -> Answer:
@@ -150,6 +153,7 @@ def command(
         tables=tables,
         turnover=matches.Turnover() if turnover is None else matches.Turnover(turnover),
         seed=seed,
+        form=file.form if form is None else form,
         listed=pairs is not None,
     )
     if html is not None:

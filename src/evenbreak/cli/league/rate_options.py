@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -128,12 +129,15 @@ def rated(
 ) -> tuple[Ratings, PriorChoice | None]:
     """Return the ratings by the options that were given, and how their prior was chosen.
 
+    Form of the day is estimated with them.
+
     Raises
     ------
     DataError
         if no match counts.
     """
     from evenbreak.errors import DataError
+    from evenbreak.ratings.day_form import day_form
     from evenbreak.ratings.fit import PRIOR_SD, fit
     from evenbreak.ratings.levels import begun
 
@@ -162,7 +166,7 @@ def rated(
         if ratings.later:
             why = f"was played by {as_of}; give a later day to --as-of"
         raise DataError([f"{file.source}: no match in it {why}"])
-    return ratings, choice
+    return replace(ratings, form=day_form(file.results, ratings)), choice
 
 
 def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:

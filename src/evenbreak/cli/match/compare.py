@@ -82,7 +82,7 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
     from evenbreak.answers.compare import Compared, compare_answer
 
     _refuse_numbers(**who)
-    players = players_of(**who)
+    players = players_of(**who, form=0.0)
     read = _read(formats, players)
     line = _line(players, hold)
     compared = []

@@ -1,15 +1,24 @@
 """`evenbreak fair`: the races that come nearest to a target chance."""
 
+import math
 from typing import Any
 
 import click
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, race_limit_options, refuse_both, via_option
+from evenbreak.cli.kit.options import (
+    PlainCommand,
+    form_option,
+    race_limit_options,
+    refuse_both,
+    via_option,
+)
 from evenbreak.cli.kit.players import player_options, players_of, refuse_uncertain
 from evenbreak.cli.kit.values import CHANCE, Whole, refuse
+from evenbreak.ratings.scale import Scale
 
 MOST = 300
 """The most races that are listed, so that every answer takes seconds."""
@@ -43,6 +52,7 @@ Examples:
     default=5,
     help="How many races to list.",
 )
+@form_option
 @via_option
 @faces()
 def command(
@@ -69,11 +79,11 @@ def command(
     if via is not None:
         refuse_uncertain(players)
         _refuse_many(games, race_to, top)
-    if players.error:
+    if players.error or players.form:
         from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
 
         races = nearest_races_given_ratings(
-            players.difference, players.error, scale=players.scale, **limits
+            _difference(players), players.error, scale=_scale(players), form=players.form, **limits
         )
     else:
         races = fair_races(
@@ -84,6 +94,22 @@ def command(
             **limits,
         )
     return fair_answer(players, races, target=target, via=via)
+
+
+def _scale(players: TwoPlayers) -> Scale:
+    """Return the scale of the ratings; without any, one of natural log-odds."""
+    return players.scale or Scale("log-odds", math.log(2.0))
+
+
+def _difference(players: TwoPlayers) -> float:
+    if players.scale is not None:
+        return players.difference
+    p = players.p_game_a
+    if p is None:
+        refuse("--form knows nothing of the break here; give --p, or two ratings")
+    if p in (0.0, 1.0):
+        refuse(f"--form changes nothing where --p is {p:g}; leave it out")
+    return math.log(p) - math.log1p(-p)
 
 
 def _refuse_many(games: tuple[int, int] | None, race_to: int | None, top: int) -> None:

@@ -1,12 +1,13 @@
 """`evenbreak live`: a match under way, game by game."""
 
+from dataclasses import replace
 from typing import Any
 
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand
+from evenbreak.cli.kit.options import PlainCommand, form_option
 from evenbreak.cli.kit.players import player_options
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import SCORE, refuse
@@ -49,6 +50,7 @@ def _racks(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
 @click.option(
     "--table", is_flag=True, help="Add the comeback table: the odds at each score to come."
 )
+@form_option
 @plot_option
 @faces()
 def command(
@@ -64,7 +66,7 @@ def command(
     or by both: the racks are then those played since that score.
     """
     from evenbreak.answers.live import live_answer
-    from evenbreak.matches.live import live_odds
+    from evenbreak.matches.live import live_odds, order_is_free
 
     players, match = match_of(**asked)
     if set_score is not None and asked["set_"] is None:
@@ -72,7 +74,13 @@ def command(
     if plot is not None and not racks:
         refuse("--plot draws the match as it went; give --racks, such as abbab")
     refuse_giants(match)
-    odds = live_odds(match, racks, set_score=set_score)
+    if players.form and not order_is_free(match):
+        if asked["form"] is not None:
+            refuse(
+                "--form is for races of games in which the break does not matter; leave it out here"
+            )
+        players = replace(players, form=0.0)
+    odds = live_odds(match, racks, set_score=set_score, form=players.form)
     answer = live_answer(players, match, odds, comebacks=table)
     if plot is not None:
         from evenbreak.plots.live_match import plot_course

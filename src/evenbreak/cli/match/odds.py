@@ -7,7 +7,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import PlainCommand, via_option
+from evenbreak.cli.kit.options import PlainCommand, form_option, via_option
 from evenbreak.cli.kit.players import player_options, refuse_uncertain
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
@@ -19,6 +19,7 @@ Examples:
   evenbreak odds --p 0.6 --ahead 5:3
   evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
   evenbreak odds --p 0.66 --race 3:1 --set 3:3
+  evenbreak odds --p 0.6 --race 9:9 --form 0.35
   evenbreak odds --p 0.6 --race 5:4 --exact
   evenbreak odds --p 0.6 --race 5:4 --via eigen
 """
@@ -27,6 +28,7 @@ Examples:
 @click.command("odds", cls=PlainCommand, epilog=EXAMPLES)
 @player_options
 @match_options
+@form_option
 @click.option(
     "--exact",
     is_flag=True,
@@ -47,6 +49,13 @@ def command(*, exact: bool, via: Way | None, **asked: Any) -> Answer:
         refuse("--exact needs the chances themselves: give --p, or --p1 and --p2, not ratings")
     if exact and via is not None:
         refuse("--exact has a way of its own; leave --via out")
+    if exact and players.form:
+        refuse("--exact has no fractions with --form; leave one out")
+    if players.form and players.breaks is not None and any(match.score):
+        refuse(
+            "the games played show the form of the day, but not without who broke them; leave "
+            "--score out, or --form"
+        )
     if via is not None:
         refuse_uncertain(players)
     if (

@@ -27,8 +27,9 @@ def command(*, match: str | None, table: int | None, file: str, at: str) -> Answ
 
     The times of calls and results show how fast this evening is, and so when it ends.
     """
-    from evenbreak.answers.tournament_night import Night, next_calls
+    from evenbreak.answers.tournament_night import next_calls
     from evenbreak.tournaments.evening import moves
+    from evenbreak.tournaments.evening.outlook import Outlook
 
     if match is None and table is not None:
         refuse("--table is for one match; name it, such as W1.1")
@@ -36,7 +37,7 @@ def command(*, match: str | None, table: int | None, file: str, at: str) -> Answ
     def decide(state: Evening) -> list[Called]:
         if match is not None:
             return [moves.call(state, match, table)]
-        called = [moves.call(state, name, k) for k, name in next_calls(Night(state, at))]
+        called = [moves.call(state, name, k) for k, name in next_calls(Outlook(state, at))]
         if not called:
             refuse("no match can be called: no table is free, or no match is ready")
         return called

@@ -16,11 +16,16 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @at_option
 @faces()
 def command(*, file: str, seed: int | None, at: str) -> Answer:
-    """Make the draw, in the way that --seeding of evenbreak tournament new said."""
+    """Make the draw, in the way that --seeding of evenbreak tournament new said.
+
+    Later it draws what comes next: the next round of a Swiss once a round is over, or, with
+    --placement redraw, the losers' side's qualifiers for the knock-out.
+    """
     import numpy as np
 
+    from evenbreak.answers.tournament_moves import draw_words
     from evenbreak.tournaments.evening import moves
 
     rng = np.random.default_rng(seed)
-    _, state = add(file, at, lambda state: [moves.draw(state, rng)])
-    return answer_of(file, state, at, [f"{len(state.order)} players are drawn."])
+    before, state = add(file, at, lambda state: moves.draw_next(state, rng))
+    return answer_of(file, state, at, [draw_words(before, state)])

@@ -5,20 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from functools import update_wrapper
-from pathlib import PurePath
+from inspect import signature
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
+from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import Command, with_options
-from evenbreak.cli.tournament.time import TimeOfDay
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.tournament.times import TimeOfDay
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
     from evenbreak.tournaments.evening.events import Event, What
     from evenbreak.tournaments.evening.fold import Evening
+    from evenbreak.tournaments.evening.outlook import Outlook
 
 _HALF_A_DAY = timedelta(hours=12)
+_AT = "When it happened.  [default: now]"
+_FACES = ("face", "verbose", "page_file")
 
 
 def file_option(command: Command) -> Command:
@@ -40,12 +47,9 @@ def at_option(command: Command) -> Command:
     """Add --at, which the command gets as `at`: a time such as 2025-03-01T19:30:00."""
 
     def run(*, at: int | None, file: str | None = None, **rest: Any) -> Any:
-        moment = datetime.now().replace(microsecond=0)
-        if at is not None:
-            moment = _near(moment if file is None else _last(file), at, same_day=file is None)
         if file is not None:
             rest["file"] = file
-        return command(at=moment.isoformat(), **rest)
+        return command(at=_moment(at, file), **rest)
 
     wrapped: Any = update_wrapper(run, command)
     return with_options(  # type: ignore[no-any-return]
@@ -54,9 +58,61 @@ def at_option(command: Command) -> Command:
             "--at",
             metavar="HH:MM",
             type=TimeOfDay(),
-            help="When it happened.  [default: now]",
+            help=_AT,
         ),
     )
+
+
+def or_under_way(under_way: Callable[..., Answer]) -> Callable[[Any], Any]:
+    """Return what makes a command about ENTRANTS.csv also one about the tournament under way.
+
+    Parameters
+    ----------
+    under_way
+        answers if ENTRANTS.csv is left out; gets `file`, `at` and those options of the command
+        that it names.
+    """
+
+    def decorate(command: Any) -> Any:
+        shown = faces()(under_way)
+        own = [name for name in signature(under_way).parameters if name not in ("file", "at")]
+
+        def run(*, entrants: str | None, file: str, at: int | None, **rest: Any) -> Any:
+            ctx = click.get_current_context()
+            given = {
+                param.name: param.opts[0]
+                for param in ctx.command.get_params(ctx)
+                if ctx.get_parameter_source(param.name or "") is ParameterSource.COMMANDLINE
+            }
+            if entrants is not None:
+                both = [given[name] for name in ("file", "at") if name in given]
+                if both:
+                    refuse(f"{both[0]} is for the tournament under way; leave out {entrants} or it")
+                return command(entrants=entrants, **rest)
+            wrong = [given[name] for name in given if name in rest and name not in (*own, *_FACES)]
+            if wrong:
+                refuse(
+                    f"{wrong[0]} is for a list of entrants; name one, or leave the option out to "
+                    f"ask about the tournament in {file}"
+                )
+            asked = {name: rest[name] for name in (*own, *_FACES)}
+            return shown(file=file, at=_moment(at, file), **asked)
+
+        return with_options(
+            update_wrapper(run, command),
+            click.option("--at", metavar="HH:MM", type=TimeOfDay(), help=_AT),
+            file_option,
+        )
+
+    return decorate
+
+
+def _moment(at: int | None, file: str | None) -> str:
+    """Return a time of day, in minutes, as a time such as 2025-03-01T19:30:00; None: now."""
+    moment = datetime.now().replace(microsecond=0)
+    if at is not None:
+        moment = _near(moment if file is None else _last(file), at, same_day=file is None)
+    return moment.isoformat()
 
 
 def _last(file: str) -> datetime:
@@ -91,6 +147,22 @@ def add(file: str, at: str, decide: Callable[[Evening], Sequence[What]]) -> tupl
 
 def answer_of(file: str, state: Evening, at: str, said: Sequence[str] = ()) -> Answer:
     """Return the answer: what happened, what is played next, the odds, when it ends."""
-    from evenbreak.answers.tournament_night import Night, night_answer
+    from evenbreak.answers.tournament_night import night_answer
+    from evenbreak.tournaments.evening.outlook import Outlook
 
-    return night_answer(Night(state, at), said, source=PurePath(file).name)
+    return night_answer(Outlook(state, at), said, source=PurePath(file).name)
+
+
+def outlook_of(file: str, at: str) -> Outlook:
+    """Return what is to be expected of the tournament in a file; refuse one without a draw."""
+    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.tournaments.evening.outlook import Outlook
+
+    if not Path(file).exists():
+        refuse(
+            f"name a list of entrants, such as entrants.csv; there is no tournament under way in "
+            f"{file}"
+        )
+    outlook = Outlook(read_tournament(file), at)
+    _ = outlook.state.bracket
+    return outlook

@@ -10,15 +10,18 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 
 
 @click.command("forfeit")
-@click.argument("match")
 @click.argument("player")
+@click.argument("match", required=False)
 @file_option
 @at_option
 @faces()
-def command(*, match: str, player: str, file: str, at: str) -> Answer:
-    """Let PLAYER forfeit one match; they play on if the format lets them."""
+def command(*, player: str, match: str | None, file: str, at: str) -> Answer:
+    """Let PLAYER forfeit the match they are to play; they play on if the format lets them.
+
+    MATCH is needed only if they have several to play, as in a round robin.
+    """
     from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(file, at, lambda state: [moves.forfeit(state, match, player)])
+    before, state = add(file, at, lambda state: [moves.forfeit(state, player, match)])
     return answer_of(file, state, at, happened(before, state, state.events[-1]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from evenbreak.answers.answer import Answer
@@ -10,6 +12,9 @@ from evenbreak.cli.kit.paces import DISCIPLINES
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.evening import answer_of, at_option
 from evenbreak.cli.tournament.options import Entered, drawn_up, entry_options
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.fold import Evening
 
 EXAMPLES = """\b
 Examples:
@@ -50,17 +55,19 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     import numpy as np
 
     from evenbreak.files.tournament_store import new_tournament
+    from evenbreak.tournaments.brackets.swiss import swiss_round
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened
     from evenbreak.tournaments.evening.fold import ELIMINATIONS
+    from evenbreak.tournaments.evening.later_draws import swiss_of
 
-    if not isinstance(entered.races.race, int) and not entered.plan.handicapped:
-        refuse("--chart is not for a tournament that is run here; give --race or --race-to")
     plan = replace(entered.plan, tables=tables, discipline=discipline)
     roster, _, lines = entered.roster, "", None
     if plan.seeding == "drawn":
         if plan.form not in ELIMINATIONS:
             refuse(f"--seeding drawn is for eliminations, not {plan.form}")
         roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
+    if plan.form == "swiss":
+        swiss_round(swiss_of(plan, roster.players))  # refuses what cannot be paired
     errors = np.nan_to_num(roster.standard_error).tolist()
     entrants = tuple(
         Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)
@@ -69,5 +76,18 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = new_tournament(out, events)
-    answer = answer_of(out, state, at)
+    answer = answer_of(out, state, at, _unrated(entered, state))
     return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
+
+
+def _unrated(entered: Entered, state: Evening) -> list[str]:
+    """Return what is assumed of players without a rating, as a sentence if there are any."""
+    import numpy as np
+
+    from evenbreak.answers.tournament import unrated_words
+
+    read = entered.file.roster
+    unrated = [read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist()]
+    names = [name for name in unrated if name in state.entrants]  # no bye rows
+    plan = state.plan
+    return [unrated_words(names, plan.starter, plan.starter_error)] if names else []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -9,6 +10,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Number, numbers, refuse
+from evenbreak.cli.tournament.evening import or_under_way, outlook_of
 from evenbreak.cli.tournament.options import MOST_PLAYERS, tournament_options
 
 if TYPE_CHECKING:
@@ -21,15 +23,37 @@ Examples:
   evenbreak tournament odds entrants.csv --race 7 --losers-race 5 --scale fargo
   evenbreak tournament odds entrants.csv --format single --chart npl_10
   evenbreak tournament odds entrants.csv --race-to 5 --seeding rating --prizes 500,300,150
+  evenbreak tournament odds --file tonight.db
 """
 
 
+def under_way(file: str, at: str, prizes: str | None) -> Answer:
+    """Find each player's odds in the tournament under way."""
+    from evenbreak.answers.tournament_under_way import odds_under_way
+
+    outlook = outlook_of(file, at)
+    paid = _prizes(prizes, len(outlook.state.order))
+    return odds_under_way(outlook, prizes=paid, source=PurePath(file).name)
+
+
 @click.command("odds", epilog=EXAMPLES)
+@or_under_way(under_way)
 @tournament_options
 @click.option(
     "--sure",
     is_flag=True,
     help="Take the ratings as right, even if the file states their standard errors.",
+)
+@click.option(
+    "--before-draw",
+    is_flag=True,
+    help="The odds before a blind draw: every draw is equally likely.",
+)
+@click.option(
+    "--fairest",
+    is_flag=True,
+    help="With --race-to or --chart: also list the races by side that make the tournament fairest "
+    "for about as many games.",
 )
 @click.option(
     "--walkovers",
@@ -50,6 +74,7 @@ def command(
     tournament: Tournament,
     warnings: list[str],
     sure: bool,
+    fairest: bool,
     walkovers: float,
     prizes: str | None,
     seed: int,
@@ -59,6 +84,9 @@ def command(
     ENTRANTS.csv has a row for each entrant, with the columns player and rating and, if you
     have them, standard_error and games. Where standard errors are given, the odds are averaged over
     how far the ratings may be off; new players are taken as very uncertain.
+
+    Without ENTRANTS.csv, the answer is about the tournament under way in --file: its results so
+    far, and the scores of the matches in play.
     """
     import numpy as np
 
@@ -66,11 +94,14 @@ def command(
 
     if np.isnan(tournament.file.roster.rating).all():
         refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")
+    if fairest and isinstance(tournament.races.race, int):
+        refuse("--fairest is for handicapped races; give --race-to N or --chart NAME, not --race")
     return tournament_odds_answer(
         tournament,
         sure=sure,
         walkovers=walkovers,
         prizes=_prizes(prizes, len(tournament.roster)),
+        fairest=fairest,
         seed=seed,
         warnings=warnings,
     )

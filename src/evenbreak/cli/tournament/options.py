@@ -19,15 +19,27 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.events import Plan
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of, races_of
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of
+from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
     from evenbreak.ratings.scale import Scale
 
-FORMATS = ("double", "single", "consolation", "round-robin", "king-of-the-hill")
+FORMATS = (
+    "double",
+    "single",
+    "pods",
+    "groups",
+    "swiss",
+    "round-robin",
+    "consolation",
+    "king-of-the-hill",
+)
 DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
+PLACEMENTS = {"half-shift": "half shift", "redraw": "redraw"}
 SEEDINGS = ("listed", "rating", "blind", "drawn")
 MOST_PLAYERS = 256
 BYE = re.compile(r"bye[\s\d]*", re.IGNORECASE)
@@ -55,31 +67,67 @@ def tournament_options(command: Command) -> Command:
     It also gets the `warnings` about them, and `seed`.
     """
 
-    def run(*, entered: Entered, **rest: Any) -> Any:
+    def run(*, entered: Entered, before_draw: bool = False, **rest: Any) -> Any:
         from evenbreak.answers.tournament import Tournament
 
         plan, file, scale = entered.plan, entered.file, entered.scale
-        roster, seeded, lines = drawn_up(entered.roster, plan.seeding, entered.seed)
+        if before_draw:
+            _refuse_drawn(plan)
+            roster, seeded, lines = entered.roster, "to be drawn blind", None
+        else:
+            roster, seeded, lines = drawn_up(entered.roster, plan.seeding, entered.seed)
         if lines is not None and plan.form not in ELIMINATIONS:
             refuse(f"--seeding drawn is for eliminations, not {plan.form}")
         bracket = bracket_of(plan, roster.players, None if lines is None else tuple(lines))
-        tournament: Tournament = Tournament(file, roster, bracket, entered.races, scale, seeded)
+        tournament: Tournament = Tournament(
+            file, roster, bracket, entered.races, scale, seeded, _to_draw(plan, before_draw)
+        )
         return command(tournament=tournament, warnings=entered.warnings, seed=entered.seed, **rest)
 
     wrapped: Any = update_wrapper(run, command)
-    return entry_options(wrapped)  # type: ignore[no-any-return]
+    return entry_options(wrapped, required=False)  # type: ignore[no-any-return]
 
 
-def entry_options(command: Command) -> Command:
-    """Add the options about the tournament, which the command gets as `entered`."""
+def _refuse_drawn(plan: Plan) -> None:
+    if plan.seeding not in ("listed", "blind"):
+        refuse(f"--before-draw is for a blind draw; leave out --seeding {plan.seeding}")
+    if plan.form in ("round-robin", "swiss"):
+        refuse(f"--before-draw is for formats with a draw, not {plan.form}")
+    if plan.placement == "redraw":
+        refuse("--before-draw takes --placement half-shift, not redraw")
+
+
+def _to_draw(plan: Plan, before_draw: bool) -> str:
+    """Return what of a tournament is drawn later than its odds are asked for."""
+    if before_draw:
+        return "lines"
+    if plan.form == "swiss":
+        return "rounds"
+    return "qualifiers" if plan.placement == "redraw" else ""
+
+
+def entry_options(command: Command, *, required: bool = True) -> Command:
+    """Add the options about the tournament, which the command gets as `entered`.
+
+    Parameters
+    ----------
+    command
+        the command.
+    required
+        whether ENTRANTS.csv must be named.
+    """
 
     def run(
         *,
         entrants: str,
         form: str,
-        final: str,
+        final: str | None,
         qualifiers: int | None,
-        drops: str,
+        placement: str | None,
+        drops: str | None,
+        groups: int | None,
+        pod_size: int | None,
+        rounds: int | None,
         third_place: bool,
         seeding: str,
         race: int | None,
@@ -94,7 +142,18 @@ def entry_options(command: Command) -> Command:
         **rest: Any,
     ) -> Any:
         races = _races(race, race_to, chart, losers_race, final_race)
-        _refuse_of_other_formats(form, final, qualifiers, drops, third_place=third_place)
+        given = {
+            "--final": final,
+            "--qualifiers": qualifiers,
+            "--placement": placement,
+            "--drops": drops,
+            "--groups": groups,
+            "--pod-size": pod_size,
+            "--rounds": rounds,
+            "--third-place": third_place or None,
+        }
+        _refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
+        _check_qualifiers(form, qualifiers)
         file = files.read_entrants(entrants)
         points, warnings = _scale(file, scale, starter)
         roster = with_starters(file.roster, points, starter, starter_sd)
@@ -104,14 +163,19 @@ def entry_options(command: Command) -> Command:
         plan = Plan(
             form,
             usual or 1,
-            final=final,
+            final=final or "true",
             qualifiers=qualifiers,
-            drops=DROPS[drops],
+            placement=PLACEMENTS[placement or "half-shift"],
+            drops=DROPS[drops or "fewest-rematches"],
+            groups=groups,
+            pod_size=pod_size or 8,
+            rounds=rounds,
             third_place=third_place,
             seeding=seeding,
             losers_race=losers_race,
             final_race=final_race,
             handicapped=race_to is not None,
+            chart=races.race if isinstance(races.race, Chart) else None,
             scale=points.text,
             starter=points.centre if starter is None else starter,
             starter_error=points.points_per_doubling if starter_sd is None else starter_sd,
@@ -148,32 +212,58 @@ def entry_options(command: Command) -> Command:
             "--third-place", is_flag=True, help="Single elimination with a match for third place."
         ),
         click.option(
+            "--rounds",
+            type=Whole(1, MOST_PLAYERS),
+            metavar="N",
+            help="The rounds of a Swiss.  [default: as many as a single elimination has]",
+        ),
+        click.option(
+            "--pod-size",
+            type=Whole(4, 16),
+            metavar="N",
+            help="The lines of a pod: 4, 8 or 16.  [default: 8]",
+        ),
+        click.option(
+            "--groups",
+            type=Whole(1, MOST_PLAYERS),
+            metavar="N",
+            help="The number of groups.  [default: groups of 4, or of 3 and 4]",
+        ),
+        click.option(
             "--drops",
             type=click.Choice(list(DROPS)),
-            default="fewest-rematches",
-            help="Where the losers of the winners' side of a double elimination drop to.",
+            help="Where losers of the winners' side drop to, in a double elimination or in pods.  "
+            "[default: fewest-rematches]",
+        ),
+        click.option(
+            "--placement",
+            type=click.Choice(list(PLACEMENTS)),
+            help="How the losers' side's qualifiers meet the winners' side's: the halves crossed, "
+            "or drawn.  [default: half-shift]",
         ),
         click.option(
             "--qualifiers",
-            type=Whole(2, MOST_PLAYERS),
+            type=Whole(1, MOST_PLAYERS),
             metavar="M",
-            help="Double elimination down to M players, half from each side, then single.",
+            help="Double elimination down to M players, half from each side, then single. Or how "
+            "many go on from each group (2 unless given) or pod (1 or 2; 1 unless given).",
         ),
         click.option(
             "--final",
             type=click.Choice(["true", "single"]),
-            default="true",
             help="The final of a double elimination: must the undefeated player lose twice "
-            "(true), or once (single)?",
+            "(true), or once (single)?  [default: true]",
         ),
         click.option(
             "--format",
             "form",
             type=click.Choice(FORMATS),
             default="double",
-            help="The kind of tournament.",
+            help="The kind of tournament. For chips, see evenbreak chips.",
         ),
-        click.argument("entrants", metavar="ENTRANTS.csv"),
+        click.argument(
+            "entrants", metavar="ENTRANTS.csv" if required else "[ENTRANTS.csv]", required=required
+        ),
     )
 
 
@@ -203,15 +293,36 @@ def _races(
     )
 
 
-def _refuse_of_other_formats(
-    form: str, final: str, qualifiers: int | None, drops: str, *, third_place: bool
-) -> None:
-    if form != "double" and (final != "true" or qualifiers or drops != "fewest-rematches"):
-        refuse(f"--final, --qualifiers and --drops are for --format double, not {form}")
-    if qualifiers is not None and final != "true":
+_OPTIONS_OF = {
+    "--final": ("double",),
+    "--qualifiers": ("double", "groups", "pods"),
+    "--placement": ("double",),
+    "--drops": ("double", "pods"),
+    "--groups": ("groups",),
+    "--pod-size": ("pods",),
+    "--rounds": ("swiss",),
+    "--third-place": ("single",),
+}
+"""Which formats an option is for."""
+
+
+def _refuse_of_other_formats(form: str, given: set[str]) -> None:
+    for name, formats in _OPTIONS_OF.items():
+        if name in given and form not in formats:
+            refuse(f"{name} is for --format {' or '.join(formats)}, not {form}")
+    if {"--qualifiers", "--final"} <= given:
         refuse("--qualifiers leads to one final; leave out --final")
-    if form != "single" and third_place:
-        refuse(f"--third-place is for --format single, not {form}")
+    if "--placement" in given and "--qualifiers" not in given:
+        refuse("--placement is for qualifiers; give --qualifiers M, or leave it out")
+
+
+def _check_qualifiers(form: str, qualifiers: int | None) -> None:
+    if qualifiers is None:
+        return
+    if form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
+        refuse(f"--qualifiers is {qualifiers}; give 2, 4, 8 or another power of 2")
+    if form == "pods" and qualifiers > 2:
+        refuse(f"--qualifiers is {qualifiers}; 1 or 2 go on from a pod")
 
 
 def _scale(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
+from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,7 +11,9 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.paces import TURNOVER, pace_options, stated_pace
 from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.cli.tournament.evening import or_under_way, outlook_of
 from evenbreak.cli.tournament.options import tournament_options
+from evenbreak.cli.tournament.times import TimeOfDay
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
@@ -21,30 +23,27 @@ Examples:
   evenbreak tournament time entrants.csv --race 5 --tables 4 --discipline 9-ball
   evenbreak tournament time entrants.csv --race 7 --losers-race 5 --tables 6 \\
       --discipline 8-ball --start 19:00
+  evenbreak tournament time --file tonight.db
 """
 
 
-class TimeOfDay(click.ParamType):  # type: ignore[type-arg]
-    """A time of day such as 19:30; its value is in minutes after midnight."""
+def under_way(file: str, at: str, tables: int | None, turnover: float | None) -> Answer:
+    """Find when the tournament under way ends."""
+    from evenbreak.answers.tournament_under_way import time_under_way
+    from evenbreak.matches import Turnover
 
-    name = "time"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
-        """Return the minutes."""
-        match = re.fullmatch(r"\s*(\d{1,2})[:.h](\d{2})\s*", value)
-        hours, minutes = (int(match[1]), int(match[2])) if match else (24, 0)
-        if hours > 23 or minutes > 59:
-            self.fail(
-                f"{value!r}; give a time of day from 0:00 to 23:59, such as 19:30", param, ctx
-            )
-        return 60 * hours + minutes
+    return time_under_way(
+        outlook_of(file, at),
+        tables=tables,
+        turnover=None if turnover is None else Turnover(turnover),
+        source=PurePath(file).name,
+    )
 
 
 @click.command("time", epilog=EXAMPLES)
+@or_under_way(under_way)
 @tournament_options
-@click.option(
-    "--tables", type=Whole(1, 1000), metavar="T", required=True, help="The number of tables."
-)
+@click.option("--tables", type=Whole(1, 1000), metavar="T", help="The number of tables.")
 @pace_options
 @click.option(
     "--turnover",
@@ -64,7 +63,7 @@ def command(
     *,
     tournament: Tournament,
     warnings: list[str],
-    tables: int,
+    tables: int | None,
     discipline: str | None,
     minutes_per_game: float | None,
     turnover: float | None,
@@ -74,11 +73,15 @@ def command(
     """Find when the tournament ends, and when each match starts.
 
     ENTRANTS.csv has a row for each entrant, with the columns player and rating; a plain list of
-    names is taken as equal players. JSON and CSV have minutes from the start of the tournament.
+    names is taken as equal players. Without it, the answer is about the tournament under way in
+    --file: its results, the matches on its tables and its pace so far. JSON and CSV have minutes
+    from the start of the tournament.
     """
     from evenbreak.answers.tournament_time import tournament_time_answer
     from evenbreak.matches import Turnover
 
+    if tables is None:
+        refuse("the number of tables is missing; give it with --tables, such as --tables 4")
     pace = stated_pace(discipline, minutes_per_game)
     if pace is None:
         refuse(

@@ -15,8 +15,9 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @faces()
 def command(*, file: str, at: str) -> Answer:
     """Take back what happened last; once more takes back what happened before that."""
-    from evenbreak.answers.tournament_moves import undone_words
+    from evenbreak.answers.tournament_moves import reopened, undone_words
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.undo(state)])
-    return answer_of(file, state, at, [undone_words(before.events[-1].what)])
+    said = [undone_words(before.events[-1].what), *reopened(before, state)]
+    return answer_of(file, state, at, said)

@@ -25,6 +25,7 @@ def nearest_races_given_ratings(
     target: float = 0.5,
     top: int = 5,
     scale: Any = "npl",
+    form: float = 0.0,
 ) -> list[FairRace]:
     """Return the races in which player 1's chance is nearest to `target`, the nearest first.
 
@@ -33,7 +34,7 @@ def nearest_races_given_ratings(
 
     Parameters
     ----------
-    difference, standard_error, scale
+    difference, standard_error, scale, form
         as for `win_given_ratings`.
     games, race_to, target, top
         as for `fair_races`.
@@ -65,14 +66,15 @@ def nearest_races_given_ratings(
         longest = np.repeat(np.arange(low, high + 1), np.arange(low, high + 1))
         m = np.concatenate([np.arange(1, games + 1) for games in range(low, high + 1)])
         n = longest + 1 - m
-    chances = win_given_ratings(difference, standard_error, m, n, scale=scale)
+    way: dict[str, Any] = {"scale": scale, "form": form}
+    chances = win_given_ratings(difference, standard_error, m, n, **way)
     rows = zip(np.abs(chances - target).tolist(), m.tolist(), n.tolist(), strict=True)
     ordered = shortest_of_ties(
         sorted(Candidate(away, one + two - 1, one, two) for away, one, two in rows)
     )
     found = []
     for _, _, one, two in ordered[:top]:
-        length = length_given_ratings(difference, standard_error, one, two, scale=scale)
-        p_win = win_given_ratings(difference, standard_error, one, two, scale=scale)
+        length = length_given_ratings(difference, standard_error, one, two, **way)
+        p_win = win_given_ratings(difference, standard_error, one, two, **way)
         found.append(FairRace(one, two, p_win, length.mean, length.quantile(0.9) or 0))
     return found

@@ -7,23 +7,23 @@ possible differences δ,
     E W = ∫ W(p(d + e z); m, n) φ(z) dz,
 
 by Gauss-Hermite quadrature. That pulls chances towards 1/2: W at the estimate itself, the
-plug-in value, is overconfident in the favourite.
+plug-in value, is overconfident in the favourite. Form of the day (`evenbreak.matches.form`) is one
+more error, which is drawn anew for each match.
 """
 
 from __future__ import annotations
 
 import math
-from functools import cache
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import roots_hermitenorm
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, plain, probability, together, whole
 from evenbreak.games.race import Race
 from evenbreak.handicaps.charts.fair import longest_matches
+from evenbreak.matches.form import centre_of_form, form_of, normal_rule
 from evenbreak.matches.length import match_length
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.win import race_win_probability
@@ -33,14 +33,19 @@ MOST_DOUBLINGS = 10.0
 """The largest standard error allowed, in doublings of the odds."""
 
 _MOST_NODES = 20_000
-_FEWEST_GAMES = 6  # shorter races need as many nodes as these
 _TIE = 1e-9
 _AT_A_TIME = 1 << 20  # values held in memory at once
 
 
 @overload
 def win_given_ratings(
-    difference: float, standard_error: float, m: float, n: float, *, scale: Any = "npl"
+    difference: float,
+    standard_error: float,
+    m: float,
+    n: float,
+    *,
+    scale: Any = "npl",
+    form: float = 0.0,
 ) -> float: ...
 @overload
 def win_given_ratings(
@@ -50,9 +55,16 @@ def win_given_ratings(
     n: ArrayLike,
     *,
     scale: Any = "npl",
+    form: float = 0.0,
 ) -> Floats: ...
 def win_given_ratings(
-    difference: Any, standard_error: Any, m: Any, n: Any, *, scale: Any = "npl"
+    difference: Any,
+    standard_error: Any,
+    m: Any,
+    n: Any,
+    *,
+    scale: Any = "npl",
+    form: float = 0.0,
 ) -> Any:
     """Return P(player 1 wins the race m:n | the ratings and their standard error).
 
@@ -67,6 +79,9 @@ def win_given_ratings(
         the games that player 1 and player 2 need. All four are broadcast together.
     scale
         what the points mean: a name, points that double the odds, or a `Scale`.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation), whatever
+        the scale. The chance of a single game is the same with any form.
 
     Returns
     -------
@@ -77,7 +92,7 @@ def win_given_ratings(
     ------
     InputError
         if a number is not finite, an error is negative or more than ten doublings of the
-        odds, m or n is not a whole number, or the shapes do not broadcast.
+        odds, form is not in 0 to 3, m or n is not a whole number, or the shapes do not broadcast.
 
     Notes
     -----
@@ -91,6 +106,7 @@ def win_given_ratings(
     scale = scale_of(scale)
     gap, error = _checked(difference, standard_error, scale)
     together(difference=gap, standard_error=error, m=m, n=n)
+    gap, error = with_form(gap, error, form, scale)
     gap, error, m, n = np.broadcast_arrays(gap, error, m, n)
     longest = int(np.max(m + n, initial=2))
     nodes, weights = averaging_rule(float(error.max(initial=0.0)), longest, scale)
@@ -102,14 +118,32 @@ def win_given_ratings(
 
 @overload
 def length_given_ratings(
-    difference: float, standard_error: float, m: int, n: int, *, scale: Any = "npl"
+    difference: float,
+    standard_error: float,
+    m: int,
+    n: int,
+    *,
+    scale: Any = "npl",
+    form: float = 0.0,
 ) -> MatchLength[float, float]: ...
 @overload
 def length_given_ratings(
-    difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
+    difference: ArrayLike,
+    standard_error: ArrayLike,
+    m: int,
+    n: int,
+    *,
+    scale: Any = "npl",
+    form: float = 0.0,
 ) -> MatchLength[Floats, Floats]: ...
 def length_given_ratings(
-    difference: ArrayLike, standard_error: ArrayLike, m: int, n: int, *, scale: Any = "npl"
+    difference: ArrayLike,
+    standard_error: ArrayLike,
+    m: int,
+    n: int,
+    *,
+    scale: Any = "npl",
+    form: float = 0.0,
 ) -> MatchLength[Any, Any]:
     """Return how long the race m:n lasts, given the ratings and their standard error.
 
@@ -129,6 +163,7 @@ def length_given_ratings(
     scale = scale_of(scale)
     m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
+    gap, error = with_form(gap, error, form, scale)
     nodes, weights = averaging_rule(float(error.max(initial=0.0)), m + n, scale)
     games = np.arange(min(m, n), m + n)
     total: Floats = np.zeros((*gap.shape, len(games)))
@@ -152,6 +187,7 @@ def fair_races_given_ratings(
     race_to: int | None = None,
     scale: Any = "npl",
     target: float = 0.5,
+    form: float = 0.0,
 ) -> tuple[Ints, Ints]:
     """Return (m, n), two arrays: the race nearest to the target for each difference.
 
@@ -160,7 +196,7 @@ def fair_races_given_ratings(
 
     Parameters
     ----------
-    difference, standard_error, scale
+    difference, standard_error, scale, form
         as for `win_given_ratings`; broadcast together.
     games, race_to, target
         as for `fair_races`.
@@ -176,6 +212,7 @@ def fair_races_given_ratings(
     scale = scale_of(scale)
     target = float(probability(target, "target"))
     gap, error = np.broadcast_arrays(*_checked(difference, standard_error, scale))
+    gap, error = with_form(gap, error, form, scale)
     low, high = longest_matches(games, race_to)
     if race_to is not None:
         return _fairest_race_to(gap, error, low, scale, target)
@@ -204,24 +241,21 @@ def error_of(standard_error: ArrayLike, scale: Scale) -> Any:
 def averaging_rule(
     largest_error: float, longest: int, scale: Scale, most: int = _MOST_NODES
 ) -> tuple[Floats, Floats]:
-    """Return nodes and weights that average W over N(0, 1) to 1e-9, unless `most` are too few.
+    """Return nodes and weights that average W over N(0, 1) to 1e-9, unless `most` are too few."""
+    return normal_rule(scale.log_odds(largest_error), longest, most)
 
-    The number of nodes depends on the error compared with the width of W's rise, about
-    2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
+
+def with_form(difference: Floats, error: Floats, form: float, scale: Scale) -> tuple[Any, Any]:
+    """Return the differences and errors that stand for those given and form of the day together.
+
+    Both are normal, so their variances add up. The chance of a game stays what it is without form.
     """
-    if largest_error == 0.0:
-        return np.zeros(1), np.ones(1)
-    ratio = scale.log_odds(largest_error) * math.sqrt(max(longest, _FEWEST_GAMES)) / 2.0
-    return _hermite(min(most, 24 + math.ceil(14.0 * ratio**2)))
-
-
-@cache
-def _hermite(number: int) -> tuple[Floats, Floats]:
-    nodes, weights = roots_hermitenorm(number)
-    weights = weights / weights.sum()
-    # The outermost nodes have no weight: dropping them drops most of a large rule.
-    kept = weights > 1e-18
-    return nodes[kept], weights[kept]
+    form = form_of(form)
+    if form == 0.0:
+        return difference, error
+    mean, sd = scale.log_odds(difference), scale.log_odds(error)
+    centre, around = centre_of_form(mean, sd, form), np.hypot(sd, form)
+    return np.asarray(scale.points(centre)), np.asarray(scale.points(around))
 
 
 def _fairest_race_to(

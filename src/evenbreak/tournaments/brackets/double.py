@@ -8,13 +8,14 @@ the drops decides how many rematches there are.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.tournaments.brackets.bracket import Bracket, Source
+from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.drafts import (
     Draft,
     DraftSlot,
@@ -180,6 +181,43 @@ def double_down(
         met = [slot for pair in zip(falls, losing, strict=True) for slot in pair]
         losing = [winner(name) for name in play("L", 2 * int(number), list(met))]
     return drafts, winning, losing, ranks
+
+
+def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
+    """Return where the losers' qualifiers of a double elimination come from.
+
+    They are in the order of the matches of the knock-out that they go into.
+
+    Raises
+    ------
+    InputError
+        if there are no such qualifiers, or only one.
+
+    >>> [slot.match for slot in losers_qualifiers(double_elimination(8, qualifiers=4))]
+    ['L2.2', 'L2.1']
+    """
+    found = tuple(match.slots[1] for match in bracket.matches if match.name.startswith("K1."))
+    if not found or not bracket.format.startswith("double elimination"):
+        raise InputError("bracket has no qualifiers to redraw; give double_elimination 4 or more")
+    return found
+
+
+def redrawn(bracket: Bracket, qualifiers: Sequence[Slot]) -> Bracket:
+    """Return a double elimination with its losers' qualifiers in another order.
+
+    >>> straight = redrawn(double_elimination(8, qualifiers=4), [Source("L2.1", "winner"),
+    ...                                                         Source("L2.2", "winner")])
+    >>> straight.match("K1.1").slots[1].match
+    'L2.1'
+    """
+    order = iter(qualifiers)
+    matches = tuple(
+        replace(match, slots=(match.slots[0], next(order)))
+        if match.name.startswith("K1.")
+        else match
+        for match in bracket.matches
+    )
+    return replace(bracket, matches=matches)
 
 
 def _to_the_end(

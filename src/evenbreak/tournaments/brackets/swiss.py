@@ -13,6 +13,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Place, Slot, Source
 from evenbreak.tournaments.brackets.drafts import checked_players
 
 System: TypeAlias = Literal["dutch", "casual"]
@@ -22,7 +23,7 @@ class Pairing(NamedTuple):
     """Two players who meet; `second` is None for a bye, `winner` is None until it is played."""
 
     first: str
-    second: str | None
+    second: str | None = None
     winner: str | None = None
 
 
@@ -150,6 +151,57 @@ def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[S
         for player in event.players
     ]
     return sorted(rows, key=lambda row: (-row.score, -row.buchholz))
+
+
+def swiss_bracket(
+    event: Swiss, drawn: Sequence[Sequence[Pairing]] = (), *, to_come: bool = True
+) -> Bracket:
+    """Return the matches of a Swiss: of the rounds that are drawn, and of those to come.
+
+    Who meets whom in a round to come is not known. In its place, winners meet winners and
+    losers meet losers of the round before; that is good enough for how long it takes.
+
+    Parameters
+    ----------
+    event
+        the tournament.
+    drawn
+        the pairings of the first rounds.
+    to_come
+        whether to add the other rounds.
+
+    >>> bracket = swiss_bracket(swiss(5, 2), [[Pairing("1", "3"), Pairing("4", "2"), Pairing("5")]])
+    >>> [(match.name, match.slots) for match in bracket.matches][1:3]
+    [('R1.2', (3, 1)), ('R2.1', (4, Source(match='R1.1', outcome='winner', via=None)))]
+    """
+    seat = {player: k for k, player in enumerate(event.players)}
+    order: list[Slot] = list(range(len(seat)))
+    matches: list[Match] = []
+    for number in range(1, (event.rounds if to_come else len(drawn)) + 1):
+        if number <= len(drawn):
+            pairs: list[tuple[Slot, Slot]] = [
+                (seat[p.first], seat[p.second]) for p in drawn[number - 1] if p.second is not None
+            ]
+            resting: list[Slot] = [seat[p.first] for p in drawn[number - 1] if p.second is None]
+        else:
+            half = len(order) // 2
+            ends = (
+                (order[:half], order[half : 2 * half]) if number == 1 else (order[::2], order[1::2])
+            )
+            pairs, resting = list(zip(*ends, strict=False)), order[2 * half :]
+        names = [f"R{number}.{i}" for i in range(1, len(pairs) + 1)]
+        matches += [
+            Match(name, "Swiss", number, pair) for name, pair in zip(names, pairs, strict=True)
+        ]
+        order = [*resting, *(Source(name, end) for end in ("winner", "loser") for name in names)]
+    members = tuple(range(len(seat)))
+    ranks = Group("Swiss", members, (), (), tuple(Place(k + 1, k + 1) for k in members))
+    return Bracket(
+        f"Swiss, {event.rounds} round{'s' * (event.rounds > 1)}",
+        event.players,
+        tuple(matches),
+        (ranks,),
+    )
 
 
 def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:

@@ -125,8 +125,9 @@ def fairest_chips(
     Notes
     -----
     It starts with chips in the middle and moves one chip at a time, up for the row that is
-    worst off or down for the one that is best off, as long as the spread of the title odds
-    gets smaller. Stronger players never have more chips than weaker ones.
+    worst off or down for the one that is best off, and then for all weaker or all stronger rows
+    together, as long as the spread of the title odds gets smaller. Stronger players never have
+    more chips than weaker ones.
 
     >>> found = fairest_chips([650, 500, 400, 350], most=8, runs=4000)
     >>> bool(found.spread < chip_fairness([650, 500, 400, 350], "hoboken").spread)
@@ -186,6 +187,15 @@ def _steps(counts: Ints, row: Ints, edge: Floats, low: int, high: int) -> list[I
             chips[k:] = np.minimum(chips[k:], chips[k])
         else:
             chips[: k + 1] = np.maximum(chips[: k + 1], chips[k])
-        if low <= chips.min() and chips.max() <= high:
-            found.append(chips)
-    return found
+        found.append(chips)
+    for k in range(1, len(counts)):  # the weaker or the stronger rows together
+        for rows in (slice(None, k), slice(k, None)):
+            for step in (-1, 1):
+                chips = counts.copy()
+                chips[rows] += step
+                found.append(chips)
+    return [
+        chips
+        for chips in found
+        if low <= chips.min() and chips.max() <= high and (np.diff(chips) <= 0).all()
+    ]

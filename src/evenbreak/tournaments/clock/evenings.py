@@ -33,10 +33,17 @@ class InPlay(NamedTuple):
         its name.
     started
         when it began, in minutes since the first start of the event.
+    games
+        the games played so far, if its score is known. The odds of the match must then be those
+        from this score (`from_score`).
+    scored
+        when it had this score; None: none is known.
     """
 
     match: str
     started: float
+    games: int = 0
+    scored: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +62,8 @@ class Evenings:
         how long its table needs after it.
     first, second
         who plays, by position.
+    first_won
+        whether the player in slot 1 wins.
     """
 
     names: tuple[str, ...]
@@ -63,6 +72,7 @@ class Evenings:
     turnover: Floats
     first: NDArray[np.int16]
     second: NDArray[np.int16]
+    first_won: Bools
 
 
 def play_evenings(
@@ -113,10 +123,12 @@ def play_evenings(
     shape = runs, len(names)
     needed, minutes, between = np.ones(shape, dtype=bool), np.zeros(shape), np.zeros(shape)
     first, second = (np.zeros(shape, dtype=np.int16) for _ in range(2))
+    first_won = np.zeros(shape, dtype=bool)
     for k, name in enumerate(names):
         one, other = played.first[name], played.second[name]
         needed[:, k] = (one < nobody) & (other < nobody)
         first[:, k], second[:, k] = one, other
+        first_won[:, k] = played.first_won[name]
         games_luck, match_luck, between_luck = (stratified_uniforms(luck, runs) for _ in range(3))
         between[:, k] = turnovers(turnover, between_luck)
         if name in under_way:
@@ -127,7 +139,7 @@ def play_evenings(
         games = _games(laws[name], winner, loser, needed[:, k], games_luck)
         noise = lognormal(ndtri(match_luck), pace.match_sd)
         minutes[:, k] = evening * noise * pace.mean_minutes(games)
-    return Evenings(names, needed, minutes, between, first, second)
+    return Evenings(names, needed, minutes, between, first, second, first_won)
 
 
 def _padded(win: Floats) -> Floats:
@@ -172,12 +184,13 @@ def _under_way(
     one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
     if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
         raise InputError(f"playing has {match.match!r}; give matches whose players are known")
-    elapsed = clock - match.started
+    since = match.started if match.scored is None else match.scored
+    elapsed = clock - since
     if elapsed < 0.0:
-        raise InputError(f"{match.match} started at {match.started:g}; it is {clock:g} now")
+        raise InputError(f"{match.match} started at {since:g}; it is {clock:g} now")
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
-    usual = np.maximum(pace.mean_minutes(games), 1e-9)
+    usual = np.maximum(pace.mean_minutes(games) - pace.mean_minutes(match.games), 1e-9)
     median = evening[:, None] * usual * lognormal(0.0, pace.match_sd)
     with np.errstate(divide="ignore"):
         passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
 from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)
+_TRIED = 500  # evenings on which each call is tried
 
 
 class Start(NamedTuple):
@@ -112,12 +113,24 @@ class Finish:
         times = np.where(mine, self.starts, np.inf).min(axis=1, initial=np.inf)
         return _start(times[np.isfinite(times)], times.size)
 
+    def if_won(self, match: str) -> tuple[float, float]:
+        """Return when the evening ends on average, given which slot's player wins a match."""
+        evenings = self._room.evenings
+        k = self.names.index(match)
+        won, played = evenings.first_won[:, k], evenings.needed[:, k]
+        means = [
+            float(self.finishes[played & side].mean()) if (played & side).any() else np.nan
+            for side in (won, ~won)
+        ]
+        return means[0], means[1]
+
     def calls(self) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 
-        All are tried on the same evenings, so that small differences are real.
+        All are tried on the same evenings, some of those played out, so that small differences
+        are real.
         """
-        room = self._room
+        room = self._room.on_the_first(_TRIED)
         ready = [name for name in self.standing.to_play if name not in room.on_tables]
         ends = {name: room.ends(room.planned(self.names.index(name))) for name in ready}
         if not ends:
@@ -125,6 +138,9 @@ class Finish:
         best = min(ends, key=lambda name: float(ends[name].mean()))
         calls = []
         for name, end in ends.items():
+            if np.isinf(end).any():  # it has to wait for its round
+                calls.append(Call(name, np.inf, np.inf, 0.0))
+                continue
             later = end - ends[best]
             error = float(later.std() / np.sqrt(len(later)))
             calls.append(Call(name, float(end.mean()), float(later.mean()), error))
@@ -140,6 +156,12 @@ class _Room:
     tables: Floats
     now: float
     playing: tuple[InPlay, ...]
+
+    def on_the_first(self, runs: int) -> _Room:
+        """Return the same with the first of the evenings only."""
+        evenings = self.evenings
+        cells = (getattr(evenings, one.name)[:runs] for one in fields(evenings)[1:])
+        return replace(self, evenings=Evenings(evenings.names, *cells))
 
     @property
     def on_tables(self) -> tuple[str, ...]:

@@ -74,7 +74,8 @@ def schedule(
     priority
         which match comes first, the largest number; None: by the longest remaining path.
     first
-        the match that begins first of all, by position; None: by priority.
+        the match that begins first of all, by position, even if its round would still wait;
+        None: by priority.
     under_way
         the matches that are on the first tables now, by position.
     """
@@ -90,6 +91,8 @@ def schedule(
     if first is not None:
         rank[first] = count
     missing = np.tile(waits.after.sum(axis=0), (runs, 1))
+    if first is not None:
+        missing[:, first] = 0
     ready = np.full((runs, count), now)
     open_ = np.ones((runs, count), dtype=bool)
     free = np.maximum(tables, now)

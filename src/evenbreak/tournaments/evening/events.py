@@ -5,11 +5,14 @@ An event is a frozen value; `as_dict` and `event_of` turn it into plain data and
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any, TypeAlias
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot
 
 
 @dataclass(frozen=True)
@@ -19,9 +22,16 @@ class Plan:
     Parameters
     ----------
     form
-        double, single, consolation, round-robin or king-of-the-hill.
-    final, qualifiers, drops
+        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, or the
+        format of a bracket from another program, in words.
+    final, drops
         as in `double_elimination`.
+    qualifiers
+        how many a double elimination leads to, or how many go on from each group or pod.
+    placement
+        how qualifiers of a double elimination are paired: half shift or redraw.
+    groups, pod_size, rounds
+        how many groups, the lines of a pod, the rounds of a Swiss.
     third_place
         as in `single_elimination`.
     seeding
@@ -30,6 +40,8 @@ class Plan:
         the games of a race, on the losers' side and in the final (None: as the others).
     handicapped
         whether the stronger player needs that many games, and the weaker as many as is fairest.
+    chart
+        races by this chart; then `race` says nothing.
     scale
         the scale of the ratings, as `scale_of` reads it.
     starter, starter_error
@@ -38,6 +50,10 @@ class Plan:
         how many tables there are.
     discipline
         8-ball, 9-ball or 10-ball: how long matches take.
+    layout
+        the matches of a bracket from another program, in place of those of a format.
+    by_match
+        the races of single matches, by name.
     """
 
     form: str
@@ -50,11 +66,18 @@ class Plan:
     losers_race: int | None = None
     final_race: int | None = None
     handicapped: bool = False
+    chart: Chart | None = None
     scale: str = "npl"
     starter: float = 0.0
     starter_error: float = 0.0
     tables: int = 4
     discipline: str = "9-ball"
+    placement: str = "half shift"
+    groups: int | None = None
+    pod_size: int = 8
+    rounds: int | None = None
+    layout: tuple[Draft, ...] = ()
+    by_match: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -110,10 +133,21 @@ class Called:
 
 
 @dataclass(frozen=True)
+class Scored:
+    """The score of a match in play."""
+
+    match: str
+    players: tuple[str, str]
+    score: tuple[int, int]
+
+
+@dataclass(frozen=True)
 class Result:
     """A match was played by these players, or forfeited by the loser (with the score 0:0).
 
     A correction is a result too: of two results of one match by the same players the later counts.
+    After a correction the director may let the matches stand that were played since: then
+    `winner` is the player who moved on, though the score says otherwise.
     """
 
     match: str
@@ -122,6 +156,7 @@ class Result:
     winner: str
     forfeit: bool = False
     corrects: bool = False
+    stands: bool = False
 
     @property
     def loser(self) -> str:
@@ -135,18 +170,69 @@ class Result:
 
 
 @dataclass(frozen=True)
+class Ranked:
+    """A tie was broken: the players of a group in their final order."""
+
+    group: str
+    order: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class LaterDraw:
+    """Something was drawn in the course of the evening.
+
+    Parameters
+    ----------
+    stage
+        R1, R2, ...: a round of a Swiss; K1: the losers' qualifiers, for the knock-out.
+    order
+        the players of the round in pairs (None: a bye), or the matches that the qualifiers come
+        from, in the order of the matches that they go into.
+    """
+
+    stage: str
+    order: tuple[str | None, ...]
+
+
+@dataclass(frozen=True)
+class Changed:
+    """Other tables or races from now on, in the matches that have not begun; None: as before."""
+
+    tables: int | None = None
+    race: int | None = None
+    losers_race: int | None = None
+    final_race: int | None = None
+
+
+@dataclass(frozen=True)
 class Undone:
     """The last event that has not been undone yet is undone."""
 
 
-What: TypeAlias = Opened | Drawn | Late | Dropped | Called | Result | Undone
+What: TypeAlias = (
+    Opened
+    | Drawn
+    | Late
+    | Dropped
+    | Called
+    | Scored
+    | Result
+    | Ranked
+    | Changed
+    | LaterDraw
+    | Undone
+)
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
     "late": Late,
     "dropped": Dropped,
     "called": Called,
+    "scored": Scored,
     "result": Result,
+    "ranked": Ranked,
+    "later draw": LaterDraw,
+    "changed": Changed,
     "undone": Undone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
@@ -184,7 +270,11 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
         values: Any = {name: tuple(v) if isinstance(v, list) else v for name, v in data.items()}
         if kind == "opened":
             entrants = tuple(Entrant(**one) for one in values["entrants"])
-            return Opened(Plan(**values["plan"]), entrants)
+            plan = dict(values["plan"])
+            if plan.get("chart") is not None:
+                plan["chart"] = Chart(**plan["chart"])
+            plan["layout"] = tuple(_draft(*one) for one in plan.get("layout", ()))
+            return Opened(Plan(**plan), entrants)
         if kind == "late":
             return Late(Entrant(**values["entrant"]), values["line"])
         make: Any = KINDS[kind]
@@ -192,3 +282,10 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
         return made
     except (AttributeError, KeyError, TypeError) as error:
         raise InputError(f"{kind!r} with {data!r} is not an event of a tournament") from error
+
+
+def _draft(name: str, side: str, number: int, slots: Sequence[Any]) -> Draft:
+    def slot(one: Any) -> DraftSlot:
+        return one if one is None or isinstance(one, int) else Source(*one)
+
+    return Draft(name, side, number, (slot(slots[0]), slot(slots[1])))

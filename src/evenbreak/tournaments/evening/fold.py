@@ -16,30 +16,39 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.brackets.double import double_elimination
-from evenbreak.tournaments.brackets.groups import round_robin
+from evenbreak.tournaments.brackets.bracket import Bracket, Group
+from evenbreak.tournaments.brackets.double import double_elimination, pods
+from evenbreak.tournaments.brackets.group_ranks import ranked
+from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
 from evenbreak.tournaments.brackets.knockout import (
     consolation,
     king_of_the_hill,
     single_elimination,
 )
+from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
+from evenbreak.tournaments.brackets.swiss import swiss_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Entrant,
     Event,
     Late,
+    LaterDraw,
     Opened,
     Plan,
+    Ranked,
     Result,
+    Scored,
     Undone,
 )
-from evenbreak.tournaments.odds.races import Fairest, Races, games_needed
+from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
+from evenbreak.tournaments.evening.races_of_plan import changed, races_of
+from evenbreak.tournaments.odds.races import Races, games_needed
 
-ELIMINATIONS = ("double", "single", "consolation")
+ELIMINATIONS = ("double", "single", "pods", "consolation")
 
 
 class Played(NamedTuple):
@@ -53,6 +62,13 @@ class OnTable(NamedTuple):
     """A match that has been called, and when."""
 
     call: Called
+    at: str
+
+
+class LiveScore(NamedTuple):
+    """The last score of a match in play, and when it came in."""
+
+    what: Scored
     at: str
 
 
@@ -76,6 +92,12 @@ class Evening:
         the players who have gone home.
     calls
         the last call of each match.
+    scores
+        the last live score of each match.
+    ties
+        the last breaking of the ties of each group.
+    later
+        what was drawn in the course of the evening, by stage.
     events
         the events that were not undone.
     """
@@ -87,6 +109,9 @@ class Evening:
     records: Mapping[str, tuple[Played, ...]]
     dropped: tuple[str, ...]
     calls: Mapping[str, OnTable]
+    scores: Mapping[str, LiveScore]
+    ties: Mapping[str, Ranked]
+    later: Mapping[str, tuple[str | None, ...]]
     events: tuple[Event, ...]
 
     @property
@@ -107,6 +132,15 @@ class Evening:
             raise InputError(
                 "the draw has not been made yet; make it with evenbreak tournament draw"
             )
+        return bracket_now(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def whole(self) -> Bracket:
+        """The bracket with a stand-in for what is drawn in the course of the evening."""
+        return whole_bracket(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def _drawn_up(self) -> Bracket:
         return bracket_of(self.plan, self.order, self.lines)
 
     @property
@@ -136,8 +170,13 @@ class Evening:
 
     @property
     def winners(self) -> dict[str, str]:
-        """The winner of each decided match."""
+        """Who moved on from each decided match as its winner."""
         return {name: result.winner for name, result in self.counted.items()}
+
+    @property
+    def results(self) -> dict[str, str | tuple[str, ...]]:
+        """The same, and the final order of each group whose ties were broken."""
+        return self._settled[2]
 
     @cached_property
     def aside(self) -> tuple[Played, ...]:
@@ -155,6 +194,15 @@ class Evening:
             if name in self.standing.to_play and set(self.pair(name)) == set(one.call.players)
         }
 
+    @cached_property
+    def live(self) -> dict[str, LiveScore]:
+        """The scores of the matches in play."""
+        return {
+            name: one
+            for name, one in self.scores.items()
+            if name in self.standing.to_play and set(self.pair(name)) == set(one.what.players)
+        }
+
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
@@ -168,10 +216,16 @@ class Evening:
         return int(m[0]), int(n[0])
 
     @cached_property
-    def _settled(self) -> tuple[dict[str, Result], Standing]:
+    def _settled(self) -> tuple[dict[str, Result], Standing, dict[str, str | tuple[str, ...]]]:
         counted: dict[str, Result] = {}
         while True:
-            now = standing(self.bracket, {name: one.winner for name, one in counted.items()})
+            results: dict[str, str | tuple[str, ...]] = {
+                n: one.winner for n, one in counted.items()
+            }
+            now = standing(self.bracket, results)
+            results |= {n: one.order for n, one in self.ties.items() if _breaks_ties(now, one)}
+            if len(results) > len(counted):
+                now = standing(self.bracket, results)
             found = {}
             for name in now.to_play:
                 one, other = now.seats[name]
@@ -180,7 +234,7 @@ class Evening:
                 if result is not None:
                     found[name] = result
             if not found:
-                return counted, now
+                return counted, now, results
             counted |= found
 
     def _result(self, match: str, pair: tuple[str, str]) -> Result | None:
@@ -209,18 +263,30 @@ def evening(events: Iterable[Event]) -> Evening:
     {'F': 'Bo'}
     """
     first, kept = _kept(events)
+    plan = first.plan
     entrants = {entrant.name: entrant for entrant in first.entrants}
     order: list[str] = []
     lines: list[int | None] | None = None
     records: dict[str, list[Played]] = {}
     dropped: list[str] = []
     calls: dict[str, OnTable] = {}
+    scores: dict[str, LiveScore] = {}
+    ties: dict[str, Ranked] = {}
     for event in kept[1:]:
         match event.what:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
                 calls[call.match] = OnTable(call, event.at)
+            case Changed() as change:
+                begun = {*records, *calls}
+                drawn_up = tuple(order), None if lines is None else tuple(lines)
+                bracket = bracket_of(plan, *drawn_up) if order else None
+                plan = changed(plan, change, bracket, begun)
+            case Scored() as scored:
+                scores[scored.match] = LiveScore(scored, event.at)
+            case Ranked() as tie:
+                ties[tie.group] = tie
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
             case Late(entrant=entrant, line=line):
@@ -234,15 +300,37 @@ def evening(events: Iterable[Event]) -> Evening:
                 else:
                     del entrants[name]
     return Evening(
-        first.plan,
+        plan,
         entrants,
         tuple(order),
         None if lines is None else tuple(lines),
         {name: tuple(played) for name, played in records.items()},
         tuple(dropped),
         calls,
+        scores,
+        ties,
+        {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
     )
+
+
+def tied_ranks(now: Standing, group: Group) -> list[int]:
+    """Return how many players are ahead of each member of a group that is played out."""
+    winners = [now.winners[name] for name in group.matches]
+    return ranked(group.members, group.pairs, winners)
+
+
+def _breaks_ties(now: Standing, tie: Ranked) -> bool:
+    """Return whether a final order is one that the results of its group allow."""
+    for group in now.bracket.groups:
+        names = [now.bracket.players[k] for k in group.members]
+        if group.name != tie.group or not all(name in now.winners for name in group.matches):
+            continue
+        if sorted(names) == sorted(tie.order):
+            ahead = dict(zip(names, tied_ranks(now, group), strict=True))
+            ranks = [ahead[name] for name in tie.order]
+            return ranks == sorted(ranks)
+    return False
 
 
 def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
@@ -266,6 +354,8 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
     >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
     (('W1.1', 0),)
     """
+    if plan.layout:
+        return laid_out(plan.form, order, plan.layout)
     pattern: Any = plan.drops
     final: Any = plan.final
     match plan.form:
@@ -277,18 +367,23 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
             return single_elimination(order, third_place=plan.third_place, lines=lines)
         case "consolation":
             return consolation(order, lines=lines)
+        case "pods":
+            each: Any = plan.qualifiers or 1
+            return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
+        case "groups":
+            many = groups_of(plan, len(order))
+            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
         case "round-robin":
             return round_robin(order)
+        case "swiss":
+            return swiss_bracket(swiss_of(plan, order))
     return king_of_the_hill(order)
 
 
-def races_of(plan: Plan) -> Races:
-    """Return the races of a plan.
+def groups_of(plan: Plan, players: int) -> int:
+    """Return the number of groups: unless given, groups of four, or of three and four.
 
-    >>> races_of(Plan("double", 7, losers_race=5)).losers
-    5
+    >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
+    [2, 3, 4, 4]
     """
-    if not plan.handicapped:
-        return Races(plan.race, plan.losers_race, plan.final_race)
-    losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
-    return Races(Fairest(plan.race), losers, last)
+    return plan.groups or max(2, -(-players // 4))

@@ -16,14 +16,18 @@ from evenbreak.tournaments.brackets.seeding import (
 )
 from evenbreak.tournaments.evening.events import (
     Called,
+    Changed,
     Drawn,
     Dropped,
     Entrant,
     Late,
+    LaterDraw,
     Result,
+    Scored,
     Undone,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.later_draws import draw_later
 
 MOST_PLAYERS = 256
 
@@ -49,6 +53,22 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
     return Drawn(tuple(names), lines)
 
 
+def draw_next(state: Evening, rng: np.random.Generator) -> list[Drawn | LaterDraw]:
+    """Draw what is to be drawn next: the bracket, the next round of a Swiss, or qualifiers.
+
+    Raises
+    ------
+    InputError
+        if there is nothing to draw, or it must wait for matches.
+    """
+    if state.drawn:
+        return [draw_later(state, rng)]
+    first = draw(state, rng)
+    if state.plan.form != "swiss":
+        return [first]
+    return [first, draw_later(replace(state, order=first.order), rng)]
+
+
 def result(state: Evening, match: str, score: tuple[int, int]) -> Result:
     """Enter the result of a match that has not been decided."""
     name = known_match(state, match)
@@ -68,14 +88,37 @@ def correct(state: Evening, match: str, score: tuple[int, int]) -> Result:
     pair = state.pair(name)
     found = Result(name, pair, score, _winner(state, name, pair, score), corrects=True)
     before = state.counted[name]
-    if not before.forfeit and before.games == found.games:
+    if not before.forfeit and before.games == found.games and before.winner == found.winner:
         raise InputError(f"{name} has that result already: {score_words(before)}")
     return found
 
 
-def forfeit(state: Evening, match: str, player: str) -> Result:
-    """Let a player forfeit a match."""
-    name, loser = known_match(state, match), known_player(state, player)
+def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
+    """Enter the score of a match in play."""
+    name = known_match(state, match)
+    if (before := state.counted.get(name)) is not None:
+        raise InputError(f"{name} has a result, {score_words(before)}")
+    _refuse_waiting(state, name)
+    pair = state.pair(name)
+    needs = state.needed(name, pair)
+    if score[0] >= needs[0] or score[1] >= needs[1]:
+        raise InputError(
+            f"{score[0]}:{score[1]} ends {name}, a race {_race_words(needs)}; enter it with "
+            f"result {name} {score[0]}:{score[1]}"
+        )
+    return Scored(name, pair, score)
+
+
+def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
+    """Let a player forfeit a match; None: the only one that they can play now."""
+    loser = known_player(state, player)
+    if match is None:
+        ready = [name for name in state.standing.to_play if loser in state.pair(name)]
+        if len(ready) != 1:
+            which = f"say which: {', '.join(ready)}" if ready else "it can be forfeited when it is"
+            raise InputError(f"{loser} has {len(ready) or 'no'} matches ready; {which}")
+        match = ready[0]
+    name = known_match(state, match)
     if name in state.counted:
         raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
     _refuse_waiting(state, name)
@@ -135,7 +178,31 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     if chosen not in free:
         there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
         raise InputError(f"table {chosen} is taken by {there}")
+    for there, one in state.on_tables.items():
+        for player in set(state.pair(name)) & set(one.call.players):
+            raise InputError(f"{player} is playing {there} on table {one.call.table}")
     return Called(name, chosen, state.pair(name))
+
+
+def change(
+    state: Evening,
+    *,
+    tables: int | None = None,
+    race: int | None = None,
+    losers_race: int | None = None,
+    final_race: int | None = None,
+) -> Changed:
+    """Change the tables, or the races of the matches that have not begun."""
+    found = Changed(tables, race, losers_race, final_race)
+    if found == Changed():
+        raise InputError("nothing is changed; give --tables, --race, --losers-race or --final-race")
+    if state.plan.chart is not None and found != Changed(tables):
+        raise InputError("the races come from a chart, so only the tables can be changed")
+    if tables is not None and state.drawn:
+        taken = max((one.call.table for one in state.on_tables.values()), default=0)
+        if tables < taken:
+            raise InputError(f"a match is on table {taken}; end it before you close the table")
+    return found
 
 
 def undo(state: Evening) -> Undone:
@@ -160,10 +227,18 @@ def known_match(state: Evening, text: str) -> str:
 
 
 def known_player(state: Evening, text: str) -> str:
-    """Return the name of a player, in whatever case and spacing it was written."""
+    """Return the name of a player, in whatever case and spacing it was written.
+
+    The beginning of a first or last name will do if nobody else's begins like that.
+    """
     wanted = " ".join(text.split()).casefold()
     names = {name.casefold(): name for name in state.entrants}
     if wanted not in names:
+        begin = [name for name in names if wanted and f" {wanted}" in f" {name}"]
+        if len(begin) == 1:
+            return names[begin[0]]
+        if begin:
+            raise InputError(f"{text!r} may be {some_of([names[name] for name in begin])}")
         near = get_close_matches(wanted, names, 1)
         hint = f"; did you mean {names[near[0]]}?" if near else ""
         raise InputError(f"{text!r} is not in this tournament{hint}")
@@ -178,6 +253,9 @@ def score_words(found: Result) -> str:
     """
     if found.forfeit:
         return f"{found.loser} forfeited to {found.winner}"
+    if found.stands:
+        beaten = replace(found, winner=found.loser, stands=False)
+        return f"{score_words(beaten)}, but {found.winner} has played on"
     won, lost = found.games[found.winner], found.games[found.loser]
     return f"{found.winner} beat {found.loser} {won}:{lost}"
 
@@ -200,10 +278,14 @@ def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, 
         return pair[0]
     if other == n and one < m:
         return pair[1]
-    needs = f"to {m}" if m == n else f"{m}:{n}"
     raise InputError(
-        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race {needs}"
+        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race "
+        f"{_race_words((m, n))}"
     )
+
+
+def _race_words(needs: tuple[int, int]) -> str:
+    return f"to {needs[0]}" if needs[0] == needs[1] else f"{needs[0]}:{needs[1]}"
 
 
 def _rival(state: Evening, line: int) -> int:

@@ -54,7 +54,28 @@ class Fairness:
     @property
     def spread(self) -> float:
         """The root mean square of the edges: 0 is fair to everybody."""
-        return float(np.sqrt(np.mean(self.edge**2)))
+        return unfairness(self.odds.title)
+
+
+def upper_half(ratings: Floats, title: Floats) -> float:
+    """Return P(the title goes to the upper half by rating); a player in the middle counts half.
+
+    >>> upper_half(np.array([600.0, 500.0, 400.0]), np.array([0.5, 0.3, 0.2]))
+    0.65
+    """
+    order = np.argsort(-ratings, kind="stable")
+    half = len(order) // 2
+    middle = 0.5 * title[order[half]] if len(order) % 2 else 0.0
+    return float(title[order[:half]].sum() + middle)
+
+
+def unfairness(title: Floats) -> float:
+    """Return how far title odds are from equal: the root mean square, in equal shares.
+
+    >>> unfairness(np.array([0.75, 0.25]))
+    0.5
+    """
+    return float(np.sqrt(np.mean((len(title) * title - 1.0) ** 2)))
 
 
 def tournament_fairness(
@@ -84,12 +105,7 @@ def tournament_fairness(
     laws = pair_odds(bracket, rated, plan, scale=scale, break_advantage=break_advantage)
     odds = title_odds(bracket, laws)
     edge = len(rated) * odds.title - 1.0
-    order = np.argsort(-rated, kind="stable")
-    half = np.zeros(len(rated))
-    half[order[: len(rated) // 2]] = 1.0
-    if len(rated) % 2:
-        half[order[len(rated) // 2]] = 0.5
-    return Fairness(plan, odds, edge, float(half @ odds.title), _games(odds, laws))
+    return Fairness(plan, odds, edge, upper_half(rated, odds.title), _games(odds, laws))
 
 
 def fairest_races(

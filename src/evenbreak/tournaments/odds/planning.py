@@ -36,7 +36,9 @@ _MOST_KEPT = 2_000_000  # states of all plans that are kept for later
 _SPARE = 8  # keys are looked up in a table if it is not this many times longer than the keys
 
 
-class _Table(NamedTuple):
+class Table(NamedTuple):
+    """The joint states of a part of the bracket: the player in each open slot."""
+
     step: int
     size: int
     columns: dict[Source, Players]
@@ -111,8 +113,9 @@ def _built(
                 outlets.setdefault(slot.match, []).append(slot)
     groups = {group.name: group for group in bracket.groups}
     results = dict(assumed)
+    nobody = len(bracket.players)
     steps: list[Step] = []
-    home: dict[Source, _Table] = {}
+    home: dict[Source, Table] = {}
     total = 0
     for name in order.names:
         step: Step
@@ -125,15 +128,15 @@ def _built(
             total += states
             if states > most_states or total > 3.0 * most_states:
                 return None
-            step = _match_step(bracket, match, tables, outlets.get(name, []), results.get(name))
-        table = _Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
+            step = match_step(match, tables, outlets.get(name, []), nobody, results.get(name))
+        table = Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
         home.update(dict.fromkeys(step.slots, table))
         steps.append(step)
     return Plan(bracket, tuple(steps))
 
 
-def _tables(match: Match, home: dict[Source, _Table]) -> list[_Table]:
-    found: dict[int, _Table] = {}
+def _tables(match: Match, home: dict[Source, Table]) -> list[Table]:
+    found: dict[int, Table] = {}
     for slot in match.slots:
         if isinstance(slot, Source):
             found[home[slot].step] = home[slot]
@@ -150,14 +153,28 @@ def _group_step(group: Group, outlets: list[Source]) -> GroupStep:
     return GroupStep(group, pairs, ranks, len(states), tuple(outlets), tuple(players.T))
 
 
-def _match_step(
-    bracket: Bracket,
+def match_step(
     match: Match,
-    tables: list[_Table],
+    tables: list[Table],
     outlets: list[Source],
-    result: int | None,
+    nobody: int,
+    result: int | None = None,
 ) -> MatchStep:
-    nobody = len(bracket.players)
+    """Return the step of one match.
+
+    Parameters
+    ----------
+    match
+        the match.
+    tables
+        the states of the parts that it joins.
+    outlets
+        the slots that its winner and loser go to.
+    nobody
+        what stands for nobody: the number of players.
+    result
+        its winner, if that is assumed.
+    """
     size, columns = _joined(tables)
     first, second = (
         columns.pop(slot)
@@ -200,7 +217,7 @@ def _match_step(
     )
 
 
-def _joined(tables: list[_Table]) -> tuple[int, dict[Source, Players]]:
+def _joined(tables: list[Table]) -> tuple[int, dict[Source, Players]]:
     """Return the joint states of up to two parts: all pairs of their states."""
     if not tables:
         return 1, {}

@@ -85,7 +85,7 @@ def play_out(
         for slot in match.slots:
             if isinstance(slot, Source):
                 outlets.setdefault(slot.match, []).append(slot)
-    last_of_group = {group.matches[-1]: group for group in bracket.groups}
+    last_of_group = {group.matches[-1]: group for group in bracket.groups if group.matches}
 
     def seated(slot: Slot) -> Players:
         if isinstance(slot, Source):

@@ -23,6 +23,7 @@ from evenbreak.handicaps.charts.race_of_pair import Fairest as Fairest
 from evenbreak.handicaps.charts.race_of_pair import Race as Race
 from evenbreak.handicaps.charts.race_of_pair import games_needed as games_needed
 from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.form import MOST_NODES, centre_of_form, form_of, normal_rule
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match
 
@@ -99,6 +100,7 @@ def pair_odds(
     scale: Scale | str | float = "fargo",
     break_advantage: float = 0.0,
     breaks: BreakFormat = alternate_breaks,
+    form: float = 0.0,
 ) -> dict[str, PairOdds]:
     """Return the odds of each match, given the ratings: what `title_odds` takes as `win`.
 
@@ -116,11 +118,14 @@ def pair_odds(
         by how many points the breaker of a game plays better.
     breaks
         who breaks next; either player may win the lag. It matters with a break advantage only.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation); see
+        `final_scores`.
 
     Raises
     ------
     InputError
-        if a rating or a race cannot be used.
+        if a rating or a race cannot be used, or form is not in 0 to 3.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> bracket = double_elimination(["Ann", "Bo"])
@@ -136,9 +141,46 @@ def pair_odds(
         race = plan.of(match)
         if _key(race) not in made:
             needs = games_needed(points, race, scale)
-            made[_key(race)] = _ends(points, needs, scale, advantage, breaks)
+            made[_key(race)] = _in_form(points, needs, scale, advantage, breaks, form_of(form))
         laws[match.name] = made[_key(race)]
     return laws
+
+
+def from_score(
+    law: PairOdds,
+    players: tuple[int, int],
+    needs: tuple[int, int],
+    score: tuple[int, int],
+    p: float,
+) -> PairOdds:
+    """Return the odds of a match in play, for the two who play it.
+
+    Parameters
+    ----------
+    law
+        the odds at its start.
+    players
+        the two players, by position.
+    needs
+        the games that each needs in all.
+    score
+        the games that each has won.
+    p
+        P(the first player wins a game).
+
+    >>> from evenbreak.tournaments import single_elimination
+    >>> start = pair_odds(single_elimination(2), [500, 500], 5)["F"]
+    >>> from_score(start, (0, 1), (5, 5), (4, 3), 0.5).win[0, 1]
+    np.float64(0.75)
+    """
+    one, other = players
+    won, lost = race_endings(needs[0] - score[0], needs[1] - score[1], Rack(p), None, 1)
+    played = sum(score)
+    ends = law.ends.copy()
+    ends[one, other] = ends[other, one] = 0.0
+    ends[one, other, played : played + len(won)] = won
+    ends[other, one, played : played + len(lost)] = lost
+    return PairOdds(ends)
 
 
 def chances_given(
@@ -201,6 +243,25 @@ def _checked(
 
 def _key(race: Race) -> int | tuple[int, ...]:
     return race if isinstance(race, int) else (id(race),)
+
+
+def _in_form(
+    points: Floats,
+    needs: tuple[Ints, Ints],
+    scale: Scale,
+    advantage: float,
+    breaks: BreakFormat,
+    form: float,
+) -> PairOdds:
+    """Return the odds averaged over form of the day, which leaves the chance of a game as it is."""
+    if form == 0.0:
+        return _ends(points, needs, scale, advantage, breaks)
+    centre = np.asarray(scale.points(centre_of_form(scale.log_odds(points), 0.0, form)))
+    nodes, weights = normal_rule(form, int(np.max(needs[0] + needs[1])), MOST_NODES)
+    # Of a pair only the first player's chances are looked at; the other has what is left.
+    days = (centre + scale.points(form * node) for node in nodes)
+    parts = (_ends(day, needs, scale, advantage, breaks).ends for day in days)
+    return PairOdds(sum(w * part for w, part in zip(weights, parts, strict=True)))
 
 
 def _ends(

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import permutations
 from math import factorial
+from typing import Any
 
 import numpy as np
 
 from evenbreak.checks import whole
-from evenbreak.errors import InputError
-from evenbreak.tournaments.brackets.bracket import Bracket, Match, Slot
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.double import losers_qualifiers, redrawn
 from evenbreak.tournaments.brackets.standing import Results
 from evenbreak.tournaments.odds.chances import Wins
 from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
@@ -25,6 +25,7 @@ def redraw_odds(
     results: Results | None = None,
     samples: int = 40,
     rng: np.random.Generator | None = None,
+    **asked: Any,
 ) -> PlaceOdds:
     """Return who finishes where if the losers' qualifiers are still to be drawn.
 
@@ -39,6 +40,8 @@ def redraw_odds(
         how many redraws are sampled if there are more than 24.
     rng
         where pseudo-random numbers come from then; None: a generator with the seed 0.
+    asked
+        other parameters of `title_odds`.
 
     Raises
     ------
@@ -51,33 +54,19 @@ def redraw_odds(
     >>> odds.title.round(3).tolist(), odds.samples
     ([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125], 0)
     """
-    first = [match for match in bracket.matches if match.name.startswith("K1.")]
-    if not first or not bracket.format.startswith("double elimination"):
-        raise InputError("bracket has no qualifiers to redraw; give double_elimination 4 or more")
-    qualifiers = [match.slots[1] for match in first]
-    if factorial(len(first)) <= _ALL:
-        orders = list(permutations(range(len(first))))
+    qualifiers = losers_qualifiers(bracket)
+    if factorial(len(qualifiers)) <= _ALL:
+        orders = list(permutations(qualifiers))
     else:
         rng = rng or np.random.default_rng(0)
         many = whole(samples, "samples", at_least=2)
-        orders = [tuple(rng.permutation(len(first)).tolist()) for _ in range(many)]
-    found = [
-        title_odds(_placed(bracket, first, [qualifiers[k] for k in order]), win, results=results)
-        for order in orders
-    ]
+        seats = [rng.permutation(len(qualifiers)).tolist() for _ in range(many)]
+        orders = [tuple(qualifiers[k] for k in seat) for seat in seats]
+    found = [title_odds(redrawn(bracket, order), win, results=results, **asked) for order in orders]
     laws = np.stack([odds.p_place for odds in found])
     inner = np.stack([odds.error for odds in found])
     variance = (inner**2).mean(axis=0) / len(found)
-    if len(orders) < factorial(len(first)):
+    if len(orders) < factorial(len(qualifiers)):
         variance = laws.var(axis=0, ddof=1) / len(found)
     samples = 0 if not variance.any() else max(len(orders), sum(odds.samples for odds in found))
     return PlaceOdds(bracket, laws.mean(axis=0), np.sqrt(variance), samples)
-
-
-def _placed(bracket: Bracket, first: list[Match], order: list[Slot]) -> Bracket:
-    """Return the bracket with other qualifiers in the second slots."""
-    slots = {match.name: (match.slots[0], slot) for match, slot in zip(first, order, strict=True)}
-    matches = tuple(
-        replace(match, slots=slots.get(match.name, match.slots)) for match in bracket.matches
-    )
-    return replace(bracket, matches=matches)

@@ -129,6 +129,42 @@ def over_ratings(
     return UncertainOdds(odds, sure)
 
 
+def drawn_chances(
+    bracket: Bracket,
+    win_of: Callable[[Floats], Wins],
+    ratings: Sequence[float] | ArrayLike,
+    spread: ArrayLike,
+    *,
+    samples: int,
+    walkovers: float | Mapping[str, float] = 0.0,
+    rng: np.random.Generator,
+) -> dict[str, Floats]:
+    """Return the chances of each match by many draws of the ratings, which are the third axis.
+
+    Parameters
+    ----------
+    samples
+        how many draws: an even number.
+
+    The other parameters are those of `over_ratings`.
+
+    >>> def by_points(ratings):
+    ...     return 1.0 / (1.0 + 2.0 ** ((ratings - ratings[:, None]) / 100.0))
+    >>> from evenbreak.tournaments import single_elimination
+    >>> rng, bracket = np.random.default_rng(0), single_elimination(2)
+    >>> drawn_chances(bracket, by_points, [600, 500], [30, 30], samples=4, rng=rng)["F"].shape
+    (2, 2, 4)
+    """
+    now = standing(bracket)
+    mean = column(ratings, "ratings", len(bracket.players), "players")
+    drawn = mean + _errors(spread, len(mean), samples // 2, rng)
+    every = _stacked([chances_of(now, win_of(row), walkovers=walkovers) for row in drawn])
+    inner: dict[int, Floats] = {}
+    for table in every.tables.values():
+        inner.setdefault(id(table), table[:-1, :-1])
+    return {name: inner[id(table)] for name, table in every.tables.items()}
+
+
 def _draws(plan: Plan | None, players: int) -> int:
     """Return how many draws of the ratings take a second or two."""
     if plan is None:

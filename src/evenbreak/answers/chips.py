@@ -1,0 +1,331 @@
+"""Chip tournaments: the odds of one, whom a chip chart favours, and a fairer chart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.tournament_odds import share
+from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.chips.chip_charts import ChipChart, ChipRow
+from evenbreak.tournaments.chips.chip_fairness import ChipFairness, chip_fairness, fairest_chips
+from evenbreak.tournaments.chips.endgame import heads_up, last_players
+from evenbreak.tournaments.chips.play import play_chips
+from evenbreak.tournaments.chips.racks import rack_chances
+from evenbreak.tournaments.odds.fairness import upper_half
+
+_FIELD = 16  # players of a made-up field
+_SHOWN = 3  # places that everybody sees
+_EXACT = 4  # players at most whose chances are exact
+
+
+@dataclass(frozen=True, eq=False)
+class ChipField:
+    """The players of a chip tournament.
+
+    Parameters
+    ----------
+    names, ratings
+        who they are.
+    scale
+        what the ratings mean.
+    tables
+        how many tables there are.
+    source
+        where they come from, in words.
+    """
+
+    names: Sequence[str]
+    ratings: Floats
+    scale: Scale
+    tables: int
+    source: str
+
+    @property
+    def words(self) -> str:
+        """Who plays, in words."""
+        return (
+            f"{count_of(len(self.names), 'player')} {self.source}, on "
+            f"{count_of(self.tables, 'table')}; ratings {scale_words(self.scale)}"
+        )
+
+
+def spread_field(scale: Scale, tables: int) -> ChipField:
+    """Return a field of 16 players, two doublings of the odds to either side of the middle.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> spread_field(SCALES["fargo"], 4).ratings[[0, -1]]
+    array([700., 300.])
+    """
+    reach = 2.0 * scale.points_per_doubling
+    ratings = np.linspace(scale.centre + reach, scale.centre - reach, _FIELD).round()
+    names = [f"{points:g}" for points in ratings.tolist()]
+    source = f"rated from {ratings[-1]:g} to {ratings[0]:g}"
+    return ChipField(names, ratings, scale, tables, source)
+
+
+def chip_odds_answer(
+    field: ChipField,
+    chart: ChipChart | None = None,
+    left: Mapping[str, int] | None = None,
+    *,
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return who wins a chip tournament.
+
+    Parameters
+    ----------
+    field
+        the players.
+    chart
+        the chips at the start.
+    left
+        instead: the last players at one table and their chips, in the order of the line; the
+        first stays at the table, the second is the challenger.
+    seed
+        of the simulation.
+    warnings
+        about the question.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> ratings = np.array([650.0, 350.0])
+    >>> field = ChipField(["Ann", "Bo"], ratings, SCALES["fargo"], 1, "in club.csv")
+    >>> print(chip_odds_answer(field, left={"Ann": 4, "Bo": 8}).sentences[0])
+    Ann is the favourite and wins 97% of the time.
+    """
+    rng = np.random.default_rng(seed)
+    if left is None:
+        if chart is None:
+            raise InputError("chip chart is None; give one, or the chips that are left")
+        names, ratings = list(field.names), field.ratings
+        chips = chart.chips(ratings).tolist()
+    else:
+        names, chips = list(left), list(left.values())
+        unknown = [name for name in names if name not in field.names]
+        if unknown:
+            raise InputError(f"{unknown[0]!r} is not {field.source}")
+        ratings = np.array([field.ratings[list(field.names).index(name)] for name in names])
+    racks = rack_chances(ratings, scale=field.scale)
+    exact = left is not None and len(names) <= _EXACT
+    error: Floats | None = None
+    if left is not None and exact:
+        p_place = last_players(chips, racks).p_place
+        how = "The odds are exact, if the ratings are right."
+    else:
+        line = None if left is None else range(len(names))
+        tables = field.tables if left is None else 1
+        played = play_chips(chips, racks, tables=tables, line=line, rng=rng)
+        p_place, error = played.p_place, played.error[:, 0]
+        how = _luck_words(played.runs, error)
+        if left is None:
+            how += " The players come to the tables in an order that is drawn anew each time."
+    order = np.argsort(-p_place[:, 0], kind="stable").tolist()
+    places = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
+    columns = [
+        Column("name", "player", left=True),
+        Column("rating", "rating"),
+        Column("chips", "chips"),
+    ]
+    columns += [Column(key, words, share) for key, words in places[: len(names)]]
+    rows: list[list[Any]] = [
+        [names[k], float(ratings[k]), chips[k], *p_place[k, :_SHOWN].tolist()] for k in order
+    ]
+    if error is not None:
+        columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
+        for row, k in zip(rows, order, strict=True):
+            row.append(float(error[k]))
+    best = order[0]
+    words = f"{names[best]} is the favourite and wins {percent(p_place[best, 0])} of the time."
+    if left is None:
+        words += f" An equal share would be {percent(1.0 / len(names))}."
+    table = Table("players", columns, rows)
+    heading = f"Chip tournament: {field.words}"
+    if left is not None:
+        heading = f"The last {len(names)} of a chip tournament; ratings {scale_words(field.scale)}"
+    elif chart is not None:
+        heading += f"\nChips by the chart {chart.name}"
+    parts: list[Part] = [words, Quantities([Quantity("exact", exact)]), table, how]
+    return Answer(heading, parts, warnings=list(warnings), csv=table)
+
+
+def chip_audit_answer(
+    field: ChipField, chart: ChipChart, *, seed: int = 0, warnings: Sequence[str] = ()
+) -> Answer:
+    """Return whom a chip chart favours: over a tournament, and between the last two players.
+
+    Parameters
+    ----------
+    field
+        the players of the tournament.
+    chart
+        the chips by rating.
+    seed
+        of the simulation.
+    warnings
+        about the question.
+    """
+    found = chip_fairness(field.ratings, chart, scale=field.scale, tables=field.tables, seed=seed)
+    by_row = _row_table(chart, found)
+    between = _heads_up_table(chart, field.scale)
+    parts: list[Part] = [_favour_words(field, found), _fairness(found), by_row, between]
+    parts.append(_luck_words(found.odds.runs, found.odds.error[:, 0]))
+    if chart.source:
+        parts.append(f"Chart: {chart.source}.")
+    heading = f"{chart.name}: {field.words}"
+    return Answer(heading, parts, warnings=list(warnings), csv=by_row)
+
+
+def chip_design_answer(
+    field: ChipField,
+    *,
+    bands: Sequence[float] | None = None,
+    fewest: int = 2,
+    most: int = 10,
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return the chip chart that makes a tournament as even as a search can.
+
+    Parameters
+    ----------
+    field
+        the players of the tournament.
+    bands
+        where the rows of the chart begin; None: a row for each half doubling of the odds.
+    fewest, most
+        the fewest and the most chips of a player.
+    seed
+        of the simulation.
+    warnings
+        about the question.
+    """
+    starts = _bands(field) if bands is None else sorted(bands)
+    found = fairest_chips(
+        field.ratings,
+        bands=starts,
+        fewest=fewest,
+        most=most,
+        scale=field.scale,
+        tables=field.tables,
+        seed=seed,
+    )
+    chart = _chart_of(field.ratings, found, starts)
+    rows = [
+        [None if np.isinf(row.rating_from) else row.rating_from, row.chips] for row in chart.rows
+    ]
+    columns = [
+        Column("rating_from", "rating\nfrom", lambda start: f"{start:g}"),
+        Column("chips", "chips"),
+    ]
+    table = Table("chart", columns, rows, title="The chart")
+    parts: list[Part] = [_favour_words(field, found), _fairness(found), table]
+    parts += [_row_table(chart, found), _luck_words(found.odds.runs, found.odds.error[:, 0])]
+    heading = f"A fairer chip chart: {field.words}"
+    return Answer(heading, parts, warnings=list(warnings), csv=table)
+
+
+def _start(row: ChipRow) -> float | None:
+    """Return where a row of a chart begins; None for the weakest players' row."""
+    return None if np.isinf(row.rating_from) else row.rating_from
+
+
+def _bands(field: ChipField) -> list[float]:
+    """Return the multiples of half a doubling, seen from the middle, among the ratings."""
+    step = field.scale.points_per_doubling / 2.0
+    low, high = (
+        int(np.floor((end - field.scale.centre) / step) + 1)
+        for end in (field.ratings.min(), field.ratings.max())
+    )
+    return [field.scale.centre + k * step for k in range(low, high)]
+
+
+def _chart_of(ratings: Floats, found: ChipFairness, starts: Sequence[float]) -> ChipChart:
+    """Return the chart behind designed chips; a row without players goes with the one above."""
+    rows: list[ChipRow] = []
+    place = np.searchsorted(starts, ratings, side="right")
+    for k, start in enumerate([-np.inf, *starts]):
+        there = found.chips[place == k]
+        if there.size and (not rows or rows[-1].chips != there[0]):
+            rows.append(ChipRow(start if rows else -np.inf, int(there[0])))
+    return ChipChart("designed", rows)
+
+
+def _favour_words(field: ChipField, found: ChipFairness) -> str:
+    title, order = found.odds.title, np.argsort(-field.ratings, kind="stable")
+    upper = upper_half(field.ratings, title)
+    if abs(upper - 0.5) < 0.03:
+        verdict = "favours neither the stronger nor the weaker half of the field"
+    else:
+        verdict = f"favours the {'stronger' if upper > 0.5 else 'weaker'} half of the field"
+    top = order[0]
+    times = float(len(title) * title[top])
+    return (
+        f"The chart {verdict}: the stronger half wins the tournament {percent(upper)} of the time, "
+        f"where 50% would be even.\nThe strongest player wins {percent(title[top])} of the time, "
+        f"{times:.1f} times an equal share."
+    )
+
+
+def _fairness(found: ChipFairness) -> Quantities:
+    return Quantities(
+        [
+            Quantity("spread", found.spread, "unfairness (0: equal odds for all)", decimals(2)),
+            Quantity("racks_mean", found.odds.racks_mean, "racks until two are left", decimals(0)),
+        ]
+    )
+
+
+def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
+    """Return, for each row of a chart, how often its players win."""
+    starts = [row.rating_from for row in chart.rows]
+    place = np.searchsorted(starts, found.ratings, side="right") - 1
+    rows: list[list[Any]] = []
+    for k, row in reversed(list(enumerate(chart.rows))):
+        there = place == k
+        title = float(found.odds.title[there].mean()) if there.any() else None
+        times = None if title is None else len(place) * title
+        rows.append([_start(row), row.chips, int(there.sum()), title, times])
+    columns = [
+        Column("band_from", "rating\nfrom", lambda start: f"{start:g}"),
+        Column("chips", "chips"),
+        Column("players", "players"),
+        Column("p_title", "title,\neach", share),
+        Column("times_equal_share", "times an\nequal share", decimals(2)),
+    ]
+    return Table("rows", columns, rows, title="Odds of the title by row of the chart")
+
+
+def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
+    steps = (1.5, 0.5, -0.5, -1.5)
+    ratings = [scale.centre + step * scale.points_per_doubling for step in steps]
+    rows = []
+    for stronger, weaker in combinations(ratings, 2):
+        a, b = chart.chips([stronger, weaker]).tolist()
+        p = heads_up(float(scale.win_probability(stronger - weaker)), a, b)
+        rows.append([stronger, weaker, (a, b), p])
+    columns = [
+        Column("stronger", "stronger", lambda r: f"{r:g}"),
+        Column("weaker", "weaker", lambda r: f"{r:g}"),
+        Column(("chips_stronger", "chips_weaker"), "chips", lambda pair: f"{pair[0]}:{pair[1]}"),
+        Column("p_stronger", "the stronger\nwins", chance),
+    ]
+    return Table("heads_up", columns, rows, title="If the last two have all their chips")
+
+
+def _luck_words(runs: int, error: Floats) -> str:
+    points = 200.0 * float(error.max())
+    return (
+        f"{runs:,} tournaments were played out; other luck would move no title odds by more than "
+        f"about {points:.1f} percentage points."
+    )

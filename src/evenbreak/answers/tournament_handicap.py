@@ -1,0 +1,128 @@
+"""How fair the handicap of a whole tournament is, and which races would make it fairer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.parts import Column, Part, Quantity, Table
+from evenbreak.answers.tournament import Tournament
+from evenbreak.answers.wording import decimals, percent
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.tournaments.odds.fairness import (
+    Fairness,
+    fairest_races,
+    tournament_fairness,
+    unfairness,
+    upper_half,
+)
+from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.races import Fairest, Race
+from evenbreak.tournaments.odds.title import PlaceOdds
+
+_EVEN = 0.03  # a half of the field that is favoured by less than this is not
+_REACH = 2  # how many games longer or shorter a race may be
+_OTHERWISE = (3, 5, 7, 9, 11)  # games of the races that are tried in place of a chart
+_GAMES = (0.85, 1.02)  # the games of the fairer tournaments, as shares of today's
+_SHOWN = 5
+
+
+def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
+    """Return whom the races of a handicapped tournament favour.
+
+    >>> import numpy as np
+    >>> from evenbreak.tournaments import single_elimination, title_odds
+    >>> odds = title_odds(single_elimination(2), [[0.5, 0.6], [0.4, 0.5]])
+    >>> favours_words(np.array([600.0, 500.0]), odds)
+    'The races favour the stronger half of the field: it wins the title 60% of the time, where
+     50% would be fair.'
+    """
+    upper = upper_half(ratings, odds.title)
+    if abs(upper - 0.5) < _EVEN:
+        verdict = "are fair to both halves of the field: the stronger half"
+    else:
+        stronger = upper > 0.5
+        verdict = f"favour the {'stronger' if stronger else 'weaker'} half of the field: it"
+        upper = upper if stronger else 1.0 - upper
+    often = percent(upper)
+    return f"The races {verdict} wins the title {often} of the time, where 50% would be fair."
+
+
+def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
+    """Return the same as numbers."""
+    return [
+        Quantity("p_title_stronger_half", upper_half(ratings, odds.title)),
+        Quantity("unfairness", unfairness(odds.title)),
+    ]
+
+
+def fairer_races(tournament: Tournament) -> list[Part]:
+    """Return today's races and those by side that make the tournament fairest.
+
+    They take about as many games on average; the ratings are taken as right.
+
+    Raises
+    ------
+    InputError
+        if the races are not handicapped, something is still to be drawn, or the bracket is too
+        large for many exact answers.
+    """
+    bracket, races = tournament.bracket, tournament.races
+    if isinstance(races.race, int):
+        raise InputError("even races have no handicap to make fairer; give the handicapped ones")
+    if tournament.to_draw or exact_plan(bracket) is None:
+        raise InputError("fairer races are found for brackets with exact odds that are drawn")
+    asked: Any = {"scale": tournament.scale}
+    today = tournament_fairness(bracket, tournament.ratings, races, **asked)
+    sides = {match.side for match in bracket.matches}
+    found = fairest_races(
+        bracket,
+        tournament.ratings,
+        _lengths(races.race),
+        _lengths(races.losers or races.race) if sides & {"losers", "consolation"} else None,
+        _lengths(races.final or races.race) if "final" in sides else None,
+        most_games=_GAMES[1] * today.games_mean,
+        **asked,
+    )
+    found = [one for one in found if one.games_mean >= _GAMES[0] * today.games_mean]
+    columns = [
+        Column("race", "races", left=True),
+        Column("losers_race", "losers'\nside", left=True),
+        Column("final_race", "final", left=True),
+        Column("p_title_stronger_half", "stronger\nhalf wins", percent),
+        Column("unfairness", "unfairness", decimals(2)),
+        Column("games_mean", "games,\naverage", decimals(0)),
+    ]
+    rows = [_row(today), *map(_row, found[:_SHOWN])]
+    table = Table("fairer_races", columns, rows, title="Today's races, and the fairest by side")
+    return [
+        table,
+        "Unfairness is 0 if everybody has the same title odds, and 1 if they are off by an equal "
+        "share on average (root mean square). The stronger player needs the games in the table, "
+        "the weaker as many as is fairest.",
+    ]
+
+
+def _lengths(race: Race) -> Sequence[Race]:
+    if isinstance(race, Fairest):
+        first = max(1, race.race_to - _REACH)
+        return [Fairest(games) for games in range(first, race.race_to + _REACH + 1)]
+    return [Fairest(games) for games in _OTHERWISE]
+
+
+def _row(found: Fairness) -> list[Any]:
+    races = found.races
+    shown = [_words(race) for race in (races.race, races.losers, races.final)]
+    return [*shown, found.upper_half, found.spread, found.games_mean]
+
+
+def _words(race: Race | None) -> str | None:
+    match race:
+        case None:
+            return None
+        case Fairest(race_to=games):
+            return f"to {games}"
+        case int():
+            return f"to {race}"
+    return race.name

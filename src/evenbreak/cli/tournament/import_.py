@@ -1,0 +1,114 @@
+"""`evenbreak tournament import`: go on with a tournament that another program has saved."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.options import scale_option
+from evenbreak.cli.kit.paces import DISCIPLINES
+from evenbreak.cli.kit.values import LONGEST, Whole
+from evenbreak.cli.tournament.evening import answer_of, at_option
+from evenbreak.ratings.scale import Scale
+
+EXAMPLES = """\b
+Examples:
+  evenbreak tournament import cup.json --ratings entrants.csv --tables 6
+  evenbreak tournament odds
+"""
+
+
+@click.command("import", epilog=EXAMPLES)
+@click.argument("saved", metavar="FILE")
+@click.option("--ratings", metavar="ENTRANTS.csv", help="The players' ratings.")
+@scale_option("the one that the ratings' file states, else fargo", fixed=False)
+@click.option(
+    "--race", type=Whole(1, LONGEST), metavar="N", help="What is raced to.  [default: as saved]"
+)
+@click.option(
+    "--tables", type=Whole(1, 1000), metavar="T", help="The number of tables.  [default: as saved]"
+)
+@click.option(
+    "--discipline",
+    type=click.Choice(DISCIPLINES),
+    help="The game, for how long matches take.  [default: as saved, else 9-ball]",
+)
+@click.option(
+    "--out",
+    metavar="FILE.db",
+    default="tonight.db",
+    show_default=True,
+    help="The file of the tournament, which must not exist yet.",
+)
+@at_option
+@faces()
+def command(
+    *,
+    saved: str,
+    ratings: str | None,
+    scale: Scale | None,
+    race: int | None,
+    tables: int | None,
+    discipline: str | None,
+    out: str,
+    at: str,
+) -> Answer:
+    """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
+
+    The bracket, the results and the times are those of FILE; go on with the other commands. FILE
+    may also be the CSV of evenbreak tournament export --events.
+    Players without a rating are taken as average ones.
+    """
+    from dataclasses import replace
+
+    import numpy as np
+
+    from evenbreak import files
+    from evenbreak.answers.tournament import unrated_words
+    from evenbreak.answers.wording import count_of
+    from evenbreak.files.event_list import is_event_list, read_event_list
+    from evenbreak.files.saved_tournament import read_saved_tournament
+    from evenbreak.files.tournament_store import new_tournament
+    from evenbreak.ratings.scale import SCALES
+    from evenbreak.tournaments.evening.events import Entrant, Plan
+
+    known: dict[str, Entrant] = {}
+    warnings: list[str] = []
+    points = scale or SCALES["fargo"]
+    if ratings is not None:
+        file = files.read_entrants(ratings)
+        points, warnings = scale or file.scale or points, [*file.warnings]
+        errors = np.nan_to_num(file.roster.standard_error).tolist()
+        known = {
+            name: Entrant(name, rating, error)
+            for name, rating, error in zip(
+                file.roster.players, file.roster.rating.tolist(), errors, strict=True
+            )
+            if np.isfinite(rating)
+        }
+    plan = Plan(
+        "imported",
+        race or 0,
+        scale=points.text,
+        starter=points.centre,
+        starter_error=points.points_per_doubling,
+        tables=tables or 0,
+        discipline=discipline or "",
+    )
+    if is_event_list(saved):
+        events = read_event_list(saved)
+    else:
+        events = read_saved_tournament(saved, plan, known, at)
+    state = new_tournament(out, events)
+    players, played = len(state.entrants), len(state.winners) if state.drawn else 0
+    said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
+    unrated = [
+        one.name
+        for one in state.entrants.values()
+        if one.name not in known and one.standard_error == plan.starter_error
+    ]
+    if unrated:
+        said.append(unrated_words(unrated, plan.starter, plan.starter_error))
+    answer = answer_of(out, state, at, said)
+    return replace(answer, warnings=[*warnings, *answer.warnings])

@@ -1,0 +1,32 @@
+"""`evenbreak tournament stand`: let a match stand that the wrong player has played."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+
+
+@click.command("stand")
+@click.argument("match")
+@file_option
+@at_option
+@faces()
+def command(*, match: str, file: str, at: str) -> Answer:
+    """Let a match stand that was played before a correction sent somebody else into it.
+
+    The corrected score is kept, but those who have played on stay where they are.
+    """
+    from evenbreak.answers.tournament_moves import reopened
+    from evenbreak.tournaments.evening.moves import score_words
+    from evenbreak.tournaments.evening.settling import stand
+
+    before, state = add(file, at, lambda state: stand(state, match))
+    settled = [
+        f"{score_words(result)} in {name}."
+        for name, result in state.counted.items()
+        if before.counted.get(name, result) != result
+    ]
+    return answer_of(file, state, at, [*settled, *reopened(before, state)])

@@ -1,0 +1,209 @@
+"""Form of the day: in a match a player may be better or worse than usual, in all its games.
+
+On one day the log-odds of every game are c + e, with the same e throughout the match and
+e ~ N(0, f²). The form f is the standard deviation of log-odds that `evenbreak rate` estimates. c
+is such that the chance of a single game is what it is without form,
+
+    E expit(c + e) = p,
+
+since it is games that ratings are fitted to. Given e the games are independent, so the law of a
+score is that of the match without form, averaged over e by Gauss-Hermite quadrature. Games already
+played show what form the players are in: at the score i:j, e has the density
+p(e)^i (1 - p(e))^j φ(e / f), normalised.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import expit, logit, roots_hermitenorm
+
+from evenbreak.arrays import Floats
+from evenbreak.checks import number
+from evenbreak.errors import InputError
+from evenbreak.games.match import Match
+from evenbreak.games.rack import Rack
+from evenbreak.matches.parameters import AnyMatch, checked_match, rack_in, unit_of, with_rack
+
+MOST_FORM = 3.0
+"""The largest form allowed, in natural log-odds."""
+
+MOST_NODES, MOST_NODES_OF_SETS = 1000, 60
+"""Nodes of the average, of a race and of another match: enough for six digits, or for four."""
+
+_FEWEST_GAMES = 6  # shorter races need as many nodes as these
+_CLOSE = 1e-7  # a step of Newton's method whose successor is a rounding
+
+
+def form_of(form: Any) -> float:
+    """Return a form of the day if it is one: the standard deviation of a game's log-odds."""
+    wanted = f"0 to {MOST_FORM:g}, the standard deviation of the log-odds of a game"
+    return number(form, "form", low=0.0, high=MOST_FORM, wanted=wanted)
+
+
+def normal_rule(sd: float, longest: int, most: int) -> tuple[Floats, Floats]:
+    """Return nodes and weights of N(0, 1) that average chances to 1e-9, unless `most` are too few.
+
+    Parameters
+    ----------
+    sd
+        the largest standard deviation of log-odds.
+    longest
+        the games that both players together need.
+
+    Notes
+    -----
+    The number of nodes depends on the deviation compared with the width of W's rise, about
+    2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
+    """
+    if sd == 0.0:
+        return np.zeros(1), np.ones(1)
+    ratio = sd * math.sqrt(max(longest, _FEWEST_GAMES)) / 2.0
+    return _hermite(min(most, 24 + math.ceil(14.0 * ratio**2)))
+
+
+@cache
+def _hermite(number: int) -> tuple[Floats, Floats]:
+    nodes, weights = roots_hermitenorm(number)
+    weights = weights / weights.sum()
+    # The outermost nodes have no weight: dropping them drops most of a large rule.
+    kept = weights > 1e-18
+    return nodes[kept], weights[kept]
+
+
+def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
+    """Return the c for which a game is won as often with form as without.
+
+    That is, E expit(N(c, sd² + form²)) = E expit(N(mean, sd²)), to rounding.
+
+    Parameters
+    ----------
+    mean, sd
+        the log-odds of a game, and how far they may be off (standard deviation).
+    form
+        the standard deviation of form.
+
+    >>> centre_of_form([0.0, 1.0], 0.0, 0.5).round(4)
+    array([0.    , 1.0552])
+    """
+    mean, sd = np.broadcast_arrays(np.asarray(mean, dtype=float), np.asarray(sd, dtype=float))
+    if form == 0.0:
+        return mean
+    low = -np.abs(mean)  # so that the chances are small ones, known to all their digits
+    around = np.hypot(sd, form)
+    wanted, _ = _game(low, sd)
+    possible = wanted > np.finfo(float).tiny
+    centre = low * np.sqrt((1.0 + 0.35 * around**2) / (1.0 + 0.35 * sd**2))
+    for _ in range(50):
+        chance, slope = _game(centre, around)
+        # Newton's method for the logarithm of the chance, which is concave in c.
+        away = np.log(np.where(possible, chance / np.where(possible, wanted, 1.0), 1.0))
+        step = np.where(possible, away * chance / np.where(possible, slope, 1.0), 0.0)
+        centre = centre - step
+        if np.abs(step).max(initial=0.0) < _CLOSE:
+            break
+    return np.where(possible, -np.sign(mean) * centre, mean)
+
+
+def _game(mean: Floats, sd: Floats) -> tuple[Floats, Floats]:
+    """Return the chance of a game of which the log-odds are N(mean, sd²), and its slope."""
+    chance, slope = np.zeros(mean.shape), np.zeros(mean.shape)
+    for node, weight in zip(*normal_rule(float(sd.max(initial=0.0)), 2, MOST_NODES), strict=True):
+        p = expit(mean + sd * node)
+        chance += weight * p
+        slope += weight * p * (1.0 - p)
+    return chance, slope
+
+
+def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:
+    """Return a match on many days, and how likely each day is given the score.
+
+    Parameters
+    ----------
+    match
+        what is played from its start score on; its chances may be arrays.
+    form
+        the standard deviation of form, more than 0.
+
+    Returns
+    -------
+    tuple
+        the match with another axis at the end of its chances, one entry a day, and the weights of
+        the days, which sum to 1 over the last axis.
+
+    Raises
+    ------
+    InputError
+        if games were played and the chances depend on who broke them.
+
+    >>> from evenbreak.games import Race
+    >>> days, weights = on_days(Race(1, 1, Rack(0.6)), 0.5)
+    >>> round(float(days.rack.p1 @ weights), 12)
+    0.6
+    """
+    match = checked_match(match)
+    rack = rack_in(match)
+    nodes, weights = rule_for(match, form)
+    # A good day of player 1 is a bad one of player 2.
+    both = zip((rack.p1, rack.p2), (nodes, -nodes), strict=True)
+    many = with_rack(match, Rack(*(_on_days(p, form, e) for p, e in both if p is not None)))
+    return many, given_score(many, weights)
+
+
+def _on_days(p: Any, form: float, nodes: Floats) -> Floats:
+    """Return the chance on each day; one of 0 or 1 is the same on all days."""
+    log_odds = np.asarray(logit(p))
+    sure = np.isinf(log_odds)
+    centre = centre_of_form(np.where(sure, 0.0, log_odds), 0.0, form)
+    days = expit(centre[..., None] + form * nodes)
+    return np.where(sure[..., None], np.asarray(p)[..., None], days)
+
+
+def rule_for(match: Match, sd: float) -> tuple[Floats, Floats]:
+    """Return the rule that averages the odds of a match over log-odds that vary by `sd`."""
+    if isinstance(match.rack, Rack) and getattr(match, "win_by", 0) == 1:
+        return normal_rule(sd, match.m + match.n, MOST_NODES)
+    return normal_rule(sd, (match.m + match.n) ** 2, MOST_NODES_OF_SETS)
+
+
+def given_score(match: Match, weights: Floats) -> Floats:
+    """Return how likely each day is, given the games or sets that were played.
+
+    Parameters
+    ----------
+    match
+        the match on each day, one along the last axis of its chances.
+    weights
+        how likely each day is beforehand.
+    """
+    won, lost = match.score
+    if won == lost == 0:
+        return weights
+    if match.break_matters:
+        raise InputError(
+            "the games played show the form of the day, but not without who broke them; leave the "
+            "score out, or form"
+        )
+    unit = unit_of(match)
+    if isinstance(unit, Rack):
+        p, q = unit.chance(1), unit.chance(2)
+    else:
+        from evenbreak.matches.win import win_probability
+
+        unit = replace(unit, score=(0, 0))
+        p, q = (win_probability(unit, player=player) for player in (1, 2))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        log = np.log(weights) + _times(won, np.log(p)) + _times(lost, np.log(q))
+    likely = np.exp(log - np.nan_to_num(log.max(axis=-1, keepdims=True), neginf=0.0))
+    total = likely.sum(axis=-1, keepdims=True)
+    # A score that has no chance says nothing.
+    return np.asarray(np.where(total > 0.0, likely / np.where(total > 0.0, total, 1.0), weights))
+
+
+def _times(count: int, log: Floats) -> Any:
+    return count * log if count else 0.0

@@ -1,0 +1,116 @@
+"""A bracket from a list of its matches, as another program has laid it out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import networkx as nx
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket, Source
+from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot, Rank, bracket_of, loser, winner
+
+
+def laid_out(form: str, players: tuple[str, ...], drafts: Sequence[Draft]) -> Bracket:
+    """Return the bracket of a list of matches, in whatever order.
+
+    Parameters
+    ----------
+    form, players
+        `format` and `players` of the bracket.
+    drafts
+        the matches: in a slot there is a player, by position, a bye (None), or the winner or
+        loser of another match. A match between the winner and the loser of one other match is
+        a second final, which is played if the undefeated player has lost that match.
+
+    Raises
+    ------
+    InputError
+        if a match leads to itself, two matches take one player, or there is no final.
+
+    >>> semi_finals = [Draft("A", "winners", 1, (0, 1)), Draft("B", "winners", 1, (2, 3))]
+    >>> final = Draft("F", "final", 1, (winner("A"), winner("B")))
+    >>> third = Draft("T", "third place", 1, (loser("A"), loser("B")))
+    >>> bracket = laid_out("single", ("Ann", "Bo", "Cy", "Di"), [final, third, *semi_finals])
+    >>> [match.name for match in bracket.matches], [str(place) for place in bracket.places]
+    (['A', 'B', 'T', 'F'], ['1', '2', '3', '4'])
+    """
+    ordered = [_with_undefeated(draft, drafts) for draft in _in_order(drafts)]
+    return bracket_of(form, players, ordered, _ranks(ordered))
+
+
+def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
+    """Return the matches so that each comes after those that feed it, the final last."""
+    by_name = {draft.name: draft for draft in drafts}
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    graph.add_nodes_from(by_name)
+    taken: set[Source] = set()
+    for draft in drafts:
+        for slot in draft.slots:
+            if not isinstance(slot, Source):
+                continue
+            if slot.match not in by_name or (slot in taken and not _again(draft)):
+                raise InputError(
+                    f"{draft.name} waits for the {slot.outcome} of {slot.match}, "
+                    "who does not come there"
+                )
+            taken.add(slot)
+            graph.add_edge(slot.match, draft.name)
+    if not nx.is_directed_acyclic_graph(graph):
+        raise InputError("a match leads to itself")
+    depth: dict[str, int] = {}
+    for name in nx.topological_sort(graph):
+        depth[name] = 1 + max((depth[one] for one in graph.predecessors(name)), default=0)
+    place = {draft.name: k for k, draft in enumerate(drafts)}
+    last = {"third place": 0, "final": 1, "second final": 2}
+    return sorted(
+        drafts,
+        key=lambda draft: (last.get(draft.side, -1), depth[draft.name], place[draft.name]),
+    )
+
+
+def _again(draft: Draft) -> bool:
+    """Return whether a match is a second final."""
+    one, other = draft.slots
+    return isinstance(one, Source) and isinstance(other, Source) and one.match == other.match
+
+
+def _with_undefeated(draft: Draft, drafts: Sequence[Draft]) -> Draft:
+    if not _again(draft):
+        return draft
+    by_name = {one.name: one for one in drafts}
+    first = by_name[draft.slots[0].match]  # type: ignore[union-attr]
+    undefeated = 1
+    for number, slot in enumerate(first.slots, 1):
+        if isinstance(slot, Source) and by_name[slot.match].side == "winners":
+            undefeated = number
+    slots: tuple[DraftSlot, DraftSlot] = (
+        Source(first.name, "loser", via=undefeated),
+        Source(first.name, "winner", via=3 - undefeated),
+    )
+    return draft._replace(slots=slots)
+
+
+def _ranks(drafts: Sequence[Draft]) -> list[Rank]:
+    """Return who leaves at which point: the nearer to the final, the better the place."""
+    ends = [draft for draft in drafts if draft.side in ("final", "second final")]
+    if not ends or len(ends) > 2:
+        raise InputError(f"the bracket has {len(ends) or 'no'} finals")
+    names = tuple(draft.name for draft in ends)
+    ranks = [Rank(tuple(map(winner, names)), 1), Rank(tuple(map(loser, names)), 1)]
+    follows = {
+        slot: draft.name for draft in drafts for slot in draft.slots if isinstance(slot, Source)
+    }
+    distance: dict[str, int] = {}
+    for draft in reversed(drafts):
+        on = follows.get(winner(draft.name))
+        distance[draft.name] = 0 if on is None else 1 + distance[on]
+    leaving: dict[int, list[Source]] = {}
+    for draft in drafts:
+        if draft in ends:
+            continue
+        if draft.side == "third place":
+            ranks += [Rank((winner(draft.name),)), Rank((loser(draft.name),))]
+        elif loser(draft.name) not in follows:
+            leaving.setdefault(distance[draft.name], []).append(loser(draft.name))
+    return ranks + [Rank(tuple(leaving[far])) for far in sorted(leaving)]

@@ -1,0 +1,279 @@
+"""What is to be expected of an evening at a moment: the odds, the finish, what would change it.
+
+Tonight's games say something about the players, and tonight's matches about the pace: both go
+into what is expected of the matches to come.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import betainc
+
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.clock.evenings import InPlay
+from evenbreak.tournaments.clock.event_pace import Timed
+from evenbreak.tournaments.clock.finish import Finish, finish
+from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
+from evenbreak.tournaments.evening.fold import Evening, Played
+from evenbreak.tournaments.evening.later_draws import pairings, stage_to_draw, swiss_of
+from evenbreak.tournaments.evening.skills import Games, skills_tonight
+from evenbreak.tournaments.odds.leverage import Leverage, leverages
+from evenbreak.tournaments.odds.races import PairOdds, Races, chances_given, from_score, pair_odds
+from evenbreak.tournaments.odds.redraws import redraw_odds
+from evenbreak.tournaments.odds.swiss_odds import swiss_odds
+from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
+from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+
+_REDRAWS = 6  # of the qualifiers, if there are more ways than 24
+_SWISSES = 600  # are played out
+_RATINGS = 200  # draws of the ratings among them
+
+
+class _InScore(NamedTuple):
+    """A match in play: its players by position, the games that each needs and has won."""
+
+    match: str
+    seats: tuple[int, int]
+    needs: tuple[int, int]
+    score: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Outlook:
+    """A tournament under way, at a moment.
+
+    Parameters
+    ----------
+    state
+        the state of the evening; the draw has been made.
+    now
+        what time it is, such as 2025-03-01T19:30:00.
+    """
+
+    state: Evening
+    now: str
+
+    @property
+    def start(self) -> datetime:
+        """When the first match was called, or else the draw was made."""
+        events = self.state.events
+        firsts = [e.at for kind in (Called, Drawn) for e in events if isinstance(e.what, kind)]
+        return datetime.fromisoformat(min([*firsts[:1], self.now]))
+
+    def minutes(self, at: str) -> float:
+        """Return a time in minutes since the start."""
+        passed = datetime.fromisoformat(at) - self.start
+        return max(0.0, passed.total_seconds() / 60.0)
+
+    @cached_property
+    def laws(self) -> dict[str, PairOdds]:
+        """Who wins each match in how many games, from its score on, if the ratings are right."""
+        return self.laws_of(self.state.races)
+
+    def laws_of(self, races: Races) -> dict[str, PairOdds]:
+        """Return the same with other races in the matches that have not begun."""
+        state = self.state
+        laws = pair_odds(state.whole, state.ratings, races, scale=state.scale)
+        begun = {**state.on_tables, **state.live}
+        if races is not state.races and begun:
+            usual = pair_odds(state.whole, state.ratings, state.races, scale=state.scale)
+            laws |= {name: usual[name] for name in begun}
+        if state.dropped:
+            made = {id(law): self._without_dropped(law) for law in laws.values()}
+            laws = {name: made[id(law)] for name, law in laws.items()}
+        for name, seats, needs, score in self._in_score:
+            one, other = seats
+            p = float(state.scale.win_probability(state.ratings[one] - state.ratings[other]))
+            laws[name] = from_score(laws[name], seats, needs, score, p)
+        return laws
+
+    def _without_dropped(self, law: PairOdds) -> PairOdds:
+        """Return the odds of a match that players who have dropped out lose without a game."""
+        ends = law.ends.copy()
+        for name in self.state.dropped:
+            gone = self.state.order.index(name)
+            ends[gone] = ends[:, gone] = 0.0
+            ends[:, gone, 0] = 1.0
+        return PairOdds(ends)
+
+    @property
+    def scores(self) -> dict[str, tuple[int, int]]:
+        """The scores of the matches in play, the first player's games first."""
+        return {name: score for name, _, _, score in self._in_score}
+
+    @cached_property
+    def _in_score(self) -> list[_InScore]:
+        """The matches in play whose score is known."""
+        state, found = self.state, []
+        for name, live in state.live.items():
+            pair = state.pair(name)
+            seats = state.order.index(pair[0]), state.order.index(pair[1])
+            games = dict(zip(live.what.players, live.what.score, strict=True))
+            score = games[pair[0]], games[pair[1]]
+            found.append(_InScore(name, seats, state.needed(name, pair), score))
+        return found
+
+    @cached_property
+    def as_if_sure(self) -> PlaceOdds:
+        """The odds from here on, if the ratings are right."""
+        state = self.state
+        rng = np.random.default_rng(0)
+        chances = self.chances(state.ratings)
+        if state.plan.form == "swiss":
+            return self._swiss_odds(chances)
+        if stage_to_draw(state) is not None:
+            return redraw_odds(state.whole, chances, results=state.results, samples=_REDRAWS)
+        return title_odds(state.bracket, chances, results=state.results, rng=rng)
+
+    @cached_property
+    def odds(self) -> PlaceOdds:
+        """The odds from here on, averaged over how far off the ratings may be."""
+        if not self.errors.any() or not self.state.standing.to_play:
+            return self.as_if_sure
+        state = self.state
+        skills, covariance = skills_tonight(state.ratings, self.errors, self.games, state.scale)
+        if state.plan.form == "swiss":
+            asked = state.whole, self.chances, skills, covariance
+            rng = np.random.default_rng(0)
+            return self._swiss_odds(drawn_chances(*asked, samples=_RATINGS, rng=rng))
+        if stage_to_draw(state) is not None:
+            return self.as_if_sure
+        return over_ratings(
+            state.bracket, self.chances, skills, covariance, results=state.results
+        ).averaged
+
+    def _swiss_odds(self, chances: Mapping[str, Floats]) -> PlaceOdds:
+        state = self.state
+        win = chances[state.whole.matches[-1].name].copy()
+        for name, (one, other), _, _ in self._in_score:
+            win[one, other], win[other, one] = (
+                chances[name][pair] for pair in ((one, other), (other, one))
+            )
+        event = swiss_of(state.plan, state.order)
+        return swiss_odds(event, win, played=pairings(state.later, state.counted), runs=_SWISSES)
+
+    @cached_property
+    def errors(self) -> Floats:
+        """How far off the ratings may be, in seed order."""
+        return np.array([self.state.entrants[name].standard_error for name in self.state.order])
+
+    @cached_property
+    def chances(self) -> Callable[[Floats], dict[str, Floats]]:
+        """The chances of the matches from here on, given the players' skills."""
+        state = self.state
+        usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
+
+        gone = [state.order.index(name) for name in state.dropped]
+
+        def chances(skills: Floats) -> dict[str, Floats]:
+            tables = usual(skills)
+            if gone:
+                made = {id(table): table.copy() for table in tables.values()}
+                for table in made.values():
+                    for seat in gone:
+                        table[seat], table[:, seat], table[seat, seat] = 0.0, 1.0, 0.5
+                tables = {name: made[id(table)] for name, table in tables.items()}
+            for name, (one, other), needs, score in self._in_score:
+                p = state.scale.win_probability(skills[one] - skills[other])
+                won = float(betainc(needs[0] - score[0], needs[1] - score[1], p))
+                tables[name] = tables[name].copy()
+                tables[name][one, other], tables[name][other, one] = won, 1.0 - won
+            return tables
+
+        return chances
+
+    @property
+    def games(self) -> list[Games]:
+        """The games that were played tonight, those of matches in play with them."""
+        state = self.state
+        everything: list[Result | Scored] = [one.what for one in state.live.values()]
+        everything += [one.result for one in played_matches(state) if not one.result.forfeit]
+        seat = state.order.index
+        return [
+            Games(seat(what.players[0]), seat(what.players[1]), *what.score) for what in everything
+        ]
+
+    def leverages(self, payouts: Sequence[float] | None = None) -> list[Leverage]:
+        """Return what each match to come changes; nothing if the bracket is too large for that.
+
+        Parameters
+        ----------
+        payouts
+            the money for first place, second, ...: then it is the prizes. None: the title.
+        """
+        state = self.state
+        if stage_to_draw(state) is not None or state.plan.form == "swiss":
+            return []
+        win = self.chances(state.ratings)
+        try:
+            return leverages(state.bracket, win, payouts=payouts, results=state.results)
+        except InputError:
+            return []
+
+    def finish(
+        self,
+        *,
+        laws: Mapping[str, PairOdds] | None = None,
+        tables: int | None = None,
+        pace: Pace | str | None = None,
+        turnover: Turnover | None = None,
+    ) -> Finish:
+        """Return when it ends, given what has been played and what is on the tables.
+
+        Parameters
+        ----------
+        laws, tables, pace, turnover
+            as in `clock.finish.finish`; None: those of this evening.
+        """
+        state = self.state
+        playing = [self._in_play(name, one.at) for name, one in state.on_tables.items()]
+        return finish(
+            state.whole,
+            self.laws if laws is None else laws,
+            tables=state.plan.tables if tables is None else tables,
+            pace=state.plan.discipline if pace is None else pace,
+            turnover=turnover,
+            results=state.results,
+            played=self.timed,
+            playing=playing,
+            now=max([self.minutes(self.now), *(one.scored or one.started for one in playing)]),
+        )
+
+    def _in_play(self, name: str, at: str) -> InPlay:
+        live = self.state.live.get(name)
+        if live is None or live.at < at or not any(live.what.score):
+            return InPlay(name, self.minutes(at))
+        return InPlay(name, self.minutes(at), sum(live.what.score), self.minutes(live.at))
+
+    @property
+    def timed(self) -> list[Timed]:
+        """The games and minutes of the matches that were called and played tonight."""
+        state, found = self.state, []
+        for name, result in state.counted.items():
+            call = state.calls.get(name)
+            pair = result.players
+            ends = [one.at for one in state.records.get(name, ()) if one.result.players == pair]
+            if call is None or not ends or not any(result.score):
+                continue
+            minutes = self.minutes(ends[0]) - self.minutes(call.at)
+            if minutes >= 1.0:  # shorter ones were typed in afterwards
+                found.append(Timed(sum(result.score), minutes))
+        return found
+
+
+def played_matches(state: Evening) -> list[Played]:
+    """Return the last result of each two players in each match, those set aside among them."""
+    found = {
+        (name, frozenset(one.result.players)): one
+        for name, played in state.records.items()
+        for one in played
+    }
+    return list(found.values())
