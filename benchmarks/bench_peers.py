@@ -1,16 +1,15 @@
 """Ratings beside other packages: the same estimates, and who predicts a season better.
 
-    python -m pip install -e . pytest choix evalica openskill glicko2
+    python -m pip install -e . pytest choix evalica openskill glicko2 trueskill whole-history-rating
     python -m pytest -q -s benchmarks/bench_peers.py
 
 The season is the file that SEASON names, or that of the folder beside the project; a test
-whose package or season is absent is skipped. Every package predicts a date from the dates
-before it; what it has to choose (a prior, a step) is chosen to suit the season, for each.
+whose package or season is absent is skipped. How the systems are compared is said in
+`equal_information.py`, which prints the tables.
 """
 
 from __future__ import annotations
 
-import math
 import os
 import time
 from collections.abc import Callable
@@ -20,11 +19,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from equal_information import PLACE, SYSTEMS, compare
 
 from evenbreak.files.results import read_results
-from evenbreak.ratings import Results, fit, validate
-
-PLACE = Path(__file__).resolve().parents[2] / "shared/data/snooker_2016_17_results.csv"
+from evenbreak.ratings import Results, fit
 
 
 @cache
@@ -86,93 +84,15 @@ def test_estimates_agree_with_evalica() -> None:
     assert np.abs(skill - skill.mean() - theirs + theirs.mean()).max() < 1e-3
 
 
-Walker = Callable[[Results, float], float]
-
-
-def walk(predict: Callable[[int, int], float], learn: Callable[[Results], None]) -> float:
-    """Return the log-loss a match winner of a season, each date predicted before it is learnt."""
-    results, loss = season(), 0.0
-    assert results.date is not None
-    for day in np.unique(results.date):
-        today = results.select(results.date == day)
-        for a, b, m, n in zip(
-            today.player_a, today.player_b, today.score_a, today.score_b, strict=True
-        ):
-            p = predict(int(a), int(b))
-            loss -= math.log(p if m > n else 1.0 - p)
-        learn(today)
-    return loss / len(results)
-
-
-def elo(step: float) -> float:
-    rating = np.zeros(len(season().players))
-
-    def learn(today: Results) -> None:
-        rows = zip(today.player_a, today.player_b, today.score_a > today.score_b, strict=True)
-        for a, b, won in rows:
-            change = step * (won - 1.0 / (1.0 + math.exp(rating[b] - rating[a])))
-            rating[a] += change
-            rating[b] -= change
-
-    return walk(lambda a, b: 1.0 / (1.0 + math.exp(rating[b] - rating[a])), learn)
-
-
-def openskill(beta: float) -> float:
-    models = pytest.importorskip("openskill.models")
-    model = models.PlackettLuce(beta=beta)
-    rating = [model.rating() for _ in season().players]
-
-    def learn(today: Results) -> None:
-        rows = zip(today.player_a, today.player_b, today.score_a > today.score_b, strict=True)
-        for a, b, won in rows:
-            pair = [[rating[a]], [rating[b]]] if won else [[rating[b]], [rating[a]]]
-            (one,), (other,) = model.rate(pair)
-            rating[a], rating[b] = (one, other) if won else (other, one)
-
-    return walk(lambda a, b: float(model.predict_win([[rating[a]], [rating[b]]])[0]), learn)
-
-
-def glicko(deviation: float) -> float:
-    glicko2 = pytest.importorskip("glicko2")
-    player = [glicko2.Player(rating=1500, rd=deviation) for _ in season().players]
-
-    def predict(a: int, b: int) -> float:
-        one, other = player[a], player[b]
-        spread = math.hypot(one.rd, other.rd) * math.log(10.0) / 400.0
-        g = 1.0 / math.sqrt(1.0 + 3.0 * (spread / math.pi) ** 2)
-        return float(1.0 / (1.0 + 10.0 ** (-g * (one.rating - other.rating) / 400.0)))
-
-    def learn(today: Results) -> None:
-        games: dict[int, list[tuple[float, float, bool]]] = {}
-        rows = zip(today.player_a, today.player_b, today.score_a > today.score_b, strict=True)
-        for a, b, won in rows:
-            games.setdefault(int(a), []).append((player[b].rating, player[b].rd, bool(won)))
-            games.setdefault(int(b), []).append((player[a].rating, player[a].rd, not won))
-        for k, played in games.items():
-            ratings, deviations, outcomes = zip(*played, strict=True)
-            player[k].update_player(list(ratings), list(deviations), list(outcomes))
-
-    return walk(predict, learn)
-
-
-PEERS: dict[str, tuple[Callable[[float], float], tuple[float, ...]]] = {
-    "Elo on matches": (elo, (0.1, 0.15, 0.2, 0.3, 0.4)),
-    "openskill PlackettLuce": (openskill, (25 / 6, 25 / 3, 12.5, 25.0, 40.0)),
-    "glicko2": (glicko, (60.0, 90.0, 120.0, 180.0, 350.0)),
-}
-
-
-@pytest.mark.parametrize("name", PEERS)
-def test_match_winners_are_predicted_no_worse(name: str) -> None:
-    walker, choices = PEERS[name]
-    tried = {choice: walker(choice) for choice in choices}
-    best = min(tried, key=tried.__getitem__)
-    told = our_rows()
-    print(f"\n{name}: {tried[best]:.4f} at {best:g}; all {[f'{x:.4f}' for x in tried.values()]}")
-    print(", ".join(f"{row.how} {row.log_loss.value:.4f} at {row.prior_sd:.2f}" for row in told))
-    assert min(row.log_loss.value for row in told) <= tried[best]
-
-
-@cache
-def our_rows() -> tuple[Any, ...]:
-    return tuple(row for row in validate(season()).scored if row.of == "match")
+@pytest.mark.parametrize("frames", [True, False], ids=["games", "winners"])
+@pytest.mark.parametrize("name", [name for name in SYSTEMS if name != "evenbreak"])
+def test_no_system_predicts_better_from_the_same_results(name: str, frames: bool) -> None:
+    if not SYSTEMS[name].is_here:
+        pytest.skip(f"{SYSTEMS[name].package} is not installed")
+    season()
+    place = os.environ.get("SEASON", str(PLACE))
+    for of in ("game", "match") if frames else ("match",):
+        for hindsight in (False, True):
+            settings, found = compare(place, name, frames, of, hindsight)
+            print(f"\n{name} ({settings}), {of}: {found.above:+.4f} ± {found.error:.4f}")
+            assert found.above > -2.0 * found.error

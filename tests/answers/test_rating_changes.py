@@ -94,27 +94,16 @@ def test_a_chart_that_was_found_is_named(answer_of):
     assert "npl_10" in answer_of(found_chart=True).sentences[1]
 
 
-def test_other_races_than_the_charts_and_several_dates_are_warnings(answer_of):
+def test_other_races_than_the_charts_are_warnings(answer_of):
     header = f"date,{HEADER},race_a,race_b\n"
     one = "2025-11-20,Ann,Bo,5,3,5,4\n2025-11-20,Ann,Cy,5,3,5,5\n"
     (off,) = answer_of(header + one).warnings
     assert "night.csv:3: " in off
     assert "5:5" in off
     assert "6:4" in off
-    dates, off = answer_of(f"{header}{one}2025-11-27,Bo,Ann,4,2,4,5\n").warnings
-    assert "2 dates" in dates
 
 
 def test_the_list_after_the_night_keeps_the_scale_of_the_list_before(answer_of):
     header, *rows = LAST.splitlines()
     last = "\n".join([f"{header},scale", *(f"{row},npl" for row in rows)])
     assert {row["scale"] for row in answer_of(last=last).to_dict()["players"]} == {"npl"}
-
-
-@pytest.mark.parametrize("by", [NPL_10, None])
-def test_a_season_taken_as_one_night_is_named(answer_of, by):
-    night = (
-        "date,player_a,player_b,score_a,score_b,race_a,race_b\n"
-        "2024-09-03,Ann,Bo,5,3,5,4\n2024-09-10,Cy,Ann,2,6,4,6\n"
-    )
-    assert any("2 dates" in warning for warning in answer_of(night, by=by).warnings)

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files import read_results
+from evenbreak.files import read_results, read_seasons
 
 HEAD = "date,player_a,player_b,score_a,score_b\n"
 GOOD = "".join(f"2024-09-{day:02d},Ann,Bo,7,{day % 7}\n" for day in range(1, 31))
@@ -58,3 +58,12 @@ def test_a_long_race_that_is_stated_is_no_mistake(tmp_path):
     rows = GOOD.replace("\n", ",,\n") + "2024-10-01,Ann,Bo,100,83,100,100\n"
     path.write_text(HEAD[:-1] + ",race_a,race_b\n" + rows)
     assert not read_results(path).warnings
+
+
+def test_rows_left_out_are_counted(tmp_path):
+    typed = tmp_path / "typed.csv"
+    typed.write_text(f"{HEAD},Ann,Bo,7,4\n,Bo,Cy,x,7\n,Cy,Ann,3,7\n")
+    later = tmp_path / "later.csv"
+    later.write_text(f"{HEAD},Ann,Bo,,4\n,Bo,Cy,2,7\n")
+    assert read_results(typed, skip_bad=True).skipped == 1
+    assert read_seasons([typed, later], skip_bad=True).skipped == 2

@@ -2,7 +2,6 @@ from .chosen_players import find_players as find_players
 from .chosen_players import most_active as most_active
 from .fair_pairs import matchups_frame as matchups_frame
 from .matchups import matchups_answer as matchups_answer
-from .night_results import rating_changes_of_files as rating_changes_of_files
 from .offered_races import OfferedRaces as OfferedRaces
 from .one_season_tables import matches_frame as matches_frame
 from .one_season_tables import truth_frame as truth_frame
@@ -11,6 +10,7 @@ from .rating_changes import rating_changes_answer as rating_changes_answer
 from .report import report_answer as report_answer
 from .report_frames import summary_frame as summary_frame
 from .round import Round as Round
+from .season_nights import rating_changes_of_season as rating_changes_of_season
 from .season_tables import fairness_frame as fairness_frame
 from .season_tables import standings_frame as standings_frame
 from .season_tables import weeks_frame as weeks_frame

@@ -25,6 +25,8 @@ def left_out(
     listed, in_table
         how many players the list of ratings and the table of races show; None: all.
     """
+    if skipped := sheet.file.skipped:
+        yield Remark(count_of(skipped, "bad row"), "left out, as --skip-bad asks")
     yield from _uncounted_matches(sheet.ratings)
     yield from _unlinked(sheet)
     yield from _not_shown(sheet, listed, in_table)

@@ -66,7 +66,7 @@ def rate_answer(
     else:
         first, table = _highest_in_words(ratings), _players_table(ratings)
     return Answer(
-        f"{file.source}: {_counted(ratings)}\nRatings on {like_scale_words(ratings.scale)}",
+        f"{file.source}: {_counted(file, ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [
             first,
             *_fit_in_words(ratings, choice),
@@ -87,7 +87,11 @@ def rate_answer(
             *prior_warnings(file, ratings, choice),
             *warnings,
         ],
-        data={**_how(ratings, choice), "form": form_data(ratings.form)},
+        data={
+            **_how(ratings, choice),
+            "form": form_data(ratings.form),
+            "rows_left_out": file.skipped,
+        },
     )
 
 
@@ -166,7 +170,7 @@ def _highest_in_words(ratings: Ratings) -> str:
     )
 
 
-def _counted(ratings: Ratings) -> str:
+def _counted(file: ResultsFile, ratings: Ratings) -> str:
     """Return what the ratings rest on."""
     games, races = int(ratings.won.sum()), int(ratings.races_won.sum())
     made = [count_of(int((~ratings.idle).sum()), "player")]
@@ -175,6 +179,7 @@ def _counted(ratings: Ratings) -> str:
     if races:
         made.append(f"{count_of(races, 'match', 'matches')} known by the winner alone")
     left_out = [
+        count_of(file.skipped, "bad row") if file.skipped else "",
         count_of(ratings.forfeits, "forfeit") if ratings.forfeits else "",
         f"{ratings.empty:,} at 0-0" if ratings.empty else "",
         f"{ratings.later:,} after {ratings.as_of}" if ratings.later else "",

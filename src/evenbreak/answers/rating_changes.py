@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.season_nights import count_dates
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.files.problems import quoted
 from evenbreak.files.results import ResultsFile
@@ -52,7 +53,7 @@ def rating_changes_answer(
             "--chart for another one.",
         )
     return Answer(
-        _heading(moves, last.source, tonight.source),
+        _heading(moves, last, tonight),
         parts,
         warnings=[*last.warnings, *tonight.warnings, *_night_warnings(moves, tonight, chart)],
         data={
@@ -62,20 +63,25 @@ def rating_changes_answer(
             "chart": None if chart is None else chart.name,
             "forfeits_left_out": moves.forfeits,
             "empty_left_out": moves.empty,
+            "rows_left_out": tonight.skipped,
             "matches": _matches(moves),
         },
         csv=csv,
     )
 
 
-def _heading(moves: RatingChanges, last: str, tonight: str) -> str:
+def _heading(moves: RatingChanges, last: RosterFile, tonight: ResultsFile) -> str:
     """Return by which rule the list was changed, and what was left out."""
-    out = [count_of(moves.forfeits, "forfeit")] if moves.forfeits else []
+    out = [count_of(tonight.skipped, "bad row")] if tonight.skipped else []
+    out += [count_of(moves.forfeits, "forfeit")] if moves.forfeits else []
     out += [f"{moves.empty:,} at 0-0"] if moves.empty else []
     played = count_of(len(moves.matches), "match", "matches")
     left_out = f" (left out: {', '.join(out)})" if out else ""
+    nights = count_dates(tonight.results)
+    by_night = f"Night by night, on {nights:,} dates\n" if nights > 1 else ""
     return (
-        f"{tonight}: {played}{left_out}; {count_of(len(moves.before), 'player')} on {last}\n"
+        f"{tonight.source}: {played}{left_out}; {count_of(len(moves.before), 'player')} on "
+        f"{last.source}\n{by_night}"
         f"System {moves.system.name}: {moves.system.in_words}{_newcomers(moves)}"
     )
 
@@ -244,17 +250,10 @@ def _matches(moves: RatingChanges) -> list[dict[str, Any]]:
 def _night_warnings(
     moves: RatingChanges, tonight: ResultsFile, chart: Chart | None
 ) -> Iterator[str]:
-    """Yield what to check in a night: several dates, and races that the chart does not have."""
-    dates = tonight.results.date
-    days = 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
-    if days > 1:
-        yield (
-            f"{tonight.source}: has matches on {days:,} dates, but all of them are taken as one "
-            "night, by the same ratings; run one night at a time if ratings changed in between"
-        )
+    """Yield the races that the chart does not have."""
     if chart is None:
         return
-    players, ratings = moves.before.players, moves.before.rating
+    players = moves.before.players
     for match in moves.matches:
         if match.race is None or match.race == match.by_chart or match.by_chart is None:
             continue
@@ -263,5 +262,5 @@ def _night_warnings(
             f"{tonight.source}:{tonight.lines[match.row]}: {quoted(players[winner])} - "
             f"{quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
             f"chart {chart.name} has {match.by_chart[0]}:{match.by_chart[1]} for "
-            f"{ratings[winner]:g} and {ratings[loser]:g}"
+            f"{match.ratings[0]:g} and {match.ratings[1]:g}"
         )

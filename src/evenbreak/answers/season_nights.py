@@ -65,6 +65,53 @@ def nights_of_files(
     return nights
 
 
+def rating_changes_of_season(
+    system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+) -> RatingChanges:
+    """Return how the results of one or several dates change the ratings of a list.
+
+    The ratings after each date set the races of the next. Without dates all is one night.
+
+    Parameters
+    ----------
+    system, first, season, chart
+        as for `nights_of_files`.
+
+    Raises
+    ------
+    DataError
+        as `nights_of_files` does.
+    """
+    if count_dates(season.results) < 2:
+        return rating_changes_of_files(system, first, season, chart=chart)
+    nights = nights_of_files(system, first, season, chart=chart)
+    changes = [night.changes for night in nights]
+    return RatingChanges(
+        system,
+        changes[0].before,
+        changes[-1].after,
+        tuple(
+            match._replace(row=int(rows[match.row]))
+            for rows, change in nights
+            for match in change.matches
+        ),
+        np.sum([change.won for change in changes], axis=0),
+        np.sum([change.lost for change in changes], axis=0),
+        sum(change.forfeits for change in changes),
+        sum(change.empty for change in changes),
+    )
+
+
+def count_dates(results: Results) -> int:
+    """Return on how many dates there are matches, 0 without dates.
+
+    >>> count_dates(Results.from_names(["A"] * 2, ["B"] * 2, [5] * 2, [4] * 2))
+    0
+    """
+    dates = results.date
+    return 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
+
+
 def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
     """Return a season with a race for every match, and a warning if some were not stated.
 

@@ -15,6 +15,7 @@ from evenbreak.files.csv_writer import undefused
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import TextTable
 from evenbreak.ratings.result_words import letters
+from evenbreak.ratings.spellings import folded, usual_spellings
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
@@ -73,7 +74,7 @@ def same_name(name: str) -> str:
     >>> same_name("Ann Lee") == same_name("ann  LEE") == same_name("AnnLee")
     True
     """
-    return "".join(clean_name(name).casefold().split())
+    return folded(clean_name(name))
 
 
 class PlayerNames:
@@ -120,18 +121,7 @@ class PlayerNames:
         counts: Counter[str] = Counter()
         for text, count in rows.items():
             counts[self._unaliased(text)] += count
-        meant = set(self._means.values())
-
-        def rank(name: str) -> tuple[bool, int, bool, int]:
-            mixed = name not in (name.lower(), name.upper())
-            return name in meant, counts[name], mixed, name.count(" ")
-
-        spelling: dict[str, str] = {}
-        for name in sorted(counts):
-            key = same_name(name)
-            if key not in spelling or rank(name) > rank(spelling[key]):
-                spelling[key] = name
-        return spelling
+        return usual_spellings(counts, set(self._means.values()))
 
     def read(self, table: TextTable, name: str) -> Values:
         """Read a column of names, as places in `players`."""

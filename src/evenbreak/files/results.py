@@ -58,6 +58,8 @@ class ResultsFile:
         the line in which each match begins; empty where the matches did not come from a file.
     ties
         a warning if matches have neither a winner nor a race; a chart may still say who won.
+    skipped
+        how many rows were left out because of `skip_bad`.
     """
 
     results: Results
@@ -69,6 +71,7 @@ class ResultsFile:
         default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
     )
     ties: tuple[str, ...] = ()
+    skipped: int = 0
 
 
 def read_results(
@@ -135,6 +138,7 @@ def read_results(
         return names, results_rows(rows, names, results_columns(rows, names, dates))
 
     skipped: list[str] = []
+    many = len(table)
     if skip_bad:
         table, skipped = without_bad_rows(table, lambda rows: read(rows)[1])
     names, results = read(table)
@@ -154,7 +158,16 @@ def read_results(
     ]
     sha256 = hashlib.sha256(table.content).hexdigest()
     ties = _tied(results, table)
-    return ResultsFile(results, table.source, tuple(warnings), groups, sha256, table.lines, ties)
+    return ResultsFile(
+        results,
+        table.source,
+        tuple(warnings),
+        groups,
+        sha256,
+        table.lines,
+        ties,
+        skipped=many - len(table),
+    )
 
 
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:

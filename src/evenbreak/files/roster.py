@@ -53,6 +53,7 @@ WRITTEN = dict.fromkeys(
     (
         *("won", "lost"),
         *("rating_before", "change", "matches_won", "matches_lost", "why"),
+        *("prior_mean", "prior", "as_of"),
     ),
     (),
 )

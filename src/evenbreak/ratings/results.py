@@ -190,14 +190,14 @@ class Results:
             `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
             and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit
             may leave its scores empty, and so may a match of which the races and the winner are
-            known. Other columns are not used, which a warning says.
+            known. Other columns are not used, and names that differ in case or blanks
+            alone are one player's; warnings say so.
 
         Raises
         ------
         DataError
             with every cell that has no meaning and every contradiction, a line each, which
-            names the row by its label in the index; and with names that differ in case or
-            spaces alone.
+            names the row by its label in the index.
 
         >>> import pandas as pd
         >>> frame = pd.DataFrame({"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"],

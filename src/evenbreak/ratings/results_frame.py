@@ -7,12 +7,14 @@ row, and all problems are reported at once.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Sequence
 from datetime import date, datetime
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from evenbreak.errors import DataError
 from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, LARGEST_WHOLE, letters
+from evenbreak.ratings.spellings import folded, usual_spellings
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -101,8 +103,7 @@ class FrameReader:
 
 def columns_of(reader: FrameReader) -> dict[str, Any]:
     """Return the columns of `Results.from_names`; problems are added to the reader's."""
-    names = [_names(reader, name) for name in NAMES]
-    _refuse_spellings(reader, {name for column in names for name in column})
+    names = _one_spelling([_names(reader, name) for name in NAMES])
     columns: dict[str, Any] = dict(zip(NAMES, names, strict=True))
     for name in (*SCORES, *RACES):
         columns[name] = reader.read(name, _count, "a whole number, 0 or more", 0)
@@ -128,15 +129,19 @@ def _names(reader: FrameReader, column: str) -> list[str]:
     return names
 
 
-def _refuse_spellings(reader: FrameReader, names: Iterable[str]) -> None:
-    """Refuse two names that differ in case or spaces alone: they would be two players."""
-    seen: dict[str, str] = {}
-    for name in sorted(names):
-        other = seen.setdefault("".join(name.casefold().split()), name)
-        if other != name:
-            reader.problems.append(
-                f"{other!r} and {name!r} differ in case or spaces alone; use one of them throughout"
+def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
+    """Return names in one spelling of those that differ in case or blanks alone, with a warning."""
+    counts = Counter(name for column in columns for name in column)
+    spelling = usual_spellings(counts)
+    for name in sorted(counts):
+        usual = spelling[folded(name)]
+        if usual != name:
+            warnings.warn(
+                f"{name!r} is read as {usual!r}, as names that differ in case or blanks alone mean "
+                "one player",
+                stacklevel=4,
             )
+    return [[spelling[folded(name)] for name in column] for column in columns]
 
 
 def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str]) -> list[int]:
@@ -144,7 +149,8 @@ def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str])
     sides = []
     for row, cell in enumerate(reader.cells(column)):
         name = "" if cell is None else _name(cell) or ""
-        either = {"a": 1, "b": 2, a[row]: 1, b[row]: 2}
+        either = {folded(a[row]): 1, folded(b[row]): 2, "a": 1, "b": 2, a[row]: 1, b[row]: 2}
+        name = name if name in either else folded(name)
         if cell is not None and name not in either:
             reader.add(row, f"{column} is {cell!r}; give a, b or the name of one of the players")
         sides.append(0 if cell is None else either.get(name, 0))

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Bools, Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.season_so_far import SeasonSoFar
+from evenbreak.ratings.stated_strength import has_handicaps
 
 STRETCHES = 30
 """How many stretches a season is divided into, if it has as many days."""
@@ -142,8 +144,26 @@ def _undated(played: Results) -> int:
 
 
 def _with_schedule(before: Results, coming: Results) -> Results:
-    """Return matches, and others as they stand before they are played: at 0-0, without a winner."""
-    return before.joined(coming.unplayed())
+    """Return matches, and others as they stand before they are played: at 0-0, without a winner.
+
+    A league may set a race by the results of the days before, so of the matches to come only those
+    keep their race of which neither player has played on an earlier day among them.
+    """
+    unplayed = coming.unplayed()
+    if coming.date is not None and has_handicaps(coming):
+        known = _first_days(coming, coming.date)
+        race_a, race_b = (np.where(known, race, 0) for race in coming.races)
+        unplayed = replace(unplayed, race_a=race_a, race_b=race_b)
+    return before.joined(unplayed)
+
+
+def _first_days(results: Results, date: NDArray[np.datetime64]) -> Bools:
+    """Return which matches are on the first day of both players."""
+    first = np.full(len(results.players), date.max())
+    for players in (results.player_a, results.player_b):
+        np.minimum.at(first, players, date)
+    at_first = [date == first[k] for k in (results.player_a, results.player_b)]
+    return np.asarray(at_first[0] & at_first[1])
 
 
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:

@@ -244,3 +244,34 @@ def test_ratings_of_another_size_than_the_systems_are_doubted(rate, tmp_path):
     )
     assert "average about" in rate("raced.csv", "--system", "elo 16").stderr
     assert "average about" not in rate("night.csv", "--chart", "npl_10").stderr
+
+
+def test_several_dates_are_rated_night_by_night(rate, tmp_path):
+    rows = ["2026-11-20,Ann,Cy,6,2", "2026-11-27,Cy,Ann,4,4", "2026-11-27,Ann,Cy,2,4"]
+    header = "date,player_a,player_b,score_a,score_b,race_a,race_b"
+    nights = [f"{row},{race}" for row, race in zip(rows, ("6,4", "4,6", "6,4"), strict=True)]
+    (tmp_path / "season.csv").write_text("\n".join([header, *nights]))
+    (tmp_path / "first.csv").write_text("\n".join([header, nights[0]]))
+    (tmp_path / "second.csv").write_text("\n".join([header, *nights[1:]]))
+    (tmp_path / "then.csv").write_text(rate("first.csv").stdout)
+    by_hand = json.loads(rate("second.csv", "--roster", "then.csv", "--json").stdout)
+    season = rate("season.csv", "--json")
+    answer = json.loads(season.stdout)
+    ratings = [{p["player"]: p["rating"] for p in a["players"]} for a in (answer, by_hand)]
+    assert ratings[0] == ratings[1]
+    assert len(answer["matches"]) == 3
+    assert "one night" not in season.stderr
+    # Elo's steps depend on the ratings of the night.
+    steps = [
+        [
+            m["points"]
+            for m in json.loads(rate(*w, "--system", "elo 64", "--json").stdout)["matches"]
+        ]
+        for w in (["season.csv"], ["second.csv"])
+    ]
+    assert steps[0][1:] != steps[1]
+    wrong = nights[1].replace("Ann", "Dee")
+    (tmp_path / "season.csv").write_text("\n".join([header, nights[0], wrong]))
+    refused = rate("season.csv")
+    assert refused.exit_code == 3
+    assert "season.csv:3: 'Dee'" in refused.stderr

@@ -87,6 +87,14 @@ def refuse_other_scale(
         refuse_levels(file, f"{whose} needs ratings in points; {remedy}")
 
 
+def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
+    """Refuse a list that a system cannot move: skill levels, or points of another scale."""
+    whose = f"the system {system.name}"
+    if file.scale is None:
+        refuse_levels(file, f"{whose} needs ratings in points; give a list of those")
+    refuse_other_scale(file, system.scale, whose, "give another --system", stated=True)
+
+
 def refuse_levels(file: files.RosterFile | files.LeagueFile, remedy: str) -> None:
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:

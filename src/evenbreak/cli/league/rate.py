@@ -124,7 +124,7 @@ def command(
         from evenbreak.cli.league.rate_system import rate_by_system
 
         if len(results) > 1:
-            refuse(f"--system takes one night at a time; leave out {results[1]}")
+            refuse(f"--system takes one file of results; leave out {results[1]}")
         return rate_by_system(
             results[0], system=system, roster=roster, chart=chart, reading=reading
         )

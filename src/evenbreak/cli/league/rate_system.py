@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts
-from evenbreak.cli.kit.systems import chart_by_difference, refuse_other_scale
+from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    from evenbreak.ratings.results import Results
 
 
 def rate_by_system(
@@ -22,16 +27,16 @@ def rate_by_system(
     chart: str | None,
     reading: dict[str, Any],
 ) -> Answer:
-    """Return the list of ratings after a night.
+    """Return the list of ratings after a night, or after several, night by night.
 
     Parameters
     ----------
     path
-        the results of the night.
+        the results.
     system
         the league's system.
     roster
-        the list before the night.
+        the list before them.
     chart
         name or file of the chart that set the races; None: the results say who won, or else
         the only one of the system's charts that fits all scores is used.
@@ -42,12 +47,12 @@ def rate_by_system(
         refuse("- stands for standard input, which only one file can be; name the others")
     by_chart = None if chart is None else chart_by_difference("--chart", chart)
     last = files.read_roster(roster)
-    refuse_other_scale(last, system.scale, f"the system {system.name}", "give another --system")
+    refuse_for_system(last, system)
     tonight = files.read_results(path, **reading)
     if by_chart is None:
-        by_chart = handicaps.chart_of_night(system, last.roster, tonight.results)
+        by_chart = handicaps.chart_of_night(system, last.roster, _first_night(tonight.results))
     try:
-        moves = answers.rating_changes_of_files(system, last, tonight, chart=by_chart)
+        moves = answers.rating_changes_of_season(system, last, tonight, chart=by_chart)
     except DataError:
         for warning in (*last.warnings, *tonight.warnings):  # they may explain it
             say(f"Warning: {warning}")
@@ -60,3 +65,10 @@ def rate_by_system(
     remedy = f"the system {system.name} takes them as they are"
     doubts = league_doubts(system.scale, last.roster.rating, remedy)
     return replace(answer, warnings=[*answer.warnings, *doubts])
+
+
+def _first_night(results: Results) -> Results:
+    """Return the matches of the first date, whose races the ratings of the list have set."""
+    if results.date is None or np.isnat(results.date).all():
+        return results
+    return results.select(np.flatnonzero(results.date == np.nanmin(results.date)))

@@ -11,7 +11,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, results_options
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.systems import refuse_other_scale, system_option
+from evenbreak.cli.kit.systems import refuse_for_system, system_option
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
 
@@ -86,7 +86,7 @@ def command(
         refuse("- stands for standard input, which only one file can be; name the others")
     ladder, warnings = watched_ladder(system, chart, day_sd)
     first, season = files.read_roster(roster), files.read_results(results, **reading)
-    refuse_other_scale(first, system.scale, f"the system {system.name}", "give another --system")
+    refuse_for_system(first, system)
     warnings += [*first.warnings, *season.warnings]
     warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
     if honest == "established":

@@ -39,6 +39,8 @@ class MatchChange(NamedTuple):
         the race that the chart has for their ratings, in the same order; None without one.
     points
         how much the winner's and the loser's ratings change.
+    ratings
+        the winner's and the loser's before the night.
     """
 
     row: int
@@ -48,6 +50,7 @@ class MatchChange(NamedTuple):
     race: tuple[int, int] | None
     by_chart: tuple[int, int] | None
     points: tuple[int, int]
+    ratings: tuple[float, float]
 
 
 @short_repr
@@ -180,4 +183,4 @@ def _match_change(
     ratings = float(roster.rating[winner]), float(roster.rating[loser])
     points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
     by_chart = winner_first(night.chart_a, night.chart_b)
-    return MatchChange(row, winner, loser, games, race, by_chart, points)
+    return MatchChange(row, winner, loser, games, race, by_chart, points, ratings)
