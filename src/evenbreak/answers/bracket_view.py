@@ -15,6 +15,9 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.fold import Evening
 
+_MAIN = ("winners", "knock-out")
+"""The sides that a final belongs to."""
+
 _NAME = re.compile(r"([A-Z]+)(\d+)\.(\d+)")
 _TITLES = {
     "winners": "Winners' side",
@@ -133,12 +136,13 @@ def bracket_panels(state: Evening) -> tuple[Panel, ...]:
     """
     bracket = state.bracket
     sides: dict[str, list[Match]] = {}
+    of_sides = {match.side for match in bracket.matches}
     for match in bracket.matches:
         if NOBODY in state.standing.seats[match.name]:
             continue
         side = match.side
-        if side in ("final", "second final") and "winners" in {m.side for m in bracket.matches}:
-            side = "winners"
+        if side in ("final", "second final"):
+            side = next((main for main in _MAIN if main in of_sides), side)
         sides.setdefault(side, []).append(match)
     return tuple(_panel(state, side, matches) for side, matches in sides.items())
 
@@ -162,7 +166,7 @@ def _panel(state: Evening, side: str, matches: list[Match]) -> Panel:
     for k in range(last + 1):
         here = [match for match in matches if columns[match.name] == k]
         headings.append(_heading(here[0]) if here else "")
-    title = _TITLES.get(side, side.capitalize())
+    title = _TITLES.get(side, side[:1].upper() + side[1:])
     if side == "winners" and not any(match.side == "losers" for match in state.bracket.matches):
         title = ""
     return Panel(title, tuple(headings), boxes)
@@ -206,7 +210,17 @@ def _heights(
         if place >= count:
             count, place = many[column], seen[column] - 1
         found[match.name] = (place + 0.5) / count
+    for column in set(columns.values()):
+        here = [match.name for match in matches if columns[match.name] == column]
+        if len({round(found[name], 6) for name in here}) < len(here):  # several brackets in one
+            here.sort(key=_number)
+            found |= {name: (k + 0.5) / len(here) for k, name in enumerate(here)}
     return found
+
+
+def _number(match: str) -> int:
+    parsed = _NAME.fullmatch(match)
+    return int(parsed[3]) if parsed else 0
 
 
 def _double(bracket: Bracket) -> bool:
