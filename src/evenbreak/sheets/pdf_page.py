@@ -1,4 +1,4 @@
-"""A landscape A4 page for text and lines, in inches from its top left corner."""
+"""A page for text and lines, in inches from its top left corner; A4 landscape unless said."""
 
 import io
 import unicodedata
@@ -40,10 +40,10 @@ class Paper:
     [11.69, 8.27]
     """
 
-    def __init__(self) -> None:
-        self.figure: Figure = Figure(figsize=(WIDTH, HEIGHT), facecolor="white")
+    def __init__(self, width: float = WIDTH, height: float = HEIGHT) -> None:
+        self.figure: Figure = Figure(figsize=(width, height), facecolor="white")
         self._axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        self._axes.set(xlim=(0.0, WIDTH), ylim=(HEIGHT, 0.0))
+        self._axes.set(xlim=(0.0, width), ylim=(height, 0.0))
         self._axes.set_axis_off()
 
     def text(
@@ -72,6 +72,14 @@ class Paper:
     def band(self, left: float, top: float, width: float, height: float, *, grey: str) -> None:
         """Fill a rectangle with a grey from 0 (black) to 1 (white)."""
         self._axes.add_patch(Rectangle((left, top), width, height, fc=grey, lw=0, zorder=0))
+
+    def frame(
+        self, left: float, top: float, width: float, height: float, *, thick: float = 0.5
+    ) -> None:
+        """Draw the outline of a rectangle."""
+        self._axes.add_patch(
+            Rectangle((left, top), width, height, fill=False, ec="black", lw=thick)
+        )
 
 
 def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:

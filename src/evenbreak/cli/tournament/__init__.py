@@ -22,6 +22,8 @@ COMMANDS = {
     "forfeit": Entry("tournament.forfeit", "Let a player forfeit a match."),
     "tiebreak": Entry("tournament.tiebreak", "Break the ties of a round robin."),
     "export": Entry("tournament.export", "List the matches that were played, for the ratings."),
+    "print": Entry("tournament.print_", "Write score cards or the bracket to print."),
+    "prizes": Entry("tournament.prizes", "What each place is paid, and what players may expect."),
     "odds": Entry("tournament.odds", "Find each player's odds of winning the tournament."),
     "time": Entry("tournament.time", "Find when the tournament ends, and when each match starts."),
 }

@@ -1,0 +1,63 @@
+"""`evenbreak tournament print`: score cards, the bracket and the draw on paper."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+import click
+
+from evenbreak.answers.answer import Answer
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.terminal import write_file
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.tournament.evening import file_option
+
+EXAMPLES = """\b
+Examples:
+  evenbreak tournament print cards
+  evenbreak tournament print cards --match W1.2 --per-page 1 --out final.pdf
+  evenbreak tournament print bracket --out wall.pdf
+"""
+
+
+@click.command("print", epilog=EXAMPLES)
+@click.argument("what", type=click.Choice(["cards", "bracket"]))
+@click.option("--match", metavar="MATCH", help="The card of this match alone.")
+@click.option(
+    "--per-page",
+    type=click.Choice(["1", "4"]),
+    default="4",
+    help="How many cards are on a page.",
+)
+@click.option("--out", metavar="FILE.pdf", help="The file.  [default: cards.pdf or bracket.pdf]")
+@file_option
+@faces(always_text=True)
+def command(*, what: str, match: str | None, per_page: str, out: str | None, file: str) -> Answer:
+    """Write score cards or the bracket as a PDF to print.
+
+    Cards are made for all matches whose players are known and that are not over: one each, with
+    boxes to tick, where winner and loser go next, and room to sign. The bracket is on A4 if it can
+    be read there, else on larger paper.
+    """
+    from evenbreak.answers.printed import printed_answer
+    from evenbreak.answers.score_cards import score_cards
+    from evenbreak.files.tournament_store import read_tournament
+
+    state, name = read_tournament(file), PurePath(file).stem
+    place = out or f"{what}.pdf"
+    if PurePath(place).suffix.lower() != ".pdf":
+        refuse(f"--out {place!r}; name a file that ends in .pdf")
+    if what == "bracket":
+        if match is not None:
+            refuse("--match is for cards")
+        from evenbreak.cli.tournament.show import drawing_of
+
+        write_file(place, drawing_of(state, name, ".pdf"))
+        return printed_answer(state, 0, place)
+    from evenbreak.sheets.score_card_pages import score_cards_pdf
+
+    cards = score_cards(state, match)
+    if not cards:
+        refuse("no match is waiting to be played, so there is no card to print")
+    write_file(place, score_cards_pdf(cards, name, per_page=int(per_page)))
+    return printed_answer(state, len(cards), place)

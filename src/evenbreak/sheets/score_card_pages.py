@@ -1,0 +1,81 @@
+"""Score cards to print: four on a page, or one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from evenbreak.answers.score_cards import Card
+from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, pdf_bytes, shortened
+
+_GAP = 0.25
+MOST_BOXES = 15
+"""Games in boxes to tick; a longer race gets a field for the score."""
+
+
+def score_cards_pdf(cards: Sequence[Card], event: str, *, per_page: int = 4) -> bytes:
+    """Return score cards as a PDF of A4 pages.
+
+    Parameters
+    ----------
+    cards
+        the cards.
+    event
+        the name of the tournament, on each card.
+    per_page
+        1 or 4.
+
+    >>> card = Card("W1.1", "winners' side, round 1", ("Ann", "Bo"), (7, 5), 3, ())
+    >>> score_cards_pdf([card], "Tuesday")[:5]
+    b'%PDF-'
+    """
+    pages = []
+    for start in range(0, len(cards), per_page):
+        page = Paper(WIDTH, HEIGHT)
+        for k, card in enumerate(cards[start : start + per_page]):
+            if per_page == 1:
+                _card(page, card, event, MARGIN, MARGIN, WIDTH - 2 * MARGIN, HEIGHT - 2 * MARGIN)
+                continue
+            wide, high = (WIDTH - 2 * MARGIN - _GAP) / 2, (HEIGHT - 2 * MARGIN - _GAP) / 2
+            left, top = MARGIN + (k % 2) * (wide + _GAP), MARGIN + (k // 2) * (high + _GAP)
+            _card(page, card, event, left, top, wide, high)
+        pages.append(page.figure)
+    return pdf_bytes(pages, f"Score cards: {event}")
+
+
+def _card(
+    page: Paper, card: Card, event: str, left: float, top: float, wide: float, high: float
+) -> None:
+    """Draw a card in a rectangle."""
+    unit = high / 3.5  # a card that fills the page has larger letters
+    page.frame(left, top, wide, high, thick=0.8)
+    inner, right = left + 0.15 * unit, left + wide - 0.15 * unit
+    room = right - inner
+    page.text(inner, top + 0.32 * unit, shortened(event, 9 * unit, 0.6 * room), size=9 * unit)
+    table = "table ____" if card.table is None else f"table {card.table}"
+    page.text(right, top + 0.36 * unit, table, size=16 * unit, bold=True, ha="right")
+    page.text(inner, top + 0.56 * unit, f"{card.match}: {card.where}", size=8 * unit, color="0.3")
+    for k, (name, needs) in enumerate(zip(card.names, card.needs, strict=True)):
+        y = top + (1.0 + 0.88 * k) * unit
+        _player(page, name, needs, inner, y, room, unit)
+    y = top + 2.82 * unit
+    page.text(inner, y, "Final score", size=9 * unit)
+    page.line((inner + 0.85 * unit, inner + 1.9 * unit), (y, y))
+    page.text(inner + 2.05 * unit, y, "Signed", size=9 * unit)
+    page.line((inner + 2.55 * unit, right), (y, y))
+    onward = "  ".join(card.onward)
+    page.text(inner, top + 3.3 * unit, shortened(onward, 8 * unit, room), size=8 * unit)
+
+
+def _player(
+    page: Paper, name: str, needs: int, left: float, y: float, room: float, unit: float
+) -> None:
+    """Write a player's name and race, with a box for each game."""
+    text = shortened(name, 15 * unit, room - 1.1 * unit)
+    page.text(left, y, text, size=15 * unit, bold=True)
+    page.text(left + room, y, f"needs {needs}", size=11 * unit, ha="right")
+    if needs > MOST_BOXES:
+        page.frame(left, y + 0.1 * unit, 1.2 * unit, 0.32 * unit)
+        return
+    step = min(0.4 * unit, room / needs)
+    for game in range(needs):
+        page.frame(left + game * step, y + 0.12 * unit, 0.8 * step, 0.8 * step)
