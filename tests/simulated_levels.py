@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import betaincinv, logit
 
 from evenbreak.ratings import Results, best_prior, fit
-from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.levels import Levels, joined_late
 from evenbreak.ratings.stretches import stretch_losses
 
 SPREAD, TEAMS = 0.4, 6
@@ -75,6 +75,13 @@ def race_covered(seed, races):
     return _covered(results, "race", races)
 
 
+def joined_covered(seed, below):
+    """Return whether the true difference of those who joined late is covered; None: not found."""
+    results, _, skill = league(np.random.default_rng(seed), below=below)
+    late = joined_late(results) > 0
+    return _covered(results, "joined", skill[~late].mean() - skill[late].mean())
+
+
 def _covered(results, name, truth):
     for found in best_prior(results).evidence:
         if found.of == name and found.used:
@@ -105,6 +112,9 @@ def main(many=200):
         sys.stdout.write(
             f"race {truth}: covered {np.mean(known):.3f} of {len(known)} that were found\n"
         )
+    found = [joined_covered(seed, 0.8) for seed in range(many)]
+    known = [one for one in found if one is not None]
+    sys.stdout.write(f"joined late: covered {np.mean(known):.3f} of {len(known)} that were found\n")
     costs, used = zip(*(harm(seed) for seed in range(many)), strict=True)
     names = [name for one in used for name in one]
     sys.stdout.write(

@@ -30,8 +30,8 @@ def test_the_error_of_an_estimate_is_given_with_it():
     choice = best_prior(results)
     ratings = fit(results, prior_sd=choice.prior_sd, levels=choice.levels)
     data = levels_data(ratings, choice)
-    assert 0 < data["newcomers_below_standard_error"] < data["newcomers_below"]
-    assert f"{data['newcomers_below']:.1f} points below" in " ".join(level_words(ratings, choice))
+    assert 0 < data["joined_below_standard_error"] < data["joined_below"]
+    assert f"{data['joined_below']:.1f} points below" in " ".join(level_words(ratings, choice))
     used = {row["of"]: row["used"] for row in evidence_rows(choice)}
-    assert used["newcomers"]
+    assert used["joined"]
     assert not used["team_sd"]

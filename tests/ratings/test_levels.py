@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results, best_prior, fit, walk_forward
-from evenbreak.ratings.levels import Levels, known_levels, means_of
+from evenbreak.ratings.levels import Levels, joined_late, known_levels, means_of
 from simulated_levels import SPREAD, TEAMS, harm, league, race_covered, teams_covered
 
 SEASON = Results.from_names(
@@ -79,11 +79,14 @@ def test_a_walk_with_levels_ends_where_a_fit_begins():
     np.testing.assert_allclose(walk.difference[last], expected, atol=1e-5)
 
 
-def test_newcomers_who_are_weaker_are_expected_to_be():
-    results, *_ = league(np.random.default_rng(5), below=1.0)
-    found = {one.of: one for one in best_prior(results).evidence}["newcomers"]
-    assert found.used
-    assert found.value > 2 * found.standard_error
+def test_those_who_join_late_and_are_weaker_are_expected_to_be():
+    results, _, skill = league(np.random.default_rng(5), below=1.0)
+    found = {one.of: one for one in best_prior(results).evidence}
+    joined, late = found["joined"], joined_late(results) > 0
+    truth = skill[~late].mean() - skill[late].mean()
+    assert joined.used
+    assert not found["newcomers"].used
+    assert abs(joined.value - truth) < 1.96 * joined.standard_error < truth
 
 
 def test_teams_that_differ_are_found_and_others_are_not():

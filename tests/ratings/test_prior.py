@@ -130,12 +130,12 @@ def test_forfeits_need_no_day():
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season():
     choice = best_prior(read_results(SEASON).results)
-    # Newcomers who begin lower leave the others closer together.
-    assert choice.prior_sd == pytest.approx(math.log(2) / 2**1.5)
-    newcomers, half_life = choice.evidence
-    assert (newcomers.of, newcomers.used) == ("newcomers", True)
-    assert newcomers.gain.low > 0
-    assert newcomers.value > 3 * newcomers.standard_error
+    assert choice.prior_sd == pytest.approx(math.log(2) / 2)
+    joined, newcomers, half_life = choice.evidence
+    assert [one.of for one in choice.evidence] == ["joined", "newcomers", "half_life"]
+    for found in (joined, newcomers):
+        assert found.used
+        assert found.value > 2 * found.standard_error
     assert (half_life.used, choice.half_life) == (False, None)
     loss = dict(zip(choice.tried, choice.log_loss, strict=True))
     # A prior that says next to nothing predicts worse than no ratings at all (ln 2).

@@ -8,14 +8,15 @@ from evenbreak.answers.wording import count_of, decimals
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
-from evenbreak.ratings.levels import GROUPS, SETTLED
+from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
 from evenbreak.ratings.prior import Evidence, PriorChoice
 from evenbreak.ratings.scale import Scale
 
 _ONE = decimals(1)
 
 NAMES = {
-    "newcomers": "newcomers",
+    "joined": "joined late",
+    "newcomers": "first games",
     "race": "stated races",
     "team_sd": "teams",
     "division_sd": "divisions",
@@ -31,20 +32,27 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     >>> from evenbreak.ratings import Levels, Results, fit
     >>> night = Results.from_names(["Ann"], ["Bo"], [50], [50])
     >>> print(*level_words(fit(night, scale="fargo", levels=Levels(newcomers=0.5)), None))
-    Newcomers are expected to be 48.1 points below the average player. Half of what newcomers
-    lack is assumed to be made up after 50 games.
+    A player's first games are predicted best with a start 48.1 points below the average player,
+    half of which is gone after 50 games.
     """
     levels, points = ratings.levels, ratings.scale.points
     if levels.beginning is not None:
         yield from _beginning_words(ratings)
+    if levels.joined:
+        side = "below" if levels.joined > 0 else "above"
+        error = _error(choice, "joined", points(1.0), _ONE, " points")
+        yield (
+            f"Players who joined after the first {OPENING / 7:.0f} weeks are expected to be "
+            f"{_ONE(abs(points(levels.joined)))} points {side} those who were there from the start"
+            f"{error}."
+        )
     if levels.newcomers:
         below = ratings.newcomer
         side = "below" if below > 0 else "above"
         error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, " points")
         yield (
-            f"Newcomers are expected to be {_ONE(abs(below))} points {side} the average player"
-            f"{error}. Half of what newcomers lack is assumed to be made up after {SETTLED:g} "
-            "games."
+            f"A player's first games are predicted best with a start {_ONE(abs(below))} points "
+            f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
         )
     if levels.race:
         error = _error(choice, "race", 100.0, decimals(0), "%")
@@ -143,8 +151,10 @@ def levels_data(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
     """Return the levels that count, in points, with their standard errors where known."""
     levels, points = ratings.levels, ratings.scale.points
     errors = {found.of: found.standard_error for found in choice.evidence} if choice else {}
-    newcomers = errors.get("newcomers")
+    newcomers, joined = errors.get("newcomers"), errors.get("joined")
     return {
+        "joined_below": points(levels.joined),
+        "joined_below_standard_error": None if joined is None else points(joined),
         "newcomers_below": ratings.newcomer,
         "newcomers_below_standard_error": None
         if newcomers is None

@@ -43,6 +43,7 @@ def summary_frame(
         "anchor": ratings.anchor,
         "prior_sd_log_odds": ratings.prior_sd,
         "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "joined_below_points": float(scale.points(ratings.levels.joined)),
         "newcomers_below_points": ratings.newcomer,
         "race_counts": ratings.levels.race,
         "team_sd_points": float(scale.points(ratings.levels.team_sd)),
