@@ -28,7 +28,7 @@ MATCHES = [
 ]
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=repr)
+@pytest.mark.parametrize("match", MATCHES, ids=["race", "breaks", "win by 2", "sets", "ahead"])
 def test_without_form_everything_stays_as_it_is(match):
     assert match_odds(match, form=0.0) == match_odds(match)
     assert final_scores(match, form=0.0).probability == final_scores(match).probability
@@ -50,7 +50,7 @@ def test_scores_are_those_of_the_integral_over_form(p, form):
         assert scores[score] == pytest.approx(exact, abs=1e-9)
 
 
-@pytest.mark.parametrize("match", MATCHES, ids=repr)
+@pytest.mark.parametrize("match", MATCHES, ids=["race", "breaks", "win by 2", "sets", "ahead"])
 def test_scores_lengths_and_odds_are_of_one_law(match):
     odds = match_odds(match, form=0.4)
     scores, length = final_scores(match, form=0.4), match_length(match, form=0.4)
