@@ -21,6 +21,7 @@ from evenbreak.arrays import Floats
 from evenbreak.matches.form import centre_of_form
 from evenbreak.ratings.calibration import Estimate, with_error
 from evenbreak.ratings.decay import until
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import weights_of
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
@@ -147,6 +148,7 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
 
         d - V (w - n p) / (1 - V k),    with the variance V / (1 - V k).
     """
+    check_results(results)
     if len(ratings.players) > MOST_PLAYERS or ratings.break_advantage is not None:
         return None
     in_time = results if ratings.as_of is None else results.select(until(results, ratings.as_of))
