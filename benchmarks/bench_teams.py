@@ -82,7 +82,8 @@ def test_eight_players_unseen_under_a_cap(beside: Beside) -> None:
     win = chances(8)
     capped = [squad(8, team, Cap(levels, 23.0)) for team in "ab"]
     unseen, in_turn = (
-        TeamNight(capped[0], capped[1], law(win), sets=5, order=order) for order in ("blind", "alternate")
+        TeamNight(capped[0], capped[1], law(win), sets=5, order=order)
+        for order in ("blind", "alternate")
     )
     beside(
         "8 players, 5 sets unseen, 23-rule / the same in turn",
