@@ -55,7 +55,7 @@ def _unlinked(sheet: Sheet) -> Iterator[Remark]:
     if idle:
         yield Remark(
             f"{count_of(len(idle), 'player')} without a result",
-            "rated at the mean until there are results",
+            "rated as expected before any result",
             idle,
         )
     why = "no chain of opponents links them"

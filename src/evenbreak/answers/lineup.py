@@ -17,14 +17,18 @@ from evenbreak.teams.advice import Advice, Option, Point, advice
 from evenbreak.teams.night import TeamNight
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
-from evenbreak.teams.solve import SolvedNight, solved
+from evenbreak.teams.solve import SolvedNight, solved, steps_of
+
+MOST_DRAWS, _FEWEST_DRAWS = 400, 20
+"""Draws of the ratings: fewer where a night takes long to solve."""
+
+_WORK, _WORK_OF_ORDERS = 4e8, 2e7  # steps of `steps_of` that take a second or so
 
 
 def lineup_answer(
     meeting: Meeting,
     point: Point | None = None,
     *,
-    draws: int = 100,
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
@@ -36,8 +40,8 @@ def lineup_answer(
         who meets whom, and what is played.
     point
         the point in the night; None: before the first nomination.
-    draws, seed
-        of the ratings, where they have standard errors.
+    seed
+        of the ratings that are drawn, where they have standard errors.
     warnings
         about the question.
 
@@ -55,7 +59,8 @@ def lineup_answer(
     solution = solved(night)
     found = advice(solution, point)
     sure: dict[tuple[str, ...], float] = {}
-    if meeting.uncertain and not found.blind:
+    draws = int(min(MOST_DRAWS, _WORK / steps_of(night)))
+    if meeting.uncertain and not found.blind and draws >= _FEWEST_DRAWS:
         sure = best_by_skills(
             night,
             meeting.laws,
@@ -77,11 +82,12 @@ def lineup_answer(
     if point is None:
         data["toss"], words = _toss(meeting, solution)
         parts += filter(None, [words])
-        orders = _orders(meeting, solution)
-        details: list[Part] = [orders]
+        details: list[Part] = []
+        if steps_of(night) < _WORK_OF_ORDERS:
+            details.append(_orders(meeting, solution))
     else:
         details = []
-    parts += filter(None, [_sure_words(found, sure)])
+    parts += filter(None, [_sure_words(found, sure, draws)])
     return Answer(
         _heading(meeting, found),
         parts,
@@ -116,6 +122,9 @@ def _heading(meeting: Meeting, found: Advice) -> str:
 
 def _in_words(found: Advice, named: Sequence[str]) -> str:
     best, p = found.best, percent(found.worth)
+    worths = {option.worth for option in found.options}
+    if worths in ({1.0}, {0.0}):
+        return f"The match is decided: you have {'won' if found.worth else 'lost'} it."
     if found.blind:
         mixed = [
             f"{_name(option)} {percent(option.mix)}"
@@ -234,7 +243,7 @@ def _order_words(name: str, order: str) -> str:
     }[name]
 
 
-def _sure_words(found: Advice, sure: dict[tuple[str, ...], float]) -> str:
+def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> str:
     """Return how far the best pick depends on the ratings."""
     if not sure:
         return ""
@@ -244,6 +253,6 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float]) -> str:
         return f"{best} is the best pick even if the ratings are off by what their errors allow."
     return (
         f"With ratings that are off by what their errors allow, {best} is the best pick "
-        f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}; on "
-        f"average it is {best}."
+        f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}, in "
+        f"{draws} draws; on average it is {best}."
     )

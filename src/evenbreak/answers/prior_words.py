@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Show, Table
-from evenbreak.answers.wording import count_of, decimals
+from evenbreak.answers.wording import count_of, decimals, listed
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
@@ -13,6 +13,7 @@ from evenbreak.ratings.prior import Evidence, PriorChoice
 from evenbreak.ratings.scale import Scale
 
 _ONE = decimals(1)
+_FEW = 5  # names that are listed
 
 NAMES = {
     "joined": "joined late",
@@ -72,7 +73,8 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     beginning, off = ratings.levels.beginning, ratings.levels.brought_sd
     if beginning is None:
         return
-    known = len(set(beginning.players) & set(ratings.players))
+    others = [name for name in ratings.players if name not in set(beginning.players)]
+    known = len(ratings.players) - len(others)
     if beginning.unknown_error and not off:
         yield (
             "The ratings that players bring along do not help to predict these results, and are "
@@ -83,6 +85,8 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
     if beginning.unknown_error:
         text += f", which is taken to be off by {_ONE(ratings.scale.points(off))} points or so"
+    if 0 < len(others) <= _FEW:
+        text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
     yield f"{text}."
 
 
@@ -187,7 +191,7 @@ def _evidence(found: Evidence) -> dict[str, Any]:
 def prior_words(ratings: Ratings) -> str:
     """Return what was assumed about players before any result."""
     width = _ONE(ratings.scale.points(ratings.prior_sd))
-    start = "average" if ratings.named else f"at {ratings.anchor:g}"
+    start = "average" if ratings.named else f"at {round(ratings.anchor, 1):g}"
     apart = ", apart from what is known about them," if ratings.levels else ""
     return (
         f"Before any result, every player{apart} is assumed to be {start}, give or take {width} "

@@ -67,8 +67,8 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
     """Yield what the numbers of the ratings mean, and which of them mean less."""
     ratings = sheet.ratings
     yield (
-        f"Ratings are on {like_scale_words(ratings.scale)}, with a mean of {ratings.anchor:g}; "
-        "they are not official ratings."
+        f"Ratings are on {like_scale_words(ratings.scale)}, with a mean of "
+        f"{round(ratings.anchor, 1):g}; they are not official ratings."
     )
     if (groups := count_groups(ratings)) > 1:
         yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
@@ -92,7 +92,7 @@ def how_rated(sheet: Sheet) -> str:
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
     who = "Apart from what is known beforehand, every player" if ratings.levels else "Every player"
-    text = f"{who} starts at {ratings.anchor:g}, give or take {prior:.4g}"
+    text = f"{who} starts at {round(ratings.anchor, 1):g}, give or take {prior:.4g}"
     if sheet.choice is not None and sheet.choice.learnt:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "

@@ -127,7 +127,8 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
         "to_be_sure",
         columns,
         [row for row in rows if any(value is not None for value in row[1:])],
-        title="Points that a team still needs to be sure, whatever the others do",
+        title="Points that a team still needs to be sure, whatever the others do (blank: its own "
+        "matches cannot make it sure)",
     )
 
 

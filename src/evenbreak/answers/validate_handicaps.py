@@ -135,7 +135,8 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
     points = fair.points
     error = (points.high - points.low) / 3.92
     if not scale_way(chart):
-        if error > SURE * points.value:
+        agrees = points.low <= fair.assumed <= points.high
+        if error > SURE * points.value or not agrees:
             return "", ""
         return (
             f"The chart takes {fair.assumed:.3g} points to double the odds of winning a game. The "

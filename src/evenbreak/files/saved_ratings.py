@@ -39,11 +39,14 @@ class Saved(NamedTuple):
         how many of the players are in the results.
     warnings
         what to check although the file can be used.
+    scale_stated
+        whether the file states its scale.
     """
 
     beginning: Beginning
     found: int
     warnings: tuple[str, ...]
+    scale_stated: bool
 
 
 def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> bytes:
@@ -164,4 +167,5 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         games=np.maximum(roster.games[rated], 0).astype(float),
         as_of=None if np.isnat(day).all() else str(day[~np.isnat(day)].max()),
     )
-    return Saved(beginning, sum(place is not None for place in places), file.warnings)
+    found = sum(place is not None for place in places)
+    return Saved(beginning, found, file.warnings, file.scale is not None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import reduce
 from pathlib import Path
@@ -65,12 +65,37 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
         (
             *(text for file in found for text in file.warnings),
             *similar_name_warnings(across, source, remedy),
+            *_in_two_files(found, results),
         ),
         groups,
         hashlib.sha256("".join(prints).encode()).hexdigest(),
         ties=tuple(text for file in found for text in file.ties),
         skipped=sum(file.skipped for file in found),
     )
+
+
+def _in_two_files(found: Sequence[ResultsFile], results: Results) -> Iterator[str]:
+    """Yield how many dated matches of a file are in an earlier one, with the same score."""
+    if results.date is None:
+        return
+    columns = (results.player_a, results.player_b, results.score_a, results.score_b)
+    days = results.date.astype("datetime64[D]").astype(np.int64)
+    rows = list(zip(days.tolist(), *(column.tolist() for column in columns), strict=True))
+    dated = (~np.isnat(results.date)).tolist()
+    seen: set[tuple[int, ...]] = set()
+    start = 0
+    for file in found:
+        end = start + len(file.results)
+        own = [row for row, known in zip(rows[start:end], dated[start:end], strict=True) if known]
+        again = sum(row in seen for row in own)
+        if again:
+            matches = "match is" if again == 1 else "matches are"
+            yield (
+                f"{file.source}: {again:,} {matches} in an earlier file too, with the same "
+                "players, score and day; leave them out of one of the files, or they count twice"
+            )
+        seen.update(own)
+        start = end
 
 
 def _joined(seasons: Sequence[Results]) -> Results:

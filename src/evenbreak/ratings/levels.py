@@ -114,7 +114,7 @@ def joined_late(results: Results) -> Floats:
     first = np.full(many, np.inf)
     for players in (results.player_a, results.player_b):
         np.minimum.at(first, players[dated], days[dated])
-    return ((first > OPENING) & np.isfinite(first)).astype(float)
+    return np.asarray((first > OPENING) & np.isfinite(first), dtype=float)
 
 
 def newness(games: Floats | Ints) -> Floats:

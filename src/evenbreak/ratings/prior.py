@@ -23,7 +23,7 @@ from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.gains import gains_over, is_clear
 from evenbreak.ratings.half_life import half_lives_for
-from evenbreak.ratings.levels import Levels, known_levels
+from evenbreak.ratings.levels import Levels, begun, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stretches import Stretches, StretchLosses
 
@@ -195,7 +195,7 @@ def best_prior(
     search = _Search(results, len(more) + 2, progress)
     choice = search.width(tried, way)
     if not choice.learnt:
-        return choice
+        return choice._replace(levels=begun(beginning))
     evidence = []
     chosen_for = way
     for name, sizes in more.items():
@@ -285,6 +285,8 @@ class _Search:
             return found
         shift = -float(slope.sum()) / bend
         error = float(np.sqrt(((slope - slope.mean()) ** 2).sum())) / bend
+        if error > max(abs(found.value), STEP):  # the losses are nearly straight: nothing to see
+            return found
         apart = max(np.diff(found.tried).max(), 4.0 * STEP)
         value = found.value + float(np.clip(shift, -apart, apart))
         return found._replace(value=value, standard_error=error)

@@ -224,7 +224,8 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     whole(abs(point.lead), "lead")
     if abs(point.lead) > (k - len(point.in_play)) * night.reach:
         raise InputError(
-            f"the lead is {point.lead}, which {k - len(point.in_play)} sets cannot give"
+            f"the lead is {point.lead}, but by the players used only {k - len(point.in_play)} sets "
+            "are over"
         )
     return (
         k,

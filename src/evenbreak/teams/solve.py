@@ -176,14 +176,18 @@ def _games(night: TeamNight, k: int, after: Floats, mine: Ints, others: Ints) ->
     return games
 
 
-def _refuse_large(night: TeamNight) -> None:
-    steps = sum(
+def steps_of(night: TeamNight) -> float:
+    """Return about how many multiplications it takes to solve a night."""
+    return sum(
         float(mine.size) * others.size * (2 * k * night.reach + 1) * np.count_nonzero(law[0, 0])
         for k, (mine, others, law) in enumerate(
             zip(night.our_line_ups.after, night.their_line_ups.after, night.laws, strict=True)
         )
     )
-    if steps > MOST_STEPS:
+
+
+def _refuse_large(night: TeamNight) -> None:
+    if steps_of(night) > MOST_STEPS:
         sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
         raise InputError(
             f"squads of {sizes} allow too many line-ups of {night.sets} sets; leave out those who "

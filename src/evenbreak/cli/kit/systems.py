@@ -127,14 +127,21 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
             "and no single match moves by points, so there is nothing to follow here; give a chart "
             "of rating differences, such as npl_10"
         )
-    best, own = (
-        handicaps.audit(chart, scale=system.scale).best_fit,
-        system.scale.points_per_doubling,
-    )
-    if best is not None and abs(best.points_per_doubling / own - 1.0) > SCALE_OFF:
-        warnings.append(
-            f"the races of {chart.name} fit a scale on which about "
-            f"{best.points_per_doubling:.0f} points double the odds, but here {own:.4g} do; "
-            "make sure that it is the chart for these ratings"
-        )
-    return chart, warnings
+    return chart, [*warnings, *chart_doubts(chart, system.scale)]
+
+
+def chart_doubts(chart: Any, scale: Scale) -> list[str]:
+    """Return a warning if the races of a chart fit another scale than that of the ratings.
+
+    What is not a chart of rating differences is not doubted.
+    """
+    if not isinstance(chart, handicaps.Chart):
+        return []
+    best, own = handicaps.audit(chart, scale=scale).best_fit, scale.points_per_doubling
+    if best is None or abs(best.points_per_doubling / own - 1.0) <= SCALE_OFF:
+        return []
+    return [
+        f"the races of {chart.name} fit a scale on which about {best.points_per_doubling:.0f} "
+        f"points double the odds, but here {own:.4g} do; make sure that it is the chart for these "
+        "ratings"
+    ]

@@ -171,12 +171,26 @@ def rated(
 
 def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
+    from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.files.saved_ratings import read_saved
 
     saved = read_saved(path, scale, file.results.players)
     if not saved.found:
         refuse(f"--begin {path}: none of its players is in {file.source}; check the names")
-    return saved.beginning
+    beginning, day = saved.beginning, saved.beginning.as_of
+    if not saved.scale_stated:
+        remedy = "name the scale with --scale, or state it in a column scale"
+        for doubt in league_doubts(scale, beginning.rating, remedy):
+            refuse(f"--begin {path}: {doubt}")
+    if day is not None and file.results.date is not None:
+        known = int((file.results.date[file.results.counted] <= day).sum())
+        if known:
+            refuse(
+                f"--begin {path}: its ratings are as of {day}, and {known:,} of the matches in "
+                f"{file.source} are of that day or earlier, so they would count twice; give the "
+                "later matches alone"
+            )
+    return beginning
 
 
 def prior_in_log_odds(points: float, scale: Scale) -> float:

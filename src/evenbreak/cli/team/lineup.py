@@ -12,7 +12,12 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
+from evenbreak.cli.kit.systems import (
+    chart_by_difference,
+    chart_doubts,
+    refuse_levels,
+    refuse_other_scale,
+)
 from evenbreak.cli.kit.values import LONGEST, SCORE, Whole, refuse
 from evenbreak.cli.team.points import point_of
 from evenbreak.ratings.scale import SCALES
@@ -149,7 +154,10 @@ def command(
     taken to choose as well as they can. After each nomination, ask again with --used, --score and
     --named.
     """
+    import numpy as np
+
     from evenbreak.answers.lineup import lineup_answer
+    from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.answers.starters import starters_words
     from evenbreak.answers.team_meeting import SEALED, Meeting
 
@@ -177,6 +185,10 @@ def command(
     asked = any(value is not None and value != () for value in (used, score, playing, named))
     point = point_of(meeting, used, score, playing, named, last) if asked else None
     warnings = [line for each in lists for line in each.file.warnings]
+    if all(each.file.scale is None for each in lists) and scale is None:
+        rated = np.concatenate([each.file.roster.rating for each in lists])
+        warnings += league_doubts(points, rated, "name the scale with --scale")
+    warnings += chart_doubts(meeting.race, points)
     for each, roster in zip(lists, rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
     return lineup_answer(meeting, point, seed=seed, warnings=warnings)

@@ -77,6 +77,10 @@ def _player(
         for side in sides
         if (place := KnownNames(rosters[side].players).place(wanted)) is not None
     ]
+    if not found and len(sides) == 1 and option == "--playing":
+        other = KnownNames(rosters[1 - sides[0]].players).place(wanted)
+        if other is not None:
+            refuse(f"{option}: {wanted!r} is in the other team; write your player, then theirs")
     if not found:
         hint = KnownNames([*rosters[0].players, *rosters[1].players]).hint(wanted)
         refuse(f"{option}: {wanted!r} is in neither team{hint}")

@@ -125,6 +125,8 @@ def command(
     for name, many in (("--up", up), ("--down", down)):
         if many is not None and many >= count:
             refuse(f"{name} is {many}, but there are {count} teams; give fewer")
+    if (up or 0) + (down or 0) > count:
+        refuse(f"--up {up} and --down {down} are more than the {count} teams; give fewer")
     length = _length(played.scores, sets, race)
     rng = np.random.default_rng(seed)
     rows = np.hstack([played.pairs, played.scores])

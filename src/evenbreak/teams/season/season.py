@@ -133,9 +133,27 @@ class TeamSeason:
                 continue
             step = _step(self.points_of_scores, self.head_start)
             needed = max(0.0, others[places - 1] + step - now)
-            if now + needed <= self.most_points[team] + 1e-9:
+            best = float(self.most_points[team])
+            if now + needed <= best + 1e-9:
                 found[team] = needed
+            elif best > now and (self._most_if_beaten(team) >= best - 1e-9).sum() < places:
+                found[team] = best - now  # all that is left, and that takes points from the others
         return found
+
+    def _most_if_beaten(self, team: int) -> Floats:
+        """Return the most points of each other team if a team wins all its matches to come."""
+        found = self.most_points.copy()
+        if not len(self.scores):
+            return np.delete(found, team)
+        best = self.points_of_scores.max(axis=0)
+        at_home, away = self.points_of_scores.argmax(axis=0)
+        lost = self.points_of_scores[at_home, 1], self.points_of_scores[away, 0]
+        for home, guest in self.to_come:
+            if home == team:
+                found[guest] += lost[0] - best[1]
+            elif guest == team:
+                found[home] += lost[1] - best[0]
+        return np.delete(found, team)
 
 
 def _step(points: Floats, start: Floats) -> float:
