@@ -1,9 +1,8 @@
 """Sphinx settings: MyST pages, autodoc for the interface, furo."""
 
 import ast
+import re
 from pathlib import Path
-
-from sphinx.util.docutils import SphinxDirective
 
 import evenbreak
 
@@ -32,6 +31,7 @@ napoleon_use_ivar = True
 napoleon_attr_annotations = False
 # A docstring's words in single backquotes are code.
 default_role = "literal"
+toc_object_entries = False
 nitpicky = False
 # Many classes have a field `games`; a class that names its own means no other.
 suppress_warnings = ["ref.python"]
@@ -41,25 +41,28 @@ html_title = f"evenbreak {release}"
 html_static_path: list[str] = []
 
 
-class Room(SphinxDirective):
-    """`{room} games`: the public names of a room, module by module, as its stub lists them."""
+ROOM = re.compile(r"^```\{room\} (\w+)\n```$", re.MULTILINE)
 
-    required_arguments = 1
 
-    def run(self) -> list:
-        """Return the documentation of each module with the names that are public."""
-        [room] = self.arguments
-        stub = Path(evenbreak.__file__).parent / room / "__init__.pyi"
-        self.env.note_dependency(str(stub))
-        public: dict[str, list[str]] = {}
-        for line in ast.parse(stub.read_text("utf-8")).body:
-            names = [alias.name for alias in line.names]
-            public.setdefault(line.module, []).extend(names)
-        text = "\n".join(
-            f".. automodule:: evenbreak.{room}.{module}\n   :members: {', '.join(names)}\n"
-            for module, names in public.items()
-        )
-        return self.parse_text_to_nodes(f"```{{eval-rst}}\n{text}```\n")
+def modules_of(room: str) -> str:
+    """Return a heading and the documentation for each module of a room that has public names."""
+    stub = Path(evenbreak.__file__).parent / room / "__init__.pyi"
+    public: dict[str, list[str]] = {}
+    for line in ast.parse(stub.read_text("utf-8")).body:
+        names = [alias.name for alias in line.names]
+        public.setdefault(line.module, []).extend(names)
+    return "\n".join(
+        f"## {module.replace('_', ' ').replace('.', ', ').capitalize()}\n\n"
+        f"```{{eval-rst}}\n"
+        f".. automodule:: evenbreak.{room}.{module}\n   :members: {', '.join(names)}\n"
+        f"```\n"
+        for module, names in public.items()
+    )
+
+
+def write_rooms(app, docname, source) -> None:  # noqa: ARG001
+    """Put the modules of a room where a page says `{room} games`, as the room's stub lists them."""
+    source[0] = ROOM.sub(lambda found: modules_of(found[1]), source[0])
 
 
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
@@ -88,6 +91,6 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
 
 
 def setup(app) -> None:
-    """Add the directive, and run `prepare` before napoleon, whose priority is 500."""
-    app.add_directive("room", Room)
+    """Write the rooms' pages, and run `prepare` before napoleon, whose priority is 500."""
+    app.connect("source-read", write_rooms)
     app.connect("autodoc-process-docstring", prepare, priority=100)
