@@ -39,12 +39,12 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "plots",
         "sheets",
         "source_text",
-        "cli",
+        "cli web",
         "__main__",
     )
 )
 DEPTH = {room: depth for depth, row in enumerate(LAYERS) for room in row}
-FACES_OUTWARD = {"files", "answers", "plots", "sheets", "source_text", "cli", "__main__"}
+FACES_OUTWARD = {"files", "answers", "plots", "sheets", "source_text", "cli", "web", "__main__"}
 OUTWARD_MODULES = {"click", "fileinput", "jinja2", "matplotlib", "pathlib", "rich", "tempfile"}
 OUTWARD_CALLS = {"input", "open", "print"}
 OUTWARD_STREAMS = {"stdin", "stdout", "stderr"}

@@ -73,7 +73,7 @@ def read_events(path: str | Path) -> list[Event]:
     DataError
         if the file is not that of a tournament, or cannot be read.
     """
-    with _opened(path) as base:
+    with opened(path) as base:
         return _events(base, path)
 
 
@@ -89,7 +89,7 @@ def read_tournament(path: str | Path) -> Evening:
 
 
 def add_events(
-    path: str | Path, decide: Callable[[Evening], Sequence[Event]]
+    path: str | Path, decide: Callable[[Evening], Sequence[Event]], *, by: str = ""
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
@@ -100,13 +100,15 @@ def add_events(
     decide
         returns the events, given the state; nobody else can add any in the meantime. If it raises
         an error, nothing is added.
+    by
+        who enters them; kept beside them.
 
     Raises
     ------
     DataError
         if the file is not that of a tournament, or cannot be read or written.
     """
-    with _opened(path) as base:
+    with opened(path) as base:
         base.execute("BEGIN IMMEDIATE")
         try:
             earlier = _events(base, path)
@@ -116,6 +118,8 @@ def add_events(
             if after.drawn:
                 _ = after.standing  # a state that cannot be shown is never written
             _write(base, len(earlier), added)
+            if by:
+                _sign(base, len(earlier), len(added), by)
         except BaseException:
             base.execute("ROLLBACK")
             raise
@@ -133,7 +137,7 @@ def is_tournament(path: str | Path) -> bool:
 
 
 @contextmanager
-def _opened(path: str | Path) -> Iterator[sqlite3.Connection]:
+def opened(path: str | Path) -> Iterator[sqlite3.Connection]:
     """Open the file of a tournament."""
     if not Path(path).exists():
         raise DataError(
@@ -163,6 +167,13 @@ def _connected(path: Path) -> Iterator[sqlite3.Connection]:
             yield base
     except sqlite3.Error as error:
         raise DataError([f"{path}: {error}"]) from error
+
+
+def _sign(base: sqlite3.Connection, count: int, added: int, by: str) -> None:
+    """Keep who entered the last events."""
+    base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
+    numbers = range(count + 1, count + added + 1)
+    base.executemany("INSERT INTO author VALUES (?, ?)", [(number, by) for number in numbers])
 
 
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:

@@ -19,7 +19,7 @@ class Entry(NamedTuple):
     Parameters
     ----------
     module
-        the module of `evenbreak.cli` whose `command` it is.
+        the module of `evenbreak.cli` whose `command` it is, or one elsewhere by its whole name.
     help
         the line: what the command gives its user.
     section
@@ -52,7 +52,10 @@ class LazyGroup(click.Group):
         """Import and return the command of this name, or None if there is none."""
         if cmd_name not in self._table:
             return None
-        module = importlib.import_module(f"evenbreak.cli.{self._table[cmd_name].module}")
+        name = self._table[cmd_name].module
+        module = importlib.import_module(
+            name if name.startswith("evenbreak.") else f"evenbreak.cli.{name}"
+        )
         command: click.Command = module.command
         if ctx.resilient_parsing:  # a shell asks what may come next
             from evenbreak.cli.kit.completion import complete_files

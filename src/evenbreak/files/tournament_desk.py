@@ -1,0 +1,121 @@
+"""What the file of an evening holds besides its events: secrets, proposed results, authors."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import sqlite3
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from evenbreak.files.tournament_store import opened
+
+_TABLES = """
+CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS proposal (
+    game TEXT NOT NULL, player TEXT NOT NULL, score TEXT NOT NULL, phone TEXT NOT NULL,
+    at TEXT NOT NULL, PRIMARY KEY (game, player)
+);
+"""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """The result of a match as one of its players entered it; it counts once it is confirmed.
+
+    Parameters
+    ----------
+    match
+        its name.
+    player
+        who entered it.
+    score
+        the games of each player by name.
+    phone
+        the session in which it was entered.
+    at
+        when, such as 2025-03-01T19:30:00.
+    """
+
+    match: str
+    player: str
+    score: Mapping[str, int]
+    phone: str
+    at: str
+
+
+def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
+    """Return the secrets of a tournament by name; those that it has none of are kept from now on.
+
+    Parameters
+    ----------
+    path
+        the file of the tournament.
+    first
+        a secret for each name, for the first time.
+    """
+    with opened(path) as base:
+        _begin(base)
+        base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
+        found = dict(base.execute("SELECT name, value FROM secret").fetchall())
+        base.execute("COMMIT")
+    return found
+
+
+def new_pin() -> str:
+    """Return a PIN of six digits."""
+    return f"{secrets.randbelow(10**6):06d}"
+
+
+def propose(path: str | Path, proposal: Proposal) -> None:
+    """Keep a proposed result; a player's later one takes the place of the earlier."""
+    with opened(path) as base:
+        _begin(base)
+        score = json.dumps(dict(proposal.score))
+        base.execute(
+            "INSERT OR REPLACE INTO proposal VALUES (?, ?, ?, ?, ?)",
+            (proposal.match, proposal.player, score, proposal.phone, proposal.at),
+        )
+        base.execute("COMMIT")
+
+
+def proposals(path: str | Path) -> list[Proposal]:
+    """Return all proposed results, in the order in which they came in."""
+    with opened(path) as base:
+        if not _has(base, "proposal"):
+            return []
+        rows = base.execute(
+            "SELECT game, player, score, phone, at FROM proposal ORDER BY at, player"
+        ).fetchall()
+    return [
+        Proposal(name, who, json.loads(score), phone, at) for name, who, score, phone, at in rows
+    ]
+
+
+def authors(path: str | Path) -> dict[int, str]:
+    """Return who entered each event, by its number from 1, where that is known."""
+    with opened(path) as base:
+        if not _has(base, "author"):
+            return {}
+        return dict(base.execute("SELECT number, name FROM author").fetchall())
+
+
+def back_up(path: str | Path, now: datetime) -> Path:
+    """Write a copy of the file beside it, and return its name."""
+    place = Path(path)
+    copy = place.with_name(f"{place.stem}-{now:%Y%m%d-%H%M%S}.backup.db")
+    with opened(place) as base:
+        base.execute("VACUUM INTO ?", (str(copy),))
+    return copy
+
+
+def _begin(base: sqlite3.Connection) -> None:
+    base.executescript(_TABLES)
+    base.execute("BEGIN IMMEDIATE")
+
+
+def _has(base: sqlite3.Connection, table: str) -> bool:
+    asked = "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?"
+    return base.execute(asked, (table,)).fetchone() is not None

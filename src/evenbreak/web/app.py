@@ -1,0 +1,93 @@
+"""The application: its routes, and what is answered when something is refused or fails."""
+
+from __future__ import annotations
+
+import logging
+
+from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.middleware.sessions import SessionMiddleware
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route
+
+from evenbreak.errors import EvenbreakError
+from evenbreak.web.guard import Guard
+from evenbreak.web.live import events
+from evenbreak.web.page import language, own_file, page, script_hash
+from evenbreak.web.pages import bracket, desk, entry, fair, home, match, screen
+from evenbreak.web.refusals import Refused
+from evenbreak.web.site import Site
+from evenbreak.web.words import say
+
+_LOG = logging.getLogger(__name__)
+_COOKIE_DAYS = 3
+
+
+def make_app(site: Site) -> Starlette:
+    """Return the application that serves a site.
+
+    Parameters
+    ----------
+    site
+        the file, the addresses and the secrets.
+    """
+    app = Starlette(
+        routes=[
+            Route("/evenbreak.css", _style),
+            Route("/events", events),
+            *home.ROUTES,
+            *fair.ROUTES,
+            *bracket.ROUTES,
+            *screen.ROUTES,
+            *match.ROUTES,
+            *desk.ROUTES,
+            *entry.ROUTES,
+        ],
+        middleware=[
+            Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
+            Middleware(
+                SessionMiddleware,
+                secret_key=site.cookie_key,
+                session_cookie="evenbreak",
+                max_age=_COOKIE_DAYS * 86400,
+                same_site="lax",
+            ),
+        ],
+        exception_handlers={
+            Refused: _refused,
+            EvenbreakError: _wrong,
+            HTTPException: _http,
+            Exception: _failed,
+        },
+    )
+    app.state.site = site
+    return app
+
+
+async def _style(_: Request) -> Response:
+    kept = {"cache-control": "max-age=3600"}
+    return PlainTextResponse(own_file("evenbreak.css"), media_type="text/css", headers=kept)
+
+
+async def _refused(request: Request, error: Exception) -> Response:
+    assert isinstance(error, Refused)  # noqa: S101
+    words = say(language(request), error.key, **error.values)
+    return page(request, "refused.html", status=error.status, why=words)
+
+
+async def _wrong(request: Request, error: Exception) -> Response:
+    return page(request, "refused.html", status=400, why=str(error))
+
+
+async def _http(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)  # noqa: S101
+    key = "refused_missing" if error.status_code == 404 else "refused_method"
+    words = say(language(request), key)
+    return page(request, "refused.html", status=error.status_code, why=words)
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    _LOG.exception("%s failed", request.url.path, exc_info=error)
+    return PlainTextResponse("This page failed; nothing was changed by it.\n", status_code=500)

@@ -1,0 +1,99 @@
+"""`evenbreak serve`: the page on the director's phone and the venue's screen."""
+
+from __future__ import annotations
+
+import socket
+import sys
+from datetime import datetime
+from pathlib import Path
+
+import click
+
+EXAMPLES = """\b
+Examples:
+  evenbreak serve
+  evenbreak serve saturday.db --lan
+"""
+
+
+@click.command("serve", epilog=EXAMPLES)
+@click.argument("file", metavar="[FILE.db]", default="tonight.db", required=False)
+@click.option(
+    "--lan",
+    is_flag=True,
+    help="Let phones in the same network open the page; prints its address and a QR code.",
+)
+@click.option(
+    "--port",
+    type=click.IntRange(1024, 65535),
+    metavar="N",
+    default=8000,
+    help="Where the page is found on this computer.",
+)
+def command(*, file: str, lan: bool, port: int) -> None:
+    """Open tonight's tournament as a page: for phones, the director and the screen on the wall.
+
+    FILE.db is the tournament's file, as evenbreak tournament new writes it; if it is not there, the
+    page begins one. The commands of evenbreak tournament can be used on it at the same time.
+    """
+    import segno
+    import uvicorn
+
+    from evenbreak.files.tournament_desk import back_up
+    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.web.app import make_app
+    from evenbreak.web.site import Site
+
+    path = Path(file)
+    if path.exists():
+        read_tournament(path)
+        back_up(path, datetime.now())
+    own = _own_address() if lan else "127.0.0.1"
+    hosts = {"127.0.0.1", "localhost", "::1", own}
+    if lan:
+        hosts |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
+    address = f"http://{own}:{port}"
+    site = Site(path, frozenset(hosts), address)
+    refused = _taken("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
+    if refused:
+        raise click.UsageError(f"--port {port}: {refused}; give another one, such as {port + 1}")
+    click.echo(f"The page: {address}", err=True)
+    click.echo(f"The director's PIN: {site.pin}", err=True)
+    if lan:
+        segno.make(address, error="l").terminal(sys.stderr, compact=True)
+    click.echo("Ctrl+C ends it; nothing is lost.", err=True)
+    config = uvicorn.Config(
+        make_app(site),
+        host="0.0.0.0" if lan else "127.0.0.1",  # noqa: S104
+        port=port,
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        timeout_keep_alive=20,
+        timeout_graceful_shutdown=2,
+        limit_concurrency=1000,
+    )
+    uvicorn.Server(config).run()
+
+
+def _own_address() -> str:
+    """Return the address of this computer in its network."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))  # nothing is sent
+        except OSError:
+            raise click.ClickException(
+                "this computer is in no network; join one, or leave --lan out"
+            ) from None
+        return str(probe.getsockname()[0])
+
+
+def _taken(host: str, port: int) -> str:
+    """Return why a port cannot be used; '' if it can."""
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except OSError as error:
+            return (error.strerror or str(error)).lower()
+    return ""

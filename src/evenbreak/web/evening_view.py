@@ -1,0 +1,157 @@
+"""An evening as the pages show it: tables, calls, waiting matches, odds, places; plain values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from evenbreak.answers.times_of_day import time_of_day
+from evenbreak.answers.tournament import races_words
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.moves import free_tables
+from evenbreak.web.night import Known
+
+
+@dataclass(frozen=True)
+class MatchView:
+    """A match that can be played or is being played.
+
+    Parameters
+    ----------
+    name
+        of the match.
+    players, needs, score
+        the players, the games that each needs and has won.
+    table
+        where it is played, or may be called to; None: no table is free.
+    since
+        when it was called, such as 19:40; '' if it was not.
+    """
+
+    name: str
+    players: tuple[str, str]
+    needs: tuple[int, int]
+    score: tuple[int, int] | None
+    table: int | None
+    since: str = ""
+
+    @property
+    def hill(self) -> bool:
+        """Whether both players need one more game."""
+        return self.score is not None and all(
+            need - won == 1 for need, won in zip(self.needs, self.score, strict=True)
+        )
+
+
+@dataclass(frozen=True)
+class EveningView:
+    """An evening as the pages show it.
+
+    Parameters
+    ----------
+    state
+        the state of the evening.
+    races
+        what is raced to, in words.
+    playing, calls, waiting
+        the matches on tables, those to call now, those that wait for a table or a player.
+    free
+        the free tables.
+    finish
+        when it ends: early, in the middle and late, such as 22:15; None: not known.
+    odds
+        each player's chance of the title, the highest first.
+    places
+        who finished where, as far as decided.
+    older
+        whether odds and finish are those before the last entry.
+    """
+
+    state: Evening
+    races: str
+    playing: list[MatchView]
+    calls: list[MatchView]
+    waiting: list[MatchView]
+    free: list[int]
+    finish: tuple[str, str, str] | None
+    odds: list[tuple[str, float]]
+    places: list[tuple[str, str]]
+    older: bool
+
+    @property
+    def over(self) -> bool:
+        """Whether all has been played."""
+        return self.state.drawn and not self.state.standing.to_play and not can_draw(self.state)
+
+
+def view_of(state: Evening, known: Known | None) -> EveningView:
+    """Return an evening as the pages show it.
+
+    Parameters
+    ----------
+    state
+        the state of the evening.
+    known
+        what has been worked out, perhaps for an earlier state.
+    """
+    if not state.drawn:
+        return EveningView(state, races_words(state.races), [], [], [], [], None, [], [], False)
+    data: dict[str, Any] = known.data if known else {}
+    older = known is None or known.version < len(state.events)
+    called = {name: table for table, name in known.calls} if known and not older else {}
+    playing, calls, waiting = [], [], []
+    for name in state.standing.to_play:
+        one = match_view(state, name, called.get(name))
+        (playing if one.since else calls if one.table else waiting).append(one)
+    finish = None
+    if known and "finish_p50" in data:
+        early, middle, late = (
+            time_of_day(known.start + data[key])
+            for key in ("finish_p10", "finish_p50", "finish_p90")
+        )
+        finish = early, middle, late
+    odds = sorted(((one["name"], one["p_title"]) for one in data.get("odds", [])), key=_chance)
+    places = [(one["place"], one["name"]) for one in data.get("places", [])]
+    return EveningView(
+        state,
+        races_words(state.races),
+        sorted(playing, key=lambda one: one.table or 0),
+        sorted(calls, key=lambda one: one.table or 0),
+        waiting,
+        free_tables(state),
+        finish,
+        [one for one in odds if one[1] > 0.0],
+        places,
+        older,
+    )
+
+
+def match_view(state: Evening, name: str, table: int | None = None) -> MatchView:
+    """Return a match that can be played now.
+
+    Parameters
+    ----------
+    state
+        the state of the evening.
+    name
+        of the match.
+    table
+        the one to call it to, unless it is on one.
+    """
+    pair = state.pair(name)
+    score = None
+    if name in state.live:
+        games = state.live[name].what
+        by_name = dict(zip(games.players, games.score, strict=True))
+        score = by_name[pair[0]], by_name[pair[1]]
+    since = ""
+    if name in state.on_tables:
+        table = state.on_tables[name].call.table
+        since = f"{datetime.fromisoformat(state.on_tables[name].at):%H:%M}"
+    return MatchView(name, pair, state.needed(name, pair), score, table, since)
+
+
+def _chance(one: tuple[str, float]) -> float:
+    return -one[1]

@@ -1,0 +1,57 @@
+"""The fields of a form, checked as they come in."""
+
+from __future__ import annotations
+
+from starlette.datastructures import FormData
+from starlette.requests import Request
+
+from evenbreak.web.refusals import Refused
+from evenbreak.web.sessions import check_form
+
+_MOST_FIELDS, _MOST_FILES = 60, 1
+_LONGEST = 200
+
+
+class Form:
+    """The fields of a form.
+
+    >>> form = Form(FormData([("race", "7"), ("name", " Ann ")]))
+    >>> form.whole("race", 1, 100), form.text("name"), form.whole("tables", 1, 9, default=4)
+    (7, 'Ann', 4)
+    """
+
+    def __init__(self, fields: FormData) -> None:
+        self.fields = fields
+
+    def text(self, name: str, *, longest: int = _LONGEST) -> str:
+        """Return a text without the blanks around it; '' if it was left empty."""
+        value = self.fields.get(name, "")
+        if not isinstance(value, str):
+            raise Refused("refused_field", name=name)
+        if len(value) > longest:
+            raise Refused("refused_long", name=name, longest=longest)
+        return value.strip()
+
+    def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
+        """Return a whole number between two others."""
+        text = self.text(name)
+        if not text and default is not None:
+            return default
+        if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
+            raise Refused("refused_whole", name=name, value=text, low=low, high=high)
+        return int(text)
+
+    def one_of(self, name: str, allowed: tuple[str, ...]) -> str:
+        """Return one of several words."""
+        text = self.text(name)
+        if text not in allowed:
+            raise Refused("refused_choice", name=name, value=text, allowed=", ".join(allowed))
+        return text
+
+
+async def form_of(request: Request) -> Form:
+    """Read a form of this session; refuse one that it was not given."""
+    async with request.form(max_files=_MOST_FILES, max_fields=_MOST_FIELDS) as fields:
+        form = Form(fields)
+        check_form(request, form.text("csrf"))
+        return form

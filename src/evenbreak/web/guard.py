@@ -1,0 +1,125 @@
+"""What every request passes: its Host, the size and the time of its body; headers of every page."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Collection
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+MOST_BYTES = 2 << 20
+"""The largest body: a season of results, pasted or uploaded."""
+
+PATIENCE = 15.0
+"""Seconds in which a body must have arrived."""
+
+
+def headers(script_hash: str) -> list[tuple[bytes, bytes]]:
+    """Return the headers of every answer: nothing from elsewhere, no other script, no frame."""
+    policy = "; ".join(
+        [
+            "default-src 'none'",
+            "style-src 'self'",
+            f"script-src 'sha256-{script_hash}'",
+            "img-src 'self' data:",
+            "connect-src 'self'",
+            "form-action 'self'",
+            "frame-ancestors 'none'",
+            "base-uri 'none'",
+        ]
+    )
+    found = {
+        "content-security-policy": policy,
+        "x-content-type-options": "nosniff",
+        "referrer-policy": "same-origin",
+        "cross-origin-opener-policy": "same-origin",
+        "cross-origin-resource-policy": "same-origin",
+        "permissions-policy": "camera=(), geolocation=(), microphone=()",
+    }
+    return [(name.encode(), value.encode()) for name, value in found.items()]
+
+
+class Guard:
+    """Refuses wrong hosts and bodies that are too large or too slow, before anything is read.
+
+    Parameters
+    ----------
+    app
+        what answers.
+    hosts
+        the names under which this computer may be asked; others may be a page elsewhere that has
+        its own name lead here (DNS rebinding).
+    script_hash
+        of the one script that pages may run.
+    """
+
+    def __init__(self, app: ASGIApp, *, hosts: Collection[str], script_hash: str) -> None:
+        self.app = app
+        self.hosts = hosts
+        self.headers = headers(script_hash)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer or refuse a request."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        given = dict(scope["headers"])
+        host = given.get(b"host", b"").decode("latin-1").rsplit(":", 1)[0].strip("[]").lower()
+        if host not in self.hosts:
+            await _refuse(send, 421, "This address is not that of the tournament's computer.")
+            return
+        length = given.get(b"content-length", b"0")
+        if not length.isdigit() or int(length) > MOST_BYTES:
+            await _refuse(send, 413, f"More than {MOST_BYTES >> 20} MB was sent; send less.")
+            return
+        started = False
+
+        async def answer(message: Message) -> None:
+            nonlocal started
+            if message["type"] == "http.response.start":
+                started = True
+                message["headers"] = [*message.get("headers", []), *self.headers]
+            await send(message)
+
+        try:
+            await self.app(scope, _Body(receive), answer)
+        except (_TooLargeError, TimeoutError) as error:
+            if started:
+                raise
+            large = isinstance(error, _TooLargeError)
+            words = "More was sent than is allowed." if large else "The form came too slowly."
+            await _refuse(send, 413 if large else 408, words)
+
+
+class _TooLargeError(Exception):
+    pass
+
+
+class _Body:
+    """The body of a request, counted and timed while it arrives."""
+
+    def __init__(self, receive: Receive) -> None:
+        self.receive = receive
+        self.size = 0
+        self.whole = False
+        self.until: float | None = None
+
+    async def __call__(self) -> Message:
+        """Return the next message."""
+        if self.whole:  # now only the end of the connection can come
+            return await self.receive()
+        now = asyncio.get_running_loop().time()
+        self.until = self.until or now + PATIENCE
+        message = await asyncio.wait_for(self.receive(), self.until - now)
+        self.size += len(message.get("body", b""))
+        self.whole = not message.get("more_body", False)
+        if self.size > MOST_BYTES:
+            raise _TooLargeError
+        return message
+
+
+async def _refuse(send: Send, status: int, words: str) -> None:
+    plain: Any = [(b"content-type", b"text/plain; charset=utf-8"), (b"connection", b"close")]
+    await send({"type": "http.response.start", "status": status, "headers": plain})
+    await send({"type": "http.response.body", "body": words.encode() + b"\n"})

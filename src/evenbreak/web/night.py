@@ -1,0 +1,137 @@
+"""The evening as the pages show it: its state, and what is worked out of it beside them.
+
+The state is read anew when the file has changed. Odds and finish are worked out in a thread; a
+page waits for them for a moment only, and shows what is known until then.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import sqlite3
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
+from evenbreak.files.tournament_store import read_events
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.outlook import Outlook
+
+_STALE = 30.0  # seconds after which the finish is worked out again
+_WAIT = 0.06  # seconds that a page waits for what is being worked out
+
+
+def now() -> str:
+    """Return what time it is, such as 2025-03-01T19:30:00."""
+    return datetime.now().replace(microsecond=0).isoformat()
+
+
+@dataclass(frozen=True)
+class Known:
+    """What was worked out of a state.
+
+    Parameters
+    ----------
+    version
+        the number of events in that state.
+    at
+        when, in seconds of the event loop's clock.
+    data
+        as the answer about the evening has it for JSON; `calls` besides, each a table and a match.
+    start
+        when the evening began, in minutes after midnight.
+    """
+
+    version: int
+    at: float
+    data: dict[str, Any]
+    calls: list[tuple[int, str]]
+    start: int
+
+
+class Night:
+    """The tournament in a file.
+
+    Parameters
+    ----------
+    path
+        the file.
+    clock
+        returns what time it is.
+    """
+
+    def __init__(self, path: Path, *, clock: Callable[[], str] = now) -> None:
+        self.path = path
+        self.clock = clock
+        self.known: Known | None = None
+        self._read: tuple[tuple[int, int, int], int, Evening] | None = None
+        self._work: asyncio.Task[None] | None = None
+
+    @property
+    def exists(self) -> bool:
+        """Whether the tournament has been begun."""
+        return self.path.exists()
+
+    def state(self) -> tuple[int, Evening]:
+        """Return the number of events, and the state after them."""
+        mark = _mark(self.path)
+        if self._read is None or self._read[0] != mark:
+            events = read_events(self.path)
+            if self._read is None or self._read[1] != len(events):
+                self._read = mark, len(events), evening(events)
+            else:
+                self._read = mark, *self._read[1:]
+        return self._read[1:]
+
+    async def outlook(self) -> Known | None:
+        """Return what is known of the odds and the finish; None: not yet, or no draw."""
+        version, state = await asyncio.to_thread(self.state)
+        if not state.drawn:
+            return None
+        clock = asyncio.get_running_loop().time()
+        fresh = self.known and self.known.version == version and clock - self.known.at < _STALE
+        if not fresh:
+            if self._work is None or self._work.done():
+                self._work = asyncio.create_task(self._work_out(version, state))
+            await asyncio.wait({self._work}, timeout=_WAIT)
+        return self.known
+
+    async def _work_out(self, version: int, state: Evening) -> None:
+        def work() -> Known:
+            night = Outlook(state, self.clock())
+            data = night_answer(night).to_dict()
+            calls = next_calls(night) if state.standing.to_play else []
+            return Known(version, 0.0, data, calls, begun_at(night))
+
+        found = await asyncio.to_thread(work)
+        clock = asyncio.get_running_loop().time()
+        self.known = Known(found.version, clock, found.data, found.calls, found.start)
+
+
+def _mark(path: Path) -> tuple[int, int, int]:
+    """Return what changes whenever the file does: of the database and of its log."""
+    log = path.with_name(f"{path.name}-wal")
+    try:
+        main, beside = path.stat(), log.stat() if log.exists() else None
+    except OSError:
+        return 0, 0, 0
+    return main.st_mtime_ns, beside.st_size if beside else 0, beside.st_mtime_ns if beside else 0
+
+
+def version_of(path: Path) -> int:
+    """Return the number of events in the file; 0 if there is no file yet."""
+    if not path.exists():
+        return 0
+    try:
+        base = sqlite3.connect(f"file:{path}?mode=ro", uri=True, timeout=1.0)
+    except sqlite3.Error:
+        return 0
+    try:
+        [(count,)] = base.execute("SELECT COALESCE(MAX(number), 0) FROM event").fetchall()
+        return int(count)
+    except sqlite3.Error:
+        return 0
+    finally:
+        base.close()

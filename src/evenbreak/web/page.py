@@ -1,0 +1,119 @@
+"""A page: a template filled in, in the reader's language."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+
+from evenbreak.web.sessions import form_token, is_director
+from evenbreak.web.site import Site
+from evenbreak.web.words import LANGUAGES, language_of, say
+
+_LANGUAGE = "language"
+_SAID = "said"
+_MOST_SAID = 1500  # characters: a cookie holds 4 KB
+
+
+@cache
+def _templates() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader("evenbreak.web"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+
+
+@cache
+def own_file(name: str) -> str:
+    """Return the text of one of the templates' folder's own files."""
+    return files("evenbreak.web").joinpath("templates", name).read_text(encoding="utf-8")
+
+
+@cache
+def script_hash() -> str:
+    """Return the hash of the one script, by which pages allow it."""
+    digest = hashlib.sha256(own_file("live.js").encode()).digest()
+    return base64.b64encode(digest).decode()
+
+
+def site_of(request: Request) -> Site:
+    """Return the site that a request is for."""
+    site: Site = request.app.state.site
+    return site
+
+
+def language(request: Request) -> str:
+    """Return the language of the reader: as chosen, or as the browser asks."""
+    chosen = request.session.get(_LANGUAGE)
+    if chosen in LANGUAGES:
+        return str(chosen)
+    return language_of(request.headers.get("accept-language", ""))
+
+
+def choose_language(request: Request, code: str) -> None:
+    """Keep the language that the reader chose."""
+    if code in LANGUAGES:
+        request.session[_LANGUAGE] = code
+
+
+def page(
+    request: Request, template: str, *, live: bool = False, status: int = 200, **values: Any
+) -> Response:
+    """Return a page.
+
+    Parameters
+    ----------
+    request
+        what is answered.
+    template
+        its name in the folder `templates`.
+    live
+        whether the page follows what happens in the tournament.
+    status
+        of HTTP.
+    values
+        what the template shows.
+    """
+    code = language(request)
+
+    def t(key: str, **held: object) -> str:
+        return say(code, key, **held)
+
+    shown = (
+        _templates()
+        .get_template(template)
+        .render(
+            t=t,
+            language=code,
+            languages=LANGUAGES,
+            here=request.url.path,
+            site=site_of(request),
+            director=is_director(request),
+            csrf=form_token(request),
+            said=request.session.pop(_SAID, []),
+            live=live,
+            script=own_file("live.js"),
+            **values,
+        )
+    )
+    return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+
+
+def done(request: Request, to: str, *said: str) -> Response:
+    """Return to a page after a form was taken, and say there what happened."""
+    kept: list[str] = []
+    for line in said:
+        if sum(map(len, kept)) + len(line) <= _MOST_SAID:
+            kept.append(line)
+    if kept:
+        request.session[_SAID] = kept
+    return RedirectResponse(to, status_code=303)

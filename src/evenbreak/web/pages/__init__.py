@@ -1,0 +1,1 @@
+"""The pages, one question a module: a form, an answer, a template."""

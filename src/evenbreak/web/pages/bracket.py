@@ -1,0 +1,66 @@
+"""The bracket: a round at a time on a phone, whole on a laptop; and as a PDF to print."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.bracket_view import bracket_panels
+from evenbreak.answers.score_cards import score_cards
+from evenbreak.answers.tournament import races_words
+from evenbreak.sheets.bracket_drawing import bracket_pdf
+from evenbreak.sheets.score_card_pages import score_cards_pdf
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.page import page, site_of
+from evenbreak.web.refusals import Refused
+
+
+async def bracket(request: Request) -> Response:
+    """Show the bracket."""
+    state = await _drawn(request)
+    return page(request, "bracket.html", live=True, panels=bracket_panels(state))
+
+
+async def bracket_on_paper(request: Request) -> Response:
+    """Return the bracket as a PDF."""
+    state = await _drawn(request)
+    name = site_of(request).path.stem
+    heading = [name, races_words(state.races)]
+    pdf = await asyncio.to_thread(bracket_pdf, bracket_panels(state), heading, name)
+    return _pdf(pdf, "bracket.pdf")
+
+
+async def cards_on_paper(request: Request) -> Response:
+    """Return the score cards as a PDF."""
+    state = await _drawn(request)
+    cards = score_cards(state, None)
+    if not cards:
+        raise Refused("refused_no_card", status=404)
+    make = partial(score_cards_pdf, cards, site_of(request).path.stem, per_page=4)
+    return _pdf(await asyncio.to_thread(make), "cards.pdf")
+
+
+async def _drawn(request: Request) -> Evening:
+    night = site_of(request).night
+    if not night.exists:
+        raise Refused("refused_no_tournament", status=404)
+    _, state = await asyncio.to_thread(night.state)
+    if not state.drawn:
+        raise Refused("refused_no_draw", status=404)
+    return state
+
+
+def _pdf(content: bytes, name: str) -> Response:
+    shown = {"content-disposition": f'inline; filename="{name}"'}
+    return Response(content, media_type="application/pdf", headers=shown)
+
+
+ROUTES = [
+    Route("/bracket", bracket),
+    Route("/bracket.pdf", bracket_on_paper),
+    Route("/cards.pdf", cards_on_paper),
+]

@@ -1,0 +1,231 @@
+"""The director's desk: call, enter, correct, forfeit, late, drop, undo; each one event."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+import segno
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.tournament_moves import draw_words, forfeited, happened, reopened
+from evenbreak.answers.tournament_night import bracket_table
+from evenbreak.files.tournament_desk import authors, back_up, proposals
+from evenbreak.files.tournament_store import add_events, read_events
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event, What, as_dict
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.evening_view import view_of
+from evenbreak.web.forms import Form, form_of
+from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.refusals import Refused
+from evenbreak.web.sessions import check_director
+from evenbreak.web.words import say
+
+BY = "director's page"
+
+Decide = Callable[[Evening], Sequence[What]]
+Said = Callable[[Evening, Evening], Sequence[str]]
+
+
+async def desk(request: Request) -> Response:
+    """Show all that the director can do now."""
+    check_director(request)
+    site = site_of(request)
+    if not site.night.exists:
+        raise Refused("refused_no_tournament", status=404)
+    known = await site.night.outlook()
+    _, state = await asyncio.to_thread(site.night.state)
+    shown: dict[str, Any] = {
+        "view": view_of(state, known),
+        "decided": [],
+        "proposed": [],
+        "warnings": [],
+    }
+    if state.drawn:
+        shown["decided"] = [name for name in state.counted if name in state.records]
+        ready = {name: set(state.pair(name)) for name in state.standing.to_play}
+        found = await asyncio.to_thread(proposals, site.path)
+        shown["proposed"] = [p for p in found if ready.get(p.match) == set(p.score)]
+        shown["rows"] = bracket_table(state).rows
+        shown["warnings"] = known.data.get("warnings", []) if known else []
+    return page(request, "desk.html", live=False, **shown)
+
+
+async def _enter(request: Request, decide: Decide, said: Said, to: str = "/desk") -> Response:
+    site = site_of(request)
+    at = site.clock()
+
+    def work() -> tuple[Evening, Evening]:
+        return add_events(
+            site.path, lambda state: [Event(at, what) for what in decide(state)], by=BY
+        )
+
+    before, after = await asyncio.to_thread(work)
+    return done(request, to, *said(before, after))
+
+
+async def _form(request: Request) -> Form:
+    form = await form_of(request)
+    check_director(request)
+    return form
+
+
+async def draw(request: Request) -> Response:
+    """Make the draw, or what is drawn next."""
+    await _form(request)
+    rng = np.random.default_rng()
+    return await _enter(
+        request,
+        lambda state: moves.draw_next(state, rng),
+        lambda before, after: [draw_words(before, after)],
+    )
+
+
+async def call(request: Request) -> Response:
+    """Call a match to a table."""
+    form = await _form(request)
+    match, table = form.text("match"), form.whole("table", 0, 1000, default=0)
+
+    def decide(state: Evening) -> list[What]:
+        on = state.on_tables.get(match)
+        if on is not None and table in (0, on.call.table):
+            return []  # the same tap again
+        return [moves.call(state, match, table or None)]
+
+    def said(_: Evening, after: Evening) -> list[str]:
+        one = after.on_tables[moves.known_match(after, match)].call
+        names = " – ".join(one.players)
+        return [say(language(request), "called", match=one.match, names=names, table=one.table)]
+
+    return await _enter(request, decide, said)
+
+
+async def result(request: Request) -> Response:
+    """Enter the result of a match, or correct it."""
+    form = await _form(request)
+    match = form.text("match")
+    score = form.whole("a", 0, 999), form.whole("b", 0, 999)
+    correct = form.one_of("how", ("new", "correct")) == "correct"
+
+    def decide(state: Evening) -> list[What]:
+        there = state.counted.get(match)
+        if there is not None and not there.forfeit:
+            pair = state.pair(match)
+            if (there.games[pair[0]], there.games[pair[1]]) == score:
+                return []  # the same tap again
+        return [
+            moves.correct(state, match, score) if correct else moves.result(state, match, score)
+        ]
+
+    def said(before: Evening, after: Evening) -> list[str]:
+        if len(before.events) == len(after.events):
+            return [say(language(request), "there_already")]
+        return happened(before, after, after.events[-1])
+
+    return await _enter(request, decide, said)
+
+
+async def forfeit(request: Request) -> Response:
+    """Let a player forfeit the match that they can play."""
+    form = await _form(request)
+    player = form.text("player")
+    return await _enter(
+        request, lambda state: [moves.forfeit(state, player)], lambda b, a: forfeited(b, a)
+    )
+
+
+async def drop(request: Request) -> Response:
+    """Let a player go home."""
+    form = await _form(request)
+    player = form.text("player")
+    return await _enter(
+        request, lambda state: [moves.drop(state, player)], lambda b, a: reopened(b, a)
+    )
+
+
+async def undo(request: Request) -> Response:
+    """Take back what happened last, if nothing has come in since the page was made."""
+    form = await _form(request)
+    seen = form.whole("seen", 0, 10**7)
+
+    def decide(state: Evening) -> list[What]:
+        if len(state.events) != seen:
+            raise Refused("refused_changed", status=409)
+        return [moves.undo(state)]
+
+    def said(before: Evening, after: Evening) -> list[str]:
+        return [say(language(request), "undone"), *reopened(before, after)]
+
+    return await _enter(request, decide, said)
+
+
+async def save(request: Request) -> Response:
+    """Write a copy of the file."""
+    await _form(request)
+    copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
+    return done(request, "/desk", say(language(request), "saved", name=copy.name))
+
+
+async def history(request: Request) -> Response:
+    """Show who entered what, and when."""
+    check_director(request)
+    path = site_of(request).path
+    if not path.exists():
+        raise Refused("refused_no_tournament", status=404)
+    found = await asyncio.to_thread(read_events, path)
+    by = await asyncio.to_thread(authors, path)
+    rows = [
+        (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", _words(one), by.get(number, ""))
+        for number, one in enumerate(found, 1)
+    ]
+    return page(request, "history.html", rows=rows[::-1])
+
+
+def _words(event: Event) -> str:
+    """Return an event in short: its kind, and what it is about."""
+    values = as_dict(event.what)
+    shown = [
+        " – ".join(map(str, v))
+        if isinstance(v, tuple) and all(isinstance(x, str | int) for x in v)
+        else str(v)
+        for k, v in values.items()
+        if k in ("match", "players", "score", "winner", "table", "name", "group", "stage")
+    ]
+    if isinstance(entrant := values.get("entrant"), dict):
+        shown.append(str(entrant["name"]))
+    return " ".join([type(event.what).__name__.lower(), *shown])
+
+
+async def codes(request: Request) -> Response:
+    """Show the QR codes: of the page, and of each match that can be played."""
+    check_director(request)
+    site = site_of(request)
+    shown = [("", site.address, _code(site.address))]
+    if site.night.exists:
+        _, state = await asyncio.to_thread(site.night.state)
+        for name in state.standing.to_play if state.drawn else ():
+            to = f"{site.address}/m/{site.match_token(name)}"
+            shown.append((f"{name}: {' – '.join(state.pair(name))}", to, _code(to)))
+    return page(request, "codes.html", codes=shown)
+
+
+def _code(text: str) -> str:
+    svg: str = segno.make(text, error="m").svg_inline(scale=4, border=2, dark="#000", light="#fff")
+    return svg
+
+
+ROUTES = [
+    Route("/desk", desk),
+    Route("/desk/history", history),
+    Route("/desk/codes", codes),
+    *(
+        Route(f"/desk/{one.__name__}", one, methods=["POST"])
+        for one in (draw, call, result, forfeit, drop, undo, save)
+    ),
+]

@@ -1,0 +1,139 @@
+"""Who plays: a tournament begun from typed, pasted or uploaded entrants, and late entries."""
+
+from __future__ import annotations
+
+import asyncio
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from starlette.datastructures import UploadFile
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.errors import DataError
+from evenbreak.files.entrants import read_entrants
+from evenbreak.files.roster import RosterFile
+from evenbreak.files.tournament_store import add_events, new_tournament
+from evenbreak.ratings.scale import SCALES, Scale
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.forms import Form, form_of
+from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.pages.desk import BY
+from evenbreak.web.refusals import Refused
+from evenbreak.web.sessions import check_director
+from evenbreak.web.words import say
+
+FORMATS = ("double", "single", "round-robin", "groups", "consolation", "king-of-the-hill")
+SEEDINGS = ("blind", "rating", "listed")
+DISCIPLINES = ("8-ball", "9-ball", "10-ball")
+_LONGEST_LIST = 200_000
+
+
+async def ask(request: Request) -> Response:
+    """Show the form that begins a tournament."""
+    check_director(request)
+    return page(
+        request,
+        "new.html",
+        formats=FORMATS,
+        seedings=SEEDINGS,
+        disciplines=DISCIPLINES,
+        scales=list(SCALES),
+    )
+
+
+async def begin(request: Request) -> Response:
+    """Begin a tournament."""
+    async with request.form(max_files=1, max_fields=40) as fields:
+        form = Form(fields)
+        content = form.text("entrants", longest=_LONGEST_LIST).encode()
+        upload = fields.get("file")
+        if isinstance(upload, UploadFile) and upload.size:
+            content = await upload.read()
+        await form_of(request)
+    check_director(request)
+    site = site_of(request)
+    if not content.strip():
+        raise Refused("refused_nobody")
+    file = await asyncio.to_thread(_read, content)
+    scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
+    handicapped = bool(form.text("handicapped"))
+    losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
+    plan = Plan(
+        form.one_of("format", FORMATS),
+        form.whole("race", 1, 100),
+        losers_race=losers or None,
+        final_race=final or None,
+        handicapped=handicapped,
+        seeding=form.one_of("seeding", SEEDINGS),
+        scale=scale.text,
+        starter=scale.centre,
+        starter_error=scale.points_per_doubling,
+        tables=form.whole("tables", 1, 1000),
+        discipline=form.one_of("discipline", DISCIPLINES),
+    )
+    opened = Opened(plan, _entrants(file, scale))
+    if not 2 <= len(opened.entrants) <= moves.MOST_PLAYERS:
+        raise Refused("refused_players", players=len(opened.entrants))
+    event = Event(site.clock(), opened)
+    await asyncio.to_thread(new_tournament, site.path, [event])
+    site.keep_secrets()
+    return done(request, "/desk", *file.warnings)
+
+
+def _read(content: bytes) -> RosterFile:
+    """Read a list of entrants; its problems name it as the list."""
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder, "list.csv")
+        place.write_bytes(content)
+        try:
+            return read_entrants(place)
+        except DataError as error:
+            raise DataError([p.replace(str(place), "list") for p in error.problems]) from None
+
+
+def _entrants(file: RosterFile, scale: Scale) -> tuple[Entrant, ...]:
+    """Return the entrants; new players have the rating in the middle, and are very uncertain."""
+    read = file.roster
+    new = np.isnan(read.rating)
+    rating = np.where(new, scale.centre, read.rating)
+    error = np.where(new, scale.points_per_doubling, np.nan_to_num(read.standard_error))
+    rows = zip(read.players, rating.tolist(), error.tolist(), strict=True)
+    return tuple(Entrant(*one) for one in rows)
+
+
+async def late(request: Request) -> Response:
+    """Let a late player in."""
+    form = await form_of(request)
+    check_director(request)
+    site, name = site_of(request), " ".join(form.text("name", longest=80).split())
+    if not name:
+        raise Refused("refused_nobody")
+    stated = form.text("rating").replace(",", ".")
+    try:
+        rating = float(stated) if stated else None
+    except ValueError:
+        raise Refused("refused_rating", value=stated) from None
+
+    def decide(state: Evening) -> list[Event]:
+        plan = state.plan
+        entrant = (
+            Entrant(name, plan.starter, plan.starter_error)
+            if rating is None
+            else Entrant(name, rating)
+        )
+        return [Event(site.clock(), moves.late(state, entrant))]
+
+    await asyncio.to_thread(add_events, site.path, decide, by=BY)
+    return done(request, "/desk", say(language(request), "entered", name=name))
+
+
+ROUTES = [
+    Route("/new", ask, methods=["GET"]),
+    Route("/new", begin, methods=["POST"]),
+    Route("/desk/late", late, methods=["POST"]),
+]

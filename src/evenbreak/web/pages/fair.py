@@ -1,0 +1,89 @@
+"""The fairest race for two players: by their names tonight, or by two ratings."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import NamedTuple
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.errors import InputError
+from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.fair import FairRace, fair_races
+from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
+from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.moves import known_player
+from evenbreak.web.page import page, site_of
+from evenbreak.web.refusals import Refused
+
+LENGTHS = (3, 4, 5, 7, 9, 11, 13, 15, 21)
+
+
+class Side(NamedTuple):
+    """One of the two players."""
+
+    name: str
+    rating: float
+    error: float
+
+
+async def fair(request: Request) -> Response:
+    """Show the form and, once both players are named, the fairest race."""
+    asked = {name: request.query_params.get(name, "").strip()[:80] for name in ("a", "b")}
+    night = site_of(request).night
+    state = (await asyncio.to_thread(night.state))[1] if night.exists else None
+    scale = _scale(request, state)
+    length = request.query_params.get("race", "7")
+    if not length.isdigit() or not 1 <= int(length[:4]) <= 100:
+        raise Refused("refused_whole", name="race", value=length[:20], low=1, high=100)
+    shown = {
+        "asked": asked,
+        "length": int(length),
+        "lengths": LENGTHS,
+        "scale": scale.text,
+        "scales": list(SCALES),
+        "names": list(state.entrants) if state else [],
+        "races": [],
+        "sides": None,
+    }
+    if asked["a"] and asked["b"]:
+        sides = tuple(_side(asked[name], state) for name in ("a", "b"))
+        shown |= {"sides": sides, "races": _races(sides, scale, int(length))}
+    return page(request, "fair.html", **shown)
+
+
+def _scale(request: Request, state: Evening | None) -> Scale:
+    given = request.query_params.get("scale", "")
+    if given:
+        try:
+            return scale_of(given)
+        except InputError:
+            raise Refused("refused_scale", value=given[:20], allowed=", ".join(SCALES)) from None
+    return state.scale if state else SCALES["fargo"]
+
+
+def _side(text: str, state: Evening | None) -> Side:
+    try:
+        return Side(text, float(text.replace(",", ".")), 0.0)
+    except ValueError:
+        pass
+    if state is None:
+        raise Refused("refused_rating", value=text)
+    entrant = state.entrants[known_player(state, text)]
+    return Side(entrant.name, entrant.rating, entrant.standard_error)
+
+
+def _races(sides: tuple[Side, ...], scale: Scale, length: int) -> list[FairRace]:
+    one, other = sides
+    gap, error = one.rating - other.rating, (one.error**2 + other.error**2) ** 0.5
+    if not abs(gap) < 1e6:  # neither too large nor not a number
+        raise Refused("refused_rating", value=f"{one.rating:g}")
+    if error:
+        return nearest_races_given_ratings(gap, error, scale=scale, race_to=length, top=3)
+    return fair_races(Rack(float(scale.win_probability(gap))), race_to=length, top=3)
+
+
+ROUTES = [Route("/fair", fair)]

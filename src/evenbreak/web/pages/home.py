@@ -1,0 +1,66 @@
+"""Tonight: what is on the tables, who plays next, the odds, the finish."""
+
+from __future__ import annotations
+
+import asyncio
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.web.evening_view import view_of
+from evenbreak.web.forms import form_of
+from evenbreak.web.page import choose_language, done, page, site_of
+from evenbreak.web.refusals import Refused
+from evenbreak.web.sessions import DIRECTOR, address_of
+
+
+async def tonight(request: Request) -> Response:
+    """Show the evening, or how one begins."""
+    night = site_of(request).night
+    if not night.exists:
+        return page(request, "begin.html")
+    known = await night.outlook()
+    _, state = await asyncio.to_thread(night.state)
+    return page(request, "tonight.html", live=True, view=view_of(state, known))
+
+
+async def ask_pin(request: Request) -> Response:
+    """Ask for the director's PIN."""
+    return page(request, "pin.html")
+
+
+async def enter_pin(request: Request) -> Response:
+    """Let the director in."""
+    form = await form_of(request)
+    site = site_of(request)
+    if not site.tries.allows(address_of(request)) or not site.tries.allows("everybody"):
+        raise Refused("refused_tries", status=429)
+    if not site.is_pin(form.text("pin")):
+        raise Refused("refused_pin", status=403)
+    request.session[DIRECTOR] = site.director_mark
+    return done(request, "/")
+
+
+async def leave(request: Request) -> Response:
+    """Let the director out."""
+    await form_of(request)
+    request.session.pop(DIRECTOR, None)
+    return done(request, "/")
+
+
+async def speak(request: Request) -> Response:
+    """Choose the language."""
+    form = await form_of(request)
+    choose_language(request, form.text("language"))
+    back = form.text("back")
+    return done(request, back if back.startswith("/") and not back.startswith("//") else "/")
+
+
+ROUTES = [
+    Route("/", tonight),
+    Route("/pin", ask_pin, methods=["GET"]),
+    Route("/pin", enter_pin, methods=["POST"]),
+    Route("/leave", leave, methods=["POST"]),
+    Route("/language", speak, methods=["POST"]),
+]

@@ -1,0 +1,148 @@
+"""A match by its own QR code: both players tap games, and propose the result."""
+
+from __future__ import annotations
+
+import asyncio
+
+from scipy.special import betainc
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.files.tournament_desk import Proposal, proposals, propose
+from evenbreak.files.tournament_store import add_events
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event, Result, Scored
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.evening_view import MatchView, match_view
+from evenbreak.web.forms import form_of
+from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.refusals import Refused
+from evenbreak.web.sessions import phone_of
+from evenbreak.web.words import say
+
+_ME = "me"
+
+
+async def match(request: Request) -> Response:
+    """Show a match to its players."""
+    name, state = await _match(request)
+    shown: dict[str, object] = {"name": name, "token": request.path_params["token"]}
+    if name not in state.standing.to_play:
+        shown |= {"one": None, "result": state.counted.get(name), "state": state}
+        return page(request, "match.html", live=True, **shown)
+    one = match_view(state, name)
+    seats = [state.order.index(player) for player in one.players]
+    skill = state.ratings[seats[0]] - state.ratings[seats[1]]
+    p_game = float(state.scale.win_probability(skill))
+    found = await asyncio.to_thread(proposals, site_of(request).path)
+    mine = _me(request, name)
+    shown |= {
+        "one": one,
+        "odds": _odds(one, p_game),
+        "me": mine,
+        "proposed": [p for p in found if p.match == name and set(p.score) == set(one.players)],
+    }
+    return page(request, "match.html", live=True, **shown)
+
+
+def _odds(one: MatchView, p_game: float) -> tuple[float, float, float]:
+    """Return the first player's chance now, if they win the next game, and if they lose it."""
+    a, b = one.score or (0, 0)
+    left = one.needs[0] - a, one.needs[1] - b
+
+    def win(m: int, n: int) -> float:
+        return 1.0 if m <= 0 else 0.0 if n <= 0 else float(betainc(m, n, p_game))
+
+    return win(*left), win(left[0] - 1, left[1]), win(left[0], left[1] - 1)
+
+
+async def be(request: Request) -> Response:
+    """Keep which of the two players holds this phone."""
+    name, state = await _match(request)
+    form = await form_of(request)
+    pair = state.pair(name)
+    request.session[_ME] = {name: pair[form.whole("me", 0, 1)]}
+    return done(request, f"/m/{request.path_params['token']}")
+
+
+async def tap(request: Request) -> Response:
+    """Take the score of a match in play; a full score is proposed as the result."""
+    name, state = await _match(request)
+    form = await form_of(request)
+    site, to = site_of(request), f"/m/{request.path_params['token']}"
+    if not site.taps.allows(request.path_params["token"]):
+        raise Refused("refused_taps", status=429)
+    if name not in state.standing.to_play:
+        raise Refused("refused_over", status=409, match=name)
+    pair, needs = state.pair(name), state.needed(name, state.pair(name))
+    if form.text("players") != "\n".join(pair):
+        raise Refused("refused_other_players", status=409, match=name)
+    score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
+    if score[0] == needs[0] or score[1] == needs[1]:
+        said = await asyncio.to_thread(_propose, request, name, pair, score, _me(request, name))
+        return done(request, to, said)
+    at, by = site.clock(), f"phone: {_me(request, name) or name}"
+
+    def decide(now: Evening) -> list[Event]:
+        found: Scored = moves.score(now, name, score)
+        live = now.live.get(name)
+        return [] if live and live.what == found else [Event(at, found)]
+
+    await asyncio.to_thread(add_events, site.path, decide, by=by)
+    return done(request, to)
+
+
+def _propose(
+    request: Request, name: str, pair: tuple[str, str], score: tuple[int, int], me: str
+) -> str:
+    """Keep a proposed result, and enter it if the opponent proposed the same."""
+    site, code = site_of(request), language(request)
+    if not me:
+        raise Refused("refused_who")
+    _, state = site.night.state()
+    moves.result(state, name, score)  # refuses what cannot be a result
+    games = dict(zip(pair, score, strict=True))
+    phone = phone_of(request)
+    propose(site.path, Proposal(name, me, games, phone, site.clock()))
+    others = [
+        p
+        for p in proposals(site.path)
+        if p.match == name and p.player in pair and p.player != me and p.phone != phone
+    ]
+    if not others:
+        return say(code, "proposed_wait", other=pair[pair[0] == me])
+    if any(dict(p.score) != games for p in others):
+        return say(code, "proposed_differ")
+
+    def decide(now: Evening) -> list[Event]:
+        found: Result = moves.result(now, name, score)
+        return [Event(site.clock(), found)]
+
+    add_events(site.path, decide, by=f"phones: {' and '.join(pair)}")
+    return say(code, "result_entered", match=name)
+
+
+async def _match(request: Request) -> tuple[str, Evening]:
+    site = site_of(request)
+    if not site.night.exists:
+        raise Refused("refused_no_tournament", status=404)
+    _, state = await asyncio.to_thread(site.night.state)
+    if not state.drawn:
+        raise Refused("refused_no_draw", status=404)
+    name = site.match_of(request.path_params["token"], list(state.bracket.by_name))
+    if name is None:
+        raise Refused("refused_token", status=404)
+    return name, state
+
+
+def _me(request: Request, name: str) -> str:
+    kept = request.session.get(_ME)
+    return str(kept.get(name, "")) if isinstance(kept, dict) else ""
+
+
+ROUTES = [
+    Route("/m/{token}", match, methods=["GET"]),
+    Route("/m/{token}/me", be, methods=["POST"]),
+    Route("/m/{token}/score", tap, methods=["POST"]),
+]

@@ -1,0 +1,84 @@
+"""Who asks: a session in a signed cookie, the director's PIN, tokens against forged forms."""
+
+from __future__ import annotations
+
+import hmac
+import secrets
+import time
+from collections import deque
+from collections.abc import Callable
+
+from starlette.requests import Request
+
+from evenbreak.web.refusals import Refused
+
+DIRECTOR = "director"
+_CSRF, _PHONE = "form", "phone"
+_TRIES, _SECONDS = 5, 60.0
+_MOST_ADDRESSES = 1000
+
+
+class Tries:
+    """How often something was tried from each address in the last minute.
+
+    >>> clock = iter([0.0, 1.0, 2.0, 61.5]).__next__
+    >>> tries = Tries(2, clock=clock)
+    >>> [tries.allows("10.0.0.7") for _ in range(4)]
+    [True, True, False, True]
+    """
+
+    def __init__(self, most: int = _TRIES, *, clock: Callable[[], float] = time.monotonic) -> None:
+        self.most = most
+        self.clock = clock
+        self.times: dict[str, deque[float]] = {}
+
+    def allows(self, address: str) -> bool:
+        """Count one more try, and return whether it is allowed."""
+        now = self.clock()
+        if len(self.times) > _MOST_ADDRESSES:
+            self.times.clear()
+        seen = self.times.setdefault(address, deque(maxlen=self.most))
+        while seen and now - seen[0] > _SECONDS:
+            seen.popleft()
+        if len(seen) == self.most:
+            return False
+        seen.append(now)
+        return True
+
+
+def form_token(request: Request) -> str:
+    """Return the token that each form of this session carries."""
+    token: str = request.session.setdefault(_CSRF, secrets.token_urlsafe(16))
+    return token
+
+
+def phone_of(request: Request) -> str:
+    """Return what this session is known by beside what it enters."""
+    name: str = request.session.setdefault(_PHONE, secrets.token_urlsafe(6))
+    return name
+
+
+def check_form(request: Request, token: str) -> None:
+    """Refuse a form that this session was not given."""
+    known = request.session.get(_CSRF)
+    if not known or not hmac.compare_digest(known.encode(), token.encode()):
+        raise Refused("refused_form", status=403)
+
+
+def is_director(request: Request) -> bool:
+    """Return whether the director's PIN was entered in this session."""
+    mark = request.session.get(DIRECTOR)
+    return isinstance(mark, str) and hmac.compare_digest(
+        mark.encode(), request.app.state.site.director_mark.encode()
+    )
+
+
+def check_director(request: Request) -> None:
+    """Refuse whoever has not entered the director's PIN."""
+    if not is_director(request):
+        raise Refused("refused_director", status=403)
+
+
+def address_of(request: Request) -> str:
+    """Return where a request comes from."""
+    return request.client.host if request.client else ""

@@ -1,0 +1,82 @@
+"""What one running page knows: its file, its secrets, its words."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from evenbreak.files.tournament_desk import kept_secrets, new_pin
+from evenbreak.web.night import Night, now
+from evenbreak.web.sessions import Tries
+
+
+@dataclass(eq=False)
+class Site:
+    """One running page.
+
+    Parameters
+    ----------
+    path
+        the file of the tournament, which need not exist yet.
+    hosts
+        the names and addresses under which this computer may be asked.
+    address
+        where phones find it, such as http://192.168.1.20:8000; for QR codes.
+    clock
+        returns what time it is, such as 2025-03-01T19:30:00.
+    """
+
+    path: Path
+    hosts: frozenset[str] = frozenset({"127.0.0.1", "localhost", "::1"})
+    address: str = "http://127.0.0.1:8000"
+    clock: Callable[[], str] = now
+    tries: Tries = field(default_factory=Tries)
+    taps: Tries = field(default_factory=lambda: Tries(240))
+
+    def __post_init__(self) -> None:
+        self.night = Night(self.path, clock=self.clock)
+        self._secrets = {
+            "pin": new_pin(),
+            **{name: secrets.token_urlsafe(24) for name in ("cookie", "director", "match")},
+        }
+        self.keep_secrets()
+
+    def keep_secrets(self) -> None:
+        """Keep the secrets in the file, so that phones go on after a restart."""
+        if self.path.exists():
+            self._secrets = kept_secrets(self.path, self._secrets)
+
+    @property
+    def pin(self) -> str:
+        """The director's PIN."""
+        return self._secrets["pin"]
+
+    def is_pin(self, text: str) -> bool:
+        """Return whether this is the director's PIN."""
+        return hmac.compare_digest(text.encode(), self.pin.encode())
+
+    @property
+    def cookie_key(self) -> str:
+        """What sessions are signed with."""
+        return self._secrets["cookie"]
+
+    @property
+    def director_mark(self) -> str:
+        """What the session of a director holds."""
+        return self._secrets["director"]
+
+    def match_token(self, match: str) -> str:
+        """Return the token by which a match is scored."""
+        key = self._secrets["match"].encode()
+        return hmac.new(key, match.encode(), hashlib.sha256).hexdigest()[:20]
+
+    def match_of(self, token: str, matches: list[str]) -> str | None:
+        """Return the match that a token is for."""
+        for name in matches:
+            if hmac.compare_digest(self.match_token(name).encode(), token.encode()):
+                return name
+        return None

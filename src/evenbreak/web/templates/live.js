@@ -1,0 +1,34 @@
+"use strict";
+(() => {
+  let seen = null, waiting = false;
+  const busy = () => {
+    const at = document.activeElement;
+    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName);
+  };
+  const renew = async () => {
+    if (waiting || busy()) return;
+    waiting = true;
+    try {
+      const answer = await fetch(location.href, { cache: "no-store" });
+      if (answer.ok) {
+        const found = new DOMParser().parseFromString(await answer.text(), "text/html");
+        const fresh = found.getElementById("main"), old = document.getElementById("main");
+        if (fresh && old && fresh.innerHTML !== old.innerHTML) {
+          const left = [...old.querySelectorAll(".bracket")].map((one) => one.scrollLeft);
+          old.replaceWith(fresh);
+          fresh.querySelectorAll(".bracket").forEach((one, k) => { one.scrollLeft = left[k] || 0; });
+        }
+      }
+    } catch { /* the next event tries again */ }
+    waiting = false;
+  };
+  const follow = () => {
+    const stream = new EventSource("/events");
+    stream.onmessage = (event) => {
+      if (seen !== null && seen !== event.data) { renew(); setTimeout(renew, 2500); }
+      seen = event.data;
+    };
+  };
+  addEventListener("DOMContentLoaded", follow);
+  setInterval(renew, 60000);
+})();

@@ -1,0 +1,103 @@
+"""A running page, and phones that open it: cookies, forms, no JavaScript."""
+
+from __future__ import annotations
+
+import re
+import socket
+import threading
+import urllib.error
+import urllib.parse
+import urllib.request
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from html import unescape
+from http.cookiejar import CookieJar
+from pathlib import Path
+from typing import NamedTuple
+
+import uvicorn
+
+from evenbreak.web.app import make_app
+from evenbreak.web.site import Site
+
+
+class Shown(NamedTuple):
+    """What a phone got."""
+
+    status: int
+    text: str
+    url: str
+    headers: Mapping[str, str]
+
+    @property
+    def words(self) -> str:
+        """The text without tags."""
+        inner = re.sub(r"<(script|style).*?</\1>", " ", self.text, flags=re.DOTALL)
+        return " ".join(unescape(re.sub(r"<[^>]+>", " ", inner)).split())
+
+
+class Phone:
+    """A phone with its own cookies; `director` has entered the PIN."""
+
+    def __init__(self, site: Site, *, director: bool = False, language: str = "en") -> None:
+        self.site = site
+        self.jar = CookieJar()
+        self.opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(self.jar))
+        self.opener.addheaders = [("Accept-Language", language)]
+        if director:
+            assert self.send("/pin", pin=site.pin).status == 200
+
+    def open(self, path: str, **asked: str) -> Shown:
+        """Open a page."""
+        if asked:
+            path = f"{path}?{urllib.parse.urlencode(asked)}"
+        return self._get(urllib.request.Request(self.site.address + path))
+
+    def token(self) -> str:
+        """Return the token of this phone's forms."""
+        found = re.search(r'name="csrf" value="([^"]+)"', self.open("/pin").text)
+        assert found
+        return found[1]
+
+    def send(self, path: str, **fields: object) -> Shown:
+        """Send a form of this phone."""
+        return self.send_raw(path, {"csrf": self.token(), **fields})
+
+    def send_raw(self, path: str, fields: Mapping[str, object], **headers: str) -> Shown:
+        """Send just these fields."""
+        body = urllib.parse.urlencode(fields).encode()
+        asked = urllib.request.Request(self.site.address + path, body, headers)  # noqa: S310
+        return self._get(asked)
+
+    def _get(self, asked: urllib.request.Request) -> Shown:
+        try:
+            with self.opener.open(asked, timeout=20) as got:
+                return Shown(
+                    got.status, got.read().decode("utf-8", "replace"), got.url, got.headers
+                )
+        except urllib.error.HTTPError as error:
+            text = error.read().decode("utf-8", "replace")
+            return Shown(error.code, text, error.url or "", error.headers)
+
+
+@contextmanager
+def running(path: Path) -> Iterator[Site]:
+    """Serve a file while the block runs."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    site = Site(path, address=f"http://127.0.0.1:{port}")
+    config = uvicorn.Config(
+        make_app(site), port=port, log_level="error", timeout_graceful_shutdown=1
+    )
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run, daemon=True)
+    thread.start()
+    while not server.started:
+        assert thread.is_alive()
+        threading.Event().wait(0.01)
+    try:
+        yield site
+    finally:
+        server.should_exit = True
+        thread.join(10)
