@@ -7,6 +7,9 @@ from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
 from .order import order_of as order_of
 from .reliance import best_by_skills as best_by_skills
+from .round_law import Outcome as Outcome
+from .round_law import RoundLaw as RoundLaw
+from .round_law import round_law as round_law
 from .sealed import SealedLineUp as SealedLineUp
 from .sealed import SealedNight as SealedNight
 from .sealed import sealed as sealed
