@@ -15,9 +15,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import NamedTuple
 
-import uvicorn
-
-from evenbreak.web.app import make_app
+from evenbreak.web.app import server_of
 from evenbreak.web.site import Site
 
 
@@ -51,7 +49,7 @@ class Phone:
         """Open a page."""
         if asked:
             path = f"{path}?{urllib.parse.urlencode(asked)}"
-        return self._get(urllib.request.Request(self.site.address + path))
+        return self._get(urllib.request.Request(self.site.address + path))  # noqa: S310
 
     def token(self) -> str:
         """Return the token of this phone's forms."""
@@ -87,10 +85,7 @@ def running(path: Path) -> Iterator[Site]:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     site = Site(path, address=f"http://127.0.0.1:{port}")
-    config = uvicorn.Config(
-        make_app(site), port=port, log_level="error", timeout_graceful_shutdown=1
-    )
-    server = uvicorn.Server(config)
+    server = server_of(site, port=port)
     thread = threading.Thread(target=server.run, daemon=True)
     thread.start()
     while not server.started:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import logging
+import socket
 
+import uvicorn
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -17,12 +19,14 @@ from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
 from evenbreak.web.page import language, own_file, page, script_hash
 from evenbreak.web.pages import bracket, desk, entry, fair, home, match, screen
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.site import Site
 from evenbreak.web.words import say
 
 _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
+_MOST_CONNECTIONS = 1000
+_MOST_HEAD = 32 << 10  # bytes of the lines above a body
 
 
 def make_app(site: Site) -> Starlette:
@@ -56,14 +60,47 @@ def make_app(site: Site) -> Starlette:
             ),
         ],
         exception_handlers={
-            Refused: _refused,
+            RefusalError: _refused,
             EvenbreakError: _wrong,
             HTTPException: _http,
             Exception: _failed,
         },
     )
     app.state.site = site
+    app.state.closing = False
     return app
+
+
+def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
+    """Return the server of a site; it ends the streams of its pages before it ends itself.
+
+    Parameters
+    ----------
+    site
+        what is served.
+    host, port
+        where it listens.
+    """
+    app = make_app(site)
+    config = uvicorn.Config(
+        app,
+        host=host,
+        port=port,
+        log_level="error",
+        access_log=False,
+        server_header=False,
+        timeout_keep_alive=20,
+        timeout_graceful_shutdown=3,
+        limit_concurrency=_MOST_CONNECTIONS,
+        h11_max_incomplete_event_size=_MOST_HEAD,
+    )
+
+    class Server(uvicorn.Server):
+        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+            app.state.closing = True
+            await super().shutdown(sockets)
+
+    return Server(config)
 
 
 async def _style(_: Request) -> Response:
@@ -72,7 +109,7 @@ async def _style(_: Request) -> Response:
 
 
 async def _refused(request: Request, error: Exception) -> Response:
-    assert isinstance(error, Refused)  # noqa: S101
+    assert isinstance(error, RefusalError)  # noqa: S101
     words = say(language(request), error.key, **error.values)
     return page(request, "refused.html", status=error.status, why=words)
 

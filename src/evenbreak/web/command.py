@@ -37,17 +37,20 @@ def command(*, file: str, lan: bool, port: int) -> None:
     page begins one. The commands of evenbreak tournament can be used on it at the same time.
     """
     import segno
-    import uvicorn
 
     from evenbreak.files.tournament_desk import back_up
     from evenbreak.files.tournament_store import read_tournament
-    from evenbreak.web.app import make_app
+    from evenbreak.web.app import server_of
     from evenbreak.web.site import Site
 
     path = Path(file)
     if path.exists():
         read_tournament(path)
         back_up(path, datetime.now())
+    elif not path.parent.is_dir():
+        raise click.UsageError(
+            f"{path}: there is no folder {path.parent}; make it, or name another"
+        )
     own = _own_address() if lan else "127.0.0.1"
     hosts = {"127.0.0.1", "localhost", "::1", own}
     if lan:
@@ -62,18 +65,7 @@ def command(*, file: str, lan: bool, port: int) -> None:
     if lan:
         segno.make(address, error="l").terminal(sys.stderr, compact=True)
     click.echo("Ctrl+C ends it; nothing is lost.", err=True)
-    config = uvicorn.Config(
-        make_app(site),
-        host="0.0.0.0" if lan else "127.0.0.1",  # noqa: S104
-        port=port,
-        log_level="warning",
-        access_log=False,
-        server_header=False,
-        timeout_keep_alive=20,
-        timeout_graceful_shutdown=2,
-        limit_concurrency=1000,
-    )
-    uvicorn.Server(config).run()
+    server_of(site, host="0.0.0.0" if lan else "127.0.0.1", port=port).run()  # noqa: S104
 
 
 def _own_address() -> str:

@@ -101,7 +101,9 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
     data: dict[str, Any] = known.data if known else {}
     older = known is None or known.version < len(state.events)
     called = {name: table for table, name in known.calls} if known and not older else {}
-    playing, calls, waiting = [], [], []
+    playing: list[MatchView] = []
+    calls: list[MatchView] = []
+    waiting: list[MatchView] = []
     for name in state.standing.to_play:
         one = match_view(state, name, called.get(name))
         (playing if one.since else calls if one.table else waiting).append(one)

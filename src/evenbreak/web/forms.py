@@ -5,7 +5,7 @@ from __future__ import annotations
 from starlette.datastructures import FormData
 from starlette.requests import Request
 
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_form
 
 _MOST_FIELDS, _MOST_FILES = 60, 1
@@ -27,9 +27,9 @@ class Form:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
-            raise Refused("refused_field", name=name)
+            raise RefusalError("refused_field", name=name)
         if len(value) > longest:
-            raise Refused("refused_long", name=name, longest=longest)
+            raise RefusalError("refused_long", name=name, longest=longest)
         return value.strip()
 
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
@@ -38,14 +38,14 @@ class Form:
         if not text and default is not None:
             return default
         if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
-            raise Refused("refused_whole", name=name, value=text, low=low, high=high)
+            raise RefusalError("refused_whole", name=name, value=text, low=low, high=high)
         return int(text)
 
     def one_of(self, name: str, allowed: tuple[str, ...]) -> str:
         """Return one of several words."""
         text = self.text(name)
         if text not in allowed:
-            raise Refused("refused_choice", name=name, value=text, allowed=", ".join(allowed))
+            raise RefusalError("refused_choice", name=name, value=text, allowed=", ".join(allowed))
         return text
 
 

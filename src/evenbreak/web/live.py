@@ -46,7 +46,8 @@ async def events(request: Request) -> Response:
         try:
             seen, quiet = await _WATCH.look(request), 0.0
             yield f"retry: 2000\ndata: {seen}\n\n".encode()
-            while not await request.is_disconnected():
+            state = request.app.state
+            while not (state.closing or await request.is_disconnected()):
                 await asyncio.sleep(_LOOK)
                 quiet += _LOOK
                 version = await _WATCH.look(request)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 
-class Refused(Exception):
+class RefusalError(Exception):
     """A request that is refused.
 
     Parameters

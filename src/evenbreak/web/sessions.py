@@ -10,40 +10,40 @@ from collections.abc import Callable
 
 from starlette.requests import Request
 
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 
 DIRECTOR = "director"
 _CSRF, _PHONE = "form", "phone"
-_TRIES, _SECONDS = 5, 60.0
+_SECONDS = 60.0
 _MOST_ADDRESSES = 1000
 
 
 class Tries:
     """How often something was tried from each address in the last minute.
 
-    >>> clock = iter([0.0, 1.0, 2.0, 61.5]).__next__
-    >>> tries = Tries(2, clock=clock)
-    >>> [tries.allows("10.0.0.7") for _ in range(4)]
-    [True, True, False, True]
+    >>> tries = Tries(2, clock=iter([0.0, 0.5, 1.0, 2.0, 61.5]).__next__)
+    >>> tries.count("10.0.0.7"), tries.count("10.0.0.7")
+    (None, None)
+    >>> tries.full("10.0.0.7"), tries.full("10.0.0.8"), tries.full("10.0.0.7")
+    (True, False, False)
     """
 
-    def __init__(self, most: int = _TRIES, *, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, most: int, *, clock: Callable[[], float] = time.monotonic) -> None:
         self.most = most
         self.clock = clock
         self.times: dict[str, deque[float]] = {}
 
-    def allows(self, address: str) -> bool:
-        """Count one more try, and return whether it is allowed."""
-        now = self.clock()
+    def count(self, address: str) -> None:
+        """Count one more try."""
         if len(self.times) > _MOST_ADDRESSES:
             self.times.clear()
-        seen = self.times.setdefault(address, deque(maxlen=self.most))
-        while seen and now - seen[0] > _SECONDS:
-            seen.popleft()
-        if len(seen) == self.most:
-            return False
-        seen.append(now)
-        return True
+        self.times.setdefault(address, deque(maxlen=self.most)).append(self.clock())
+
+    def full(self, address: str) -> bool:
+        """Return whether no more tries are allowed now."""
+        now = self.clock()
+        seen = self.times.get(address, deque())
+        return len(seen) == self.most and now - seen[0] <= _SECONDS
 
 
 def form_token(request: Request) -> str:
@@ -62,7 +62,7 @@ def check_form(request: Request, token: str) -> None:
     """Refuse a form that this session was not given."""
     known = request.session.get(_CSRF)
     if not known or not hmac.compare_digest(known.encode(), token.encode()):
-        raise Refused("refused_form", status=403)
+        raise RefusalError("refused_form", status=403)
 
 
 def is_director(request: Request) -> bool:
@@ -76,7 +76,7 @@ def is_director(request: Request) -> bool:
 def check_director(request: Request) -> None:
     """Refuse whoever has not entered the director's PIN."""
     if not is_director(request):
-        raise Refused("refused_director", status=403)
+        raise RefusalError("refused_director", status=403)
 
 
 def address_of(request: Request) -> str:

@@ -28,13 +28,16 @@ class Site:
         where phones find it, such as http://192.168.1.20:8000; for QR codes.
     clock
         returns what time it is, such as 2025-03-01T19:30:00.
+    tries, all_tries, taps
+        wrong PINs from each address and from all, and taps in each match, in the last minute.
     """
 
     path: Path
     hosts: frozenset[str] = frozenset({"127.0.0.1", "localhost", "::1"})
     address: str = "http://127.0.0.1:8000"
     clock: Callable[[], str] = now
-    tries: Tries = field(default_factory=Tries)
+    tries: Tries = field(default_factory=lambda: Tries(5))
+    all_tries: Tries = field(default_factory=lambda: Tries(30))
     taps: Tries = field(default_factory=lambda: Tries(240))
 
     def __post_init__(self) -> None:

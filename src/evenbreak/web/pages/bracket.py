@@ -16,7 +16,7 @@ from evenbreak.sheets.bracket_drawing import bracket_pdf
 from evenbreak.sheets.score_card_pages import score_cards_pdf
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.page import page, site_of
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 
 
 async def bracket(request: Request) -> Response:
@@ -39,7 +39,7 @@ async def cards_on_paper(request: Request) -> Response:
     state = await _drawn(request)
     cards = score_cards(state, None)
     if not cards:
-        raise Refused("refused_no_card", status=404)
+        raise RefusalError("refused_no_card", status=404)
     make = partial(score_cards_pdf, cards, site_of(request).path.stem, per_page=4)
     return _pdf(await asyncio.to_thread(make), "cards.pdf")
 
@@ -47,10 +47,10 @@ async def cards_on_paper(request: Request) -> Response:
 async def _drawn(request: Request) -> Evening:
     night = site_of(request).night
     if not night.exists:
-        raise Refused("refused_no_tournament", status=404)
+        raise RefusalError("refused_no_tournament", status=404)
     _, state = await asyncio.to_thread(night.state)
     if not state.drawn:
-        raise Refused("refused_no_draw", status=404)
+        raise RefusalError("refused_no_draw", status=404)
     return state
 
 

@@ -23,7 +23,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, page, site_of
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
 
@@ -38,7 +38,7 @@ async def desk(request: Request) -> Response:
     check_director(request)
     site = site_of(request)
     if not site.night.exists:
-        raise Refused("refused_no_tournament", status=404)
+        raise RefusalError("refused_no_tournament", status=404)
     known = await site.night.outlook()
     _, state = await asyncio.to_thread(site.night.state)
     shown: dict[str, Any] = {
@@ -156,7 +156,7 @@ async def undo(request: Request) -> Response:
 
     def decide(state: Evening) -> list[What]:
         if len(state.events) != seen:
-            raise Refused("refused_changed", status=409)
+            raise RefusalError("refused_changed", status=409)
         return [moves.undo(state)]
 
     def said(before: Evening, after: Evening) -> list[str]:
@@ -177,7 +177,7 @@ async def history(request: Request) -> Response:
     check_director(request)
     path = site_of(request).path
     if not path.exists():
-        raise Refused("refused_no_tournament", status=404)
+        raise RefusalError("refused_no_tournament", status=404)
     found = await asyncio.to_thread(read_events, path)
     by = await asyncio.to_thread(authors, path)
     rows = [

@@ -23,7 +23,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
 
@@ -58,7 +58,7 @@ async def begin(request: Request) -> Response:
     check_director(request)
     site = site_of(request)
     if not content.strip():
-        raise Refused("refused_nobody")
+        raise RefusalError("refused_nobody")
     file = await asyncio.to_thread(_read, content)
     scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
     handicapped = bool(form.text("handicapped"))
@@ -78,7 +78,7 @@ async def begin(request: Request) -> Response:
     )
     opened = Opened(plan, _entrants(file, scale))
     if not 2 <= len(opened.entrants) <= moves.MOST_PLAYERS:
-        raise Refused("refused_players", players=len(opened.entrants))
+        raise RefusalError("refused_players", players=len(opened.entrants))
     event = Event(site.clock(), opened)
     await asyncio.to_thread(new_tournament, site.path, [event])
     site.keep_secrets()
@@ -112,12 +112,12 @@ async def late(request: Request) -> Response:
     check_director(request)
     site, name = site_of(request), " ".join(form.text("name", longest=80).split())
     if not name:
-        raise Refused("refused_nobody")
+        raise RefusalError("refused_nobody")
     stated = form.text("rating").replace(",", ".")
     try:
         rating = float(stated) if stated else None
     except ValueError:
-        raise Refused("refused_rating", value=stated) from None
+        raise RefusalError("refused_rating", value=stated) from None
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan

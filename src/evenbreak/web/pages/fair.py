@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from starlette.requests import Request
 from starlette.responses import Response
@@ -17,7 +17,7 @@ from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
 from evenbreak.web.page import page, site_of
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 
 LENGTHS = (3, 4, 5, 7, 9, 11, 13, 15, 21)
 
@@ -38,8 +38,8 @@ async def fair(request: Request) -> Response:
     scale = _scale(request, state)
     length = request.query_params.get("race", "7")
     if not length.isdigit() or not 1 <= int(length[:4]) <= 100:
-        raise Refused("refused_whole", name="race", value=length[:20], low=1, high=100)
-    shown = {
+        raise RefusalError("refused_whole", name="race", value=length[:20], low=1, high=100)
+    shown: dict[str, Any] = {
         "asked": asked,
         "length": int(length),
         "lengths": LENGTHS,
@@ -61,7 +61,9 @@ def _scale(request: Request, state: Evening | None) -> Scale:
         try:
             return scale_of(given)
         except InputError:
-            raise Refused("refused_scale", value=given[:20], allowed=", ".join(SCALES)) from None
+            raise RefusalError(
+                "refused_scale", value=given[:20], allowed=", ".join(SCALES)
+            ) from None
     return state.scale if state else SCALES["fargo"]
 
 
@@ -71,7 +73,7 @@ def _side(text: str, state: Evening | None) -> Side:
     except ValueError:
         pass
     if state is None:
-        raise Refused("refused_rating", value=text)
+        raise RefusalError("refused_rating", value=text)
     entrant = state.entrants[known_player(state, text)]
     return Side(entrant.name, entrant.rating, entrant.standard_error)
 
@@ -80,7 +82,7 @@ def _races(sides: tuple[Side, ...], scale: Scale, length: int) -> list[FairRace]
     one, other = sides
     gap, error = one.rating - other.rating, (one.error**2 + other.error**2) ** 0.5
     if not abs(gap) < 1e6:  # neither too large nor not a number
-        raise Refused("refused_rating", value=f"{one.rating:g}")
+        raise RefusalError("refused_rating", value=f"{one.rating:g}")
     if error:
         return nearest_races_given_ratings(gap, error, scale=scale, race_to=length, top=3)
     return fair_races(Rack(float(scale.win_probability(gap))), race_to=length, top=3)

@@ -11,7 +11,7 @@ from starlette.routing import Route
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import choose_language, done, page, site_of
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import DIRECTOR, address_of
 
 
@@ -34,10 +34,13 @@ async def enter_pin(request: Request) -> Response:
     """Let the director in."""
     form = await form_of(request)
     site = site_of(request)
-    if not site.tries.allows(address_of(request)) or not site.tries.allows("everybody"):
-        raise Refused("refused_tries", status=429)
+    address = address_of(request)
+    if site.tries.full(address) or site.all_tries.full(""):
+        raise RefusalError("refused_tries", status=429)
     if not site.is_pin(form.text("pin")):
-        raise Refused("refused_pin", status=403)
+        site.tries.count(address)
+        site.all_tries.count("")
+        raise RefusalError("refused_pin", status=403)
     request.session[DIRECTOR] = site.director_mark
     return done(request, "/")
 

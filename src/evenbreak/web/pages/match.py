@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from typing import Any
 
 from scipy.special import betainc
 from starlette.requests import Request
@@ -17,7 +18,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import MatchView, match_view
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import done, language, page, site_of
-from evenbreak.web.refusals import Refused
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import phone_of
 from evenbreak.web.words import say
 
@@ -27,7 +28,7 @@ _ME = "me"
 async def match(request: Request) -> Response:
     """Show a match to its players."""
     name, state = await _match(request)
-    shown: dict[str, object] = {"name": name, "token": request.path_params["token"]}
+    shown: dict[str, Any] = {"name": name, "token": request.path_params["token"]}
     if name not in state.standing.to_play:
         shown |= {"one": None, "result": state.counted.get(name), "state": state}
         return page(request, "match.html", live=True, **shown)
@@ -71,13 +72,14 @@ async def tap(request: Request) -> Response:
     name, state = await _match(request)
     form = await form_of(request)
     site, to = site_of(request), f"/m/{request.path_params['token']}"
-    if not site.taps.allows(request.path_params["token"]):
-        raise Refused("refused_taps", status=429)
+    if site.taps.full(name):
+        raise RefusalError("refused_taps", status=429)
+    site.taps.count(name)
     if name not in state.standing.to_play:
-        raise Refused("refused_over", status=409, match=name)
+        raise RefusalError("refused_over", status=409, match=name)
     pair, needs = state.pair(name), state.needed(name, state.pair(name))
     if form.text("players") != "\n".join(pair):
-        raise Refused("refused_other_players", status=409, match=name)
+        raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
     if score[0] == needs[0] or score[1] == needs[1]:
         said = await asyncio.to_thread(_propose, request, name, pair, score, _me(request, name))
@@ -99,7 +101,7 @@ def _propose(
     """Keep a proposed result, and enter it if the opponent proposed the same."""
     site, code = site_of(request), language(request)
     if not me:
-        raise Refused("refused_who")
+        raise RefusalError("refused_who")
     _, state = site.night.state()
     moves.result(state, name, score)  # refuses what cannot be a result
     games = dict(zip(pair, score, strict=True))
@@ -126,13 +128,13 @@ def _propose(
 async def _match(request: Request) -> tuple[str, Evening]:
     site = site_of(request)
     if not site.night.exists:
-        raise Refused("refused_no_tournament", status=404)
+        raise RefusalError("refused_no_tournament", status=404)
     _, state = await asyncio.to_thread(site.night.state)
     if not state.drawn:
-        raise Refused("refused_no_draw", status=404)
+        raise RefusalError("refused_no_draw", status=404)
     name = site.match_of(request.path_params["token"], list(state.bracket.by_name))
     if name is None:
-        raise Refused("refused_token", status=404)
+        raise RefusalError("refused_token", status=404)
     return name, state
 
 

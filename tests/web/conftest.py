@@ -1,0 +1,63 @@
+"""A tournament of sixteen players on a running page."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from evenbreak.files.tournament_store import read_tournament
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.site import Site
+from web.phones import Phone, running
+
+PLAYERS = [f"Player {k}" for k in range(1, 17)]
+
+
+class Hall(NamedTuple):
+    """A running page, the director's phone and a guest's."""
+
+    site: Site
+    director: Phone
+    guest: Phone
+
+    @property
+    def state(self) -> Evening:
+        """What the file holds now."""
+        return read_tournament(self.site.path)
+
+
+def begun(director: Phone, players: list[str], **plan: object) -> None:
+    """Begin a tournament through the page, and draw it."""
+    rows = [f"{name},{700 - 10 * k}" for k, name in enumerate(players)]
+    asked = {
+        "entrants": "\n".join(["player,rating", *rows]),
+        "format": "double",
+        "race": 3,
+        "losers_race": 2,
+        "tables": 4,
+        "discipline": "9-ball",
+        "seeding": "rating",
+        "scale": "fargo",
+        **plan,
+    }
+    shown = director.send("/new", **asked)
+    assert shown.status == 200, shown.words
+    assert director.send("/desk/draw").status == 200
+
+
+@pytest.fixture
+def hall(tmp_path: Path) -> Iterator[Hall]:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(director, PLAYERS)
+        yield Hall(site, director, Phone(site))
+
+
+@pytest.fixture(scope="module")
+def standing_hall(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
+    """The same for tests that change nothing."""
+    with running(tmp_path_factory.mktemp("hall") / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(director, PLAYERS)
+        yield Hall(site, director, Phone(site))

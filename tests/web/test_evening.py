@@ -1,0 +1,144 @@
+"""A whole evening through the page: by the director and by players' phones, as by commands."""
+
+import random
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from evenbreak.files.tournament_desk import authors, proposals
+from evenbreak.files.tournament_store import (
+    add_events,
+    new_tournament,
+    read_events,
+    read_tournament,
+)
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.fold import Evening
+from web.conftest import Hall
+from web.phones import Phone
+
+Decide = Callable[[Evening], object]
+
+
+def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> None:
+    """Let both players of a match tap its games, and both enter the result."""
+    pair, token = hall.state.pair(match), hall.site.match_token(match)
+    phones = [Phone(hall.site), Phone(hall.site)]
+    asked = {"players": "\n".join(pair)}
+    for k, phone in enumerate(phones):
+        assert phone.send(f"/m/{token}/me", me=k).status == 200
+    for a, b in [(min(score[0], k), 0) for k in range(1, score[0])]:
+        assert phones[0].send(f"/m/{token}/score", a=a, b=b, **asked).status == 200
+    for phone in phones:
+        assert phone.send(f"/m/{token}/score", a=score[0], b=score[1], **asked).status == 200
+
+
+def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
+    luck = random.Random(3)
+    done: list[Decide] = []
+    assert hall.director.send("/desk/late", name="Late Larry", rating="610").status == 400
+    entered = 0
+    while hall.state.standing.to_play:
+        name = luck.choice(list(hall.state.standing.to_play))
+        needs = hall.state.needed(name, hall.state.pair(name))
+        score = (needs[0], luck.randrange(needs[1]))
+        score = score if luck.random() < 0.6 else (luck.randrange(needs[0]), needs[1])
+        if entered in (5, 11):
+            scored_by_phones(hall, name, score)
+        else:
+            shown = hall.director.send(
+                "/desk/result", match=name, a=score[0], b=score[1], how="new"
+            )
+            assert shown.status == 200, shown.words
+        done.append(lambda state, n=name, s=score: moves.result(state, n, s))
+        entered += 1
+        if entered == 14:
+            wrong = "W1.1"
+            games = hall.state.counted[wrong].score
+            shown = hall.director.send(
+                "/desk/result", match=wrong, a=games[1], b=games[0], how="correct"
+            )
+            assert shown.status == 200
+            done.append(lambda state, g=games: moves.correct(state, "W1.1", g[::-1]))
+    assert entered >= 30
+    shown = hall.guest.open("/")
+    assert "Result" in shown.words
+
+    events = read_events(hall.site.path)
+    plain = tmp_path / "commands.db"
+    new_tournament(plain, events[:2])
+    for decide in done:
+        add_events(plain, lambda state, d=decide: [Event("2025-03-01T20:00:00", d(state))])
+    assert read_tournament(plain).counted == hall.state.counted
+    assert "phones: " in " ".join(authors(hall.site.path).values())
+
+
+def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
+    pair, token = hall.state.pair("W1.1"), hall.site.match_token("W1.1")
+    one, other = Phone(hall.site), Phone(hall.site)
+    asked = {"players": "\n".join(pair)}
+    assert "whose phone" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
+    one.send(f"/m/{token}/me", me=0)
+    other.send(f"/m/{token}/me", me=1)
+    assert "counts once" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
+    assert "another result" in other.send(f"/m/{token}/score", a=1, b=3, **asked).words
+    assert "W1.1" not in hall.state.counted
+    assert len(proposals(hall.site.path)) == 2
+    assert hall.director.open("/desk").words.count("says:") == 2
+    assert hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new").status == 200
+    assert hall.state.counted["W1.1"].winner == pair[0]
+
+
+def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
+    token = hall.site.match_token("W1.1")
+    asked = {"players": "\n".join(hall.state.pair("W1.1"))}
+    phone = Phone(hall.site)
+    for k in (0, 1):
+        phone.send(f"/m/{token}/me", me=k)
+        phone.send(f"/m/{token}/score", a=3, b=0, **asked)
+    assert "W1.1" not in hall.state.counted
+
+
+def test_phones_of_a_match_that_others_play_now_are_refused(hall: Hall) -> None:
+    token = hall.site.match_token("W1.1")
+    shown = hall.guest.send(f"/m/{token}/score", a=1, b=0, players="Ann\nBo")
+    assert shown.status == 409
+
+
+def test_many_phones_at_once_lose_nothing(hall: Hall) -> None:
+    matches = [f"W1.{k}" for k in range(1, 9)]
+    codes = []
+
+    def enter(name: str) -> None:
+        phone = Phone(hall.site, director=True)
+        shown = phone.send("/desk/result", match=name, a=3, b=1, how="new")
+        codes.append(shown.status)
+
+    threads = [threading.Thread(target=enter, args=(name,)) for name in matches]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert codes == [200] * 8
+    assert set(hall.state.counted) == set(matches)
+
+
+@pytest.mark.parametrize("path", ["/", "/bracket", "/screen", "/fair"])
+def test_a_page_is_small_and_needs_nothing_from_elsewhere(standing_hall: Hall, path: str) -> None:
+    shown = standing_hall.guest.open(path)
+    style = standing_hall.guest.open("/evenbreak.css")
+    assert len(shown.text) + len(style.text) < 60_000
+    assert shown.text.count('rel="stylesheet"') == 1
+    assert "src=" not in shown.text
+    assert "//" not in shown.text.replace("http://127.0.0.1", "").split("</script>")[-1]
+
+
+def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
+    at = "2025-03-01T20:00:00"
+    add_events(hall.site.path, lambda state: [Event(at, moves.result(state, "W1.1", (3, 2)))])
+    assert "3" in hall.guest.open("/bracket").words
+    assert "W1.1" not in hall.guest.open("/desk").words
+    assert len(hall.state.events) == 3

@@ -1,0 +1,169 @@
+"""What is refused: forged, replayed, oversized and foreign requests; each says why in one line."""
+
+import http.client
+import socket
+from urllib.parse import urlsplit
+
+import pytest
+
+from evenbreak.web import guard
+from web.conftest import Hall, begun
+from web.phones import Phone, running
+
+CHANGES = ["draw", "call", "result", "forfeit", "drop", "undo", "save", "late"]
+
+
+def raw(hall: Hall, method: str, path: str, body: bytes = b"", **headers: str) -> tuple[int, str]:
+    """Send a request as it stands."""
+    place = urlsplit(hall.site.address)
+    line = http.client.HTTPConnection(place.hostname or "", place.port, timeout=10)
+    line.putrequest(method, path, skip_host="Host" in headers)
+    for name, value in headers.items():
+        line.putheader(name.replace("_", "-"), value)
+    try:
+        line.endheaders(body or None)
+        got = line.getresponse()
+        return got.status, got.read().decode("utf-8", "replace")
+    finally:
+        line.close()
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_only_the_director_changes_anything(standing_hall: Hall, what: str) -> None:
+    before = len(standing_hall.state.events)
+    shown = standing_hall.guest.send(f"/desk/{what}", match="W1.1", a=3, b=0, how="new", seen=2)
+    assert shown.status == 403
+    assert "Only the director" in shown.words
+    assert len(standing_hall.state.events) == before
+
+
+@pytest.mark.parametrize("page", ["/desk", "/desk/history", "/desk/codes", "/new"])
+def test_only_the_director_sees_the_desk(standing_hall: Hall, page: str) -> None:
+    assert standing_hall.guest.open(page).status == 403
+    assert standing_hall.director.open(page).status == 200
+
+
+@pytest.mark.parametrize("token", ["", "x", "é" * 9])
+def test_a_form_from_elsewhere_is_refused(standing_hall: Hall, token: str) -> None:
+    shown = standing_hall.director.send_raw("/desk/undo", {"csrf": token, "seen": 2})
+    assert shown.status == 403
+    assert "another visit" in shown.words
+
+
+def test_the_token_of_another_session_is_refused(standing_hall: Hall) -> None:
+    stolen = standing_hall.guest.token()
+    assert standing_hall.director.send_raw("/desk/undo", {"csrf": stolen}).status == 403
+
+
+@pytest.mark.parametrize("host", ["evil.example", "evil.example:8000", "127.0.0.1.evil.example"])
+def test_a_foreign_host_is_refused(standing_hall: Hall, host: str) -> None:
+    assert raw(standing_hall, "GET", "/", Host=host)[0] == 421
+
+
+def test_a_wrong_pin_is_refused_and_soon_every_pin(hall: Hall) -> None:
+    phone = Phone(hall.site)
+    codes = [phone.send("/pin", pin=f"wrong{k}").status for k in range(6)]
+    assert codes == [403, 403, 403, 403, 403, 429]
+    assert phone.send("/pin", pin=hall.site.pin).status == 429
+
+
+def test_a_forged_cookie_makes_no_director(standing_hall: Hall) -> None:
+    phone = Phone(standing_hall.site)
+    phone.opener.addheaders.append(("Cookie", "evenbreak=eyJkaXJlY3RvciI6ICJ4In0=.aaaa.bbbb"))
+    assert phone.open("/desk").status == 403
+
+
+def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
+    size = str(guard.MOST_BYTES + 1)
+    status, text = raw(standing_hall, "POST", "/pin", Content_Length=size)
+    assert (status, "send less" in text) == (413, True)
+    body = b"".join(b"10000\r\n" + b"x" * 65536 + b"\r\n" for _ in range(40)) + b"0\r\n\r\n"
+    kind = "application/x-www-form-urlencoded"
+    try:
+        status, _ = raw(
+            standing_hall, "POST", "/pin", body, Transfer_Encoding="chunked", Content_Type=kind
+        )
+    except (BrokenPipeError, ConnectionResetError):
+        return  # refused before everything was sent
+    assert status in (400, 413)
+
+
+def test_a_slow_body_is_cut_off(standing_hall: Hall, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guard, "PATIENCE", 0.2)
+    place = urlsplit(standing_hall.site.address)
+    with socket.create_connection((place.hostname, place.port), timeout=5) as line:
+        head = f"POST /pin HTTP/1.1\r\nHost: {place.netloc}\r\nContent-Length: 50\r\n"
+        line.sendall(f"{head}Content-Type: application/x-www-form-urlencoded\r\n\r\nc".encode())
+        assert b" 408 " in line.recv(200)
+
+
+@pytest.mark.parametrize(
+    "path", ["/../etc/passwd", "/m/..%2f..%2fetc", "/m/x", "/evenbreak.css/..", "/%00", "/desk/x"]
+)
+def test_paths_lead_nowhere(standing_hall: Hall, path: str) -> None:
+    status, text = raw(standing_hall, "GET", path)
+    assert status in (403, 404, 405)
+    assert "root:" not in text
+
+
+SCRIPT = "<script>alert(1)</script>"
+NASTY = [SCRIPT, "Robert'); DROP TABLE event;--", "../../x", "=cmd|' /C calc'!A0", "עברית \u202e x"]
+
+
+def test_names_are_text_everywhere(hall: Hall) -> None:
+    for name in NASTY:
+        shown = hall.director.send("/desk/drop", player=f"Player {16 - NASTY.index(name)}")
+        assert shown.status == 200
+    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    for page in ("/", "/desk", "/bracket", "/screen", "/desk/history"):
+        assert hall.director.open(page).status == 200
+    other = hall.site.path.with_name("other.db")
+    with running(other) as site:
+        director = Phone(site, director=True)
+        begun(director, [*NASTY, "Ann"], seeding="listed")
+        for page in ("/", "/desk", "/bracket", "/screen", "/desk/codes", "/desk/history"):
+            shown = director.open(page)
+            assert shown.status == 200
+            assert SCRIPT not in shown.text
+            assert "style-src 'self'" in shown.headers["content-security-policy"]
+        assert director.open("/bracket.pdf").status == 200
+        assert director.open("/fair", a=SCRIPT, b="Ann").status == 200
+
+
+def test_the_same_tap_twice_enters_once(hall: Hall) -> None:
+    for _ in range(2):
+        assert hall.director.send("/desk/call", match="W1.1", table=1).status == 200
+    for _ in range(2):
+        assert hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new").status == 200
+    kinds = [type(one.what).__name__ for one in hall.state.events]
+    assert kinds == ["Opened", "Drawn", "Called", "Result"]
+
+
+def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:
+    seen = len(hall.state.events)
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    shown = hall.director.send("/desk/undo", seen=seen)
+    assert shown.status == 409
+    assert len(hall.state.events) == seen + 1
+
+
+@pytest.mark.parametrize(
+    ("path", "fields", "why"),
+    [
+        ("/desk/result", {"match": "W1.1", "a": "x", "b": 0, "how": "new"}, "whole number"),
+        ("/desk/result", {"match": "W1.1", "a": 9, "b": 0, "how": "new"}, "does not end"),
+        ("/desk/result", {"match": "W9.9", "a": 3, "b": 0, "how": "new"}, "does not exist"),
+        ("/desk/result", {"match": "W1.1", "a": 3, "b": 0, "how": "else"}, "choose one of"),
+        ("/desk/call", {"match": "W2.1", "table": 1}, "not ready"),
+        ("/desk/late", {"name": " "}, "at least one"),
+        ("/desk/late", {"name": "Zoë", "rating": "high"}, "not a rating"),
+        ("/desk/late", {"name": "x" * 100}, "longer than"),
+        ("/desk/drop", {"player": "Nobody"}, "not in this tournament"),
+    ],
+)
+def test_a_wrong_entry_is_refused_in_one_line(
+    standing_hall: Hall, path: str, fields: dict, why: str
+) -> None:
+    shown = standing_hall.director.send(path, **fields)
+    assert 400 <= shown.status < 500
+    assert why in shown.words
