@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
+import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -105,9 +107,36 @@ class Night:
             calls = next_calls(night) if state.standing.to_play else []
             return Known(version, 0.0, data, calls, begun_at(night))
 
-        found = await asyncio.to_thread(work)
+        found = await _beside(work)
         clock = asyncio.get_running_loop().time()
         self.known = Known(found.version, clock, found.data, found.calls, found.start)
+
+
+async def _beside(work: Callable[[], Known]) -> Known:
+    """Return what a function returns that runs in a thread which the end of the page ends too."""
+    loop = asyncio.get_running_loop()
+    done: asyncio.Future[Known] = loop.create_future()
+
+    def settle(found: Known | None, error: Exception | None) -> None:
+        if done.cancelled():
+            return
+        if error is not None:
+            done.set_exception(error)
+        elif found is not None:
+            done.set_result(found)
+
+    def run() -> None:
+        found: Known | None = None
+        failed: Exception | None = None
+        try:
+            found = work()
+        except Exception as error:
+            failed = error
+        with suppress(RuntimeError):  # the loop has ended meanwhile
+            loop.call_soon_threadsafe(settle, found, failed)
+
+    threading.Thread(target=run, daemon=True).start()
+    return await done
 
 
 def _mark(path: Path) -> tuple[int, int, int]:
