@@ -79,11 +79,12 @@ class Phone:
 
 
 @contextmanager
-def running(path: Path) -> Iterator[Site]:
+def running(path: Path, *, port: int = 0) -> Iterator[Site]:
     """Serve a file while the block runs."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    if not port:
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
     site = Site(path, address=f"http://127.0.0.1:{port}")
     server = server_of(site, port=port)
     thread = threading.Thread(target=server.run, daemon=True)

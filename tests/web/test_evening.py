@@ -27,7 +27,7 @@ def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> None:
     """Let both players of a match tap its games, and both enter the result."""
     pair, token = hall.state.pair(match), hall.site.match_token(match)
     phones = [Phone(hall.site), Phone(hall.site)]
-    asked = {"players": "\n".join(pair)}
+    asked = dict(zip(("player_a", "player_b"), pair, strict=True))
     for k, phone in enumerate(phones):
         assert phone.send(f"/m/{token}/me", me=k).status == 200
     for a, b in [(min(score[0], k), 0) for k in range(1, score[0])]:
@@ -79,7 +79,7 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
 def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     pair, token = hall.state.pair("W1.1"), hall.site.match_token("W1.1")
     one, other = Phone(hall.site), Phone(hall.site)
-    asked = {"players": "\n".join(pair)}
+    asked = dict(zip(("player_a", "player_b"), pair, strict=True))
     assert "whose phone" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
     one.send(f"/m/{token}/me", me=0)
     other.send(f"/m/{token}/me", me=1)
@@ -94,7 +94,7 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
 
 def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
     token = hall.site.match_token("W1.1")
-    asked = {"players": "\n".join(hall.state.pair("W1.1"))}
+    asked = dict(zip(("player_a", "player_b"), hall.state.pair("W1.1"), strict=True))
     phone = Phone(hall.site)
     for k in (0, 1):
         phone.send(f"/m/{token}/me", me=k)
@@ -104,7 +104,7 @@ def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
 
 def test_phones_of_a_match_that_others_play_now_are_refused(hall: Hall) -> None:
     token = hall.site.match_token("W1.1")
-    shown = hall.guest.send(f"/m/{token}/score", a=1, b=0, players="Ann\nBo")
+    shown = hall.guest.send(f"/m/{token}/score", a=1, b=0, player_a="Ann", player_b="Bo")
     assert shown.status == 409
 
 

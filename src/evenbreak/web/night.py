@@ -98,6 +98,8 @@ class Night:
             if self._work is None or self._work.done():
                 self._work = asyncio.create_task(self._work_out(version, state))
             await asyncio.wait({self._work}, timeout=_WAIT)
+            if self._work.done():
+                self._work.result()  # raises what went wrong
         return self.known
 
     async def _work_out(self, version: int, state: Evening) -> None:

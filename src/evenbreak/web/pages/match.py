@@ -78,7 +78,7 @@ async def tap(request: Request) -> Response:
     if name not in state.standing.to_play:
         raise RefusalError("refused_over", status=409, match=name)
     pair, needs = state.pair(name), state.needed(name, state.pair(name))
-    if form.text("players") != "\n".join(pair):
+    if (form.text("player_a"), form.text("player_b")) != pair:
         raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
     if score[0] == needs[0] or score[1] == needs[1]:

@@ -1,0 +1,162 @@
+"""The page in a real browser: axe has no objection, the keyboard suffices, scripts need not."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from evenbreak.files.tournament_store import add_events
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event
+from web.conftest import PLAYERS, Hall, begun
+from web.phones import Phone, running
+
+sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+axe_api = pytest.importorskip(
+    "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+)
+CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
+pytestmark = pytest.mark.skipif(
+    CHROMIUM is None,
+    reason="no Chromium; install it by the system's package manager (apt install chromium), or "
+    "name it in EVENBREAK_CHROMIUM",
+)
+
+PAGES = ("/", "/bracket", "/fair?a=Player+1&b=560&race=7", "/screen", "/pin", "/desk", "/new")
+DESK_PAGES = ("/desk/codes", "/desk/history", "/nowhere")
+AT = "2025-03-01T20:00:00"
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with sync_api.sync_playwright() as play:
+        started = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="module")
+def event(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
+    """A tournament under way: a result, a match in play, one at hill-hill."""
+    with running(tmp_path_factory.mktemp("browser") / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(director, PLAYERS)
+        add_events(site.path, lambda state: [Event(AT, moves.result(state, "W1.1", (3, 1)))])
+        for table, name in enumerate(("W1.2", "W1.3"), 1):
+            director.send("/desk/call", match=name, table=table)
+        add_events(site.path, lambda state: [Event(AT, moves.score(state, "W1.3", (2, 2)))])
+        yield Hall(site, director, Phone(site))
+
+
+def opened(browser: Any, hall: Hall, *, width: int = 390, **asked: Any) -> Any:
+    """Return a page of a browser in which the director's PIN has been entered."""
+    context = browser.new_context(viewport={"width": width, "height": 844}, **asked)
+    page = context.new_page()
+    page.goto(f"{hall.site.address}/pin")
+    page.fill("input[name=pin]", hall.site.pin)
+    page.keyboard.press("Enter")
+    page.wait_for_url(f"{hall.site.address}/")
+    return page
+
+
+def objections(page: Any) -> list[str]:
+    found = axe_api.Axe().run(page)
+    return [
+        f"{one['id']}: {node['html'][:120]}"
+        for one in found.response["violations"]
+        for node in one["nodes"]
+    ]
+
+
+@pytest.mark.parametrize(
+    ("width", "scheme", "paths"),
+    [
+        (390, "light", (*PAGES, *DESK_PAGES)),
+        (390, "dark", ("/", "/bracket", "/desk")),
+        (768, "light", ("/", "/desk")),
+        (1280, "light", ("/bracket", "/screen")),
+    ],
+)
+def test_axe_objects_to_nothing(
+    browser: Any, event: Hall, width: int, scheme: str, paths: tuple[str, ...]
+) -> None:
+    page = opened(browser, event, width=width, color_scheme=scheme)
+    token = event.site.match_token("W1.3")
+    for path in (*paths, f"/m/{token}"):
+        page.goto(event.site.address + path)
+        assert objections(page) == [], path
+    page.context.close()
+
+
+def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hall) -> None:
+    page = opened(browser, event, width=320)
+    for path in (*PAGES, *DESK_PAGES, f"/m/{event.site.match_token('W1.3')}"):
+        page.goto(event.site.address + path)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 320, path
+    page.context.close()
+
+
+def test_a_page_asks_at_most_twice_and_shows_changes_by_itself(browser: Any, hall: Hall) -> None:
+    page = browser.new_page()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    errors: list[str] = []
+    page.on("console", lambda message: errors.append(message.text))
+    page.goto(hall.site.address)
+    page.wait_for_timeout(200)
+    assert len([url for url in asked if not url.endswith("/events")]) == 2
+    add_events(hall.site.path, lambda state: [Event(AT, moves.call(state, "W1.5", 3))])
+    page.wait_for_selector("text=since", timeout=5000)
+    assert errors == []
+    page.close()
+
+
+def test_the_keyboard_alone_enters_a_result(browser: Any, hall: Hall) -> None:
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    page = opened(browser, hall)
+    page.goto(f"{hall.site.address}/desk")
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.name") == "a":
+            break
+    page.keyboard.type("3")
+    page.keyboard.press("Tab")
+    page.keyboard.type("0")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".said")
+    assert hall.state.counted["W1.1"].score == (3, 0)
+    page.context.close()
+
+
+def test_without_scripts_a_phone_scores_and_the_director_confirms(browser: Any, hall: Hall) -> None:
+    token = hall.site.match_token("W1.1")
+    players = browser.new_context(java_script_enabled=False).new_page()
+    players.goto(f"{hall.site.address}/m/{token}")
+    one, _ = hall.state.pair("W1.1")
+    players.click(".choices button:first-child")
+    for _ in range(3):
+        players.click(f"text=Game for {one}")
+    assert "counts once" in players.inner_text("main")
+    page = opened(browser, hall, java_script_enabled=False)
+    page.goto(f"{hall.site.address}/desk")
+    page.click("text=Confirm")
+    assert hall.state.counted["W1.1"].score == (3, 0)
+    for one_page in (players, page):
+        one_page.context.close()
+
+
+def test_phones_go_on_after_a_restart(browser: Any, tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    with running(path) as site:
+        begun(Phone(site, director=True), PLAYERS)
+        page = opened(browser, Hall(site, Phone(site), Phone(site)))
+        address = site.address
+    with running(path, port=int(address.rpartition(":")[2])):
+        page.goto(f"{address}/desk")
+        assert page.inner_text("h1") == "Director"
+    page.context.close()
