@@ -13,6 +13,7 @@ from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words
 from evenbreak.answers.tournament_night import begun_at, heading
 from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
+from evenbreak.answers.tournament_stakes import stakes
 from evenbreak.answers.tournament_time import assumed_words, starts_table
 from evenbreak.answers.tournament_what_if import savings_words, what_if
 from evenbreak.answers.wording import decimals, percent
@@ -83,26 +84,21 @@ def _to_draw(state: Evening) -> str:
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     """Return what the matches that can be played change for the title, prizes and the finish."""
-    found, ready = outlook.finish(), outlook.state.standing.to_play
-    money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}
+    found, decided = outlook.finish(), stakes(outlook, prizes)
     rows: list[list[Any]] = []
-    for lever in outlook.leverages():
-        name = lever.match
-        if name in ready:
-            first, second = found.if_won(name)
-            later = None if np.isnan(first - second) else first - second
-            pair = pair_words(outlook.state.standing, name)
-            rows.append([name, pair, float(lever.swing.sum()) / 2.0, later])
-            if name in money:
-                rows[-1].append(float(money[name].sum()) / 2.0)
-    rows.sort(key=lambda row: -row[2])
+    for name, stake in decided.items():
+        first, second = found.if_won(name)
+        later = None if np.isnan(first - second) else first - second
+        rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
+        if stake.prize is not None:
+            rows[-1].append(stake.prize)
     columns = [
         Column("match", "match", left=True),
         Column(("player_a", "player_b"), "between", " - ".join, left=True),
         Column("title_at_stake", "title odds\nthat move", percent),
         Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
     ]
-    if money:
+    if prizes:
         columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
     return Table("at_stake", columns, rows, title="What the next matches decide")
 

@@ -59,6 +59,18 @@ def test_odds_and_time_follow_the_results(begun):
     assert begun("time", "--tables", "1", "--at", "19:30")["finish_p50"] > times["finish_p50"]
 
 
+def test_next_says_what_each_match_decides(begun):
+    begun("score", "W1.1", "1:2", "--at", "19:20")
+    stakes = {row["match"]: row for row in begun("odds", "--prizes", "60,40")["at_stake"]}
+    rows = begun("next", "--prizes", "60,40")["next"]
+    assert len(rows) == len(stakes) == 2
+    for row in rows:
+        for key in ("title_at_stake", "prize_at_stake"):
+            assert row[key] == pytest.approx(stakes[row["match"]][key])
+    assert min(row["minutes_later"] for row in rows) == 0.0
+    assert "title_at_stake" not in begun("undo")["next"][0]
+
+
 def test_a_match_stands_and_results_count_again(begun):
     for match, score in (("W1.1", "3:0"), ("W1.2", "3:0"), ("W2.1", "3:1")):
         begun("result", match, score)

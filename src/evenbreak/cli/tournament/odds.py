@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.values import Number, numbers, refuse
+from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.cli.tournament.evening import or_under_way, outlook_of
-from evenbreak.cli.tournament.options import MOST_PLAYERS, tournament_options
+from evenbreak.cli.tournament.options import tournament_options
+from evenbreak.cli.tournament.prize_money import paid_places, prizes_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
@@ -32,7 +33,7 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
     from evenbreak.answers.tournament_under_way import odds_under_way
 
     outlook = outlook_of(file, at)
-    paid = _prizes(prizes, len(outlook.state.order))
+    paid = paid_places(prizes, len(outlook.state.order))
     return odds_under_way(outlook, prizes=paid, source=PurePath(file).name)
 
 
@@ -62,12 +63,7 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
     default="0",
     help="The chance that a match is a walkover; in real double eliminations it is 0.047.",
 )
-@click.option(
-    "--prizes",
-    metavar="MONEY,...",
-    help="The money for first place, second, ..., such as 500,300,150: adds each player's average "
-    "prize.",
-)
+@prizes_option("each player's average prize")
 @faces()
 def command(
     *,
@@ -100,22 +96,8 @@ def command(
         tournament,
         sure=sure,
         walkovers=walkovers,
-        prizes=_prizes(prizes, len(tournament.roster)),
+        prizes=paid_places(prizes, len(tournament.roster)),
         fairest=fairest,
         seed=seed,
         warnings=warnings,
     )
-
-
-def _prizes(text: str | None, players: int) -> tuple[float, ...]:
-    if text is None:
-        return ()
-    wanted = "give an amount for each paid place, such as 500,300,150"
-    read: Any = numbers(",", range(1, MOST_PLAYERS + 1), 0.0, 1e12, wanted)
-    try:
-        found: tuple[float, ...] = read(text)
-    except click.BadParameter as error:
-        refuse(f"--prizes is {error.message}")
-    if len(found) > players:
-        refuse(f"--prizes has {len(found)} places for {players} players; give fewer")
-    return found
