@@ -30,13 +30,18 @@ from evenbreak.tournaments.odds.title import TitleOdds
 _WORTH_SAYING = 3.0  # minutes
 
 
-def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
+def odds_under_way(
+    outlook: Outlook, *, sure: bool = False, prizes: Sequence[float] = (), source: str = ""
+) -> Answer:
     """Return each player's chance of each place, given the results and scores so far.
 
     Parameters
     ----------
     outlook
         the tournament.
+    sure
+        whether to take the ratings as right; otherwise the odds are averaged over how far those
+        with a standard error may be off.
     prizes
         the money for each place.
     source
@@ -51,11 +56,12 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     >>> print(odds_under_way(Outlook(state, "2025-03-01T19:40:00")).sentences[0])
     The favourite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
     """
-    state, odds, sure = outlook.state, outlook.odds, outlook.as_if_sure
-    table = odds_table(state.ratings, sure, odds, prizes)
+    state, plug_in = outlook.state, outlook.as_if_sure
+    odds = plug_in if sure else outlook.odds
+    table = odds_table(state.ratings, plug_in, odds, prizes)
     quantities = [
-        Quantity("exact", sure.exact and odds is sure),
-        Quantity("ratings_averaged", odds is not sure),
+        Quantity("exact", plug_in.exact and odds is plug_in),
+        Quantity("ratings_averaged", odds is not plug_in),
     ]
     if isinstance(odds, TitleOdds):
         quantities = [
@@ -67,8 +73,8 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     if state.standing.to_play:
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)
-        parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
-    if odds is not sure and outlook.games:
+        parts.append(how_words(plug_in, odds, outlook.walkovers, _to_draw(state)))
+    if odds is not plug_in and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
         )

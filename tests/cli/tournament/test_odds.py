@@ -174,6 +174,8 @@ def test_swiss(odds):
         (("--chart", "npl_10", "--losers-race", "5"), "--losers-race"),
         (("--race", "5", "--format", "single", "--final", "single"), "--final"),
         (("--race", "5", "--third-place"), "--third-place"),
+        (("--race", "5", "--format", "single", "--losers-race", "4"), "--losers-race"),
+        (("--race", "5", "--format", "round-robin", "--final-race", "7"), "--final-race"),
         (("--race", "5", "--qualifiers", "4", "--final", "single"), "--qualifiers"),
         (("--race", "5", "--prizes", "a lot"), "a lot"),
         (("--race", "5", "--prizes", "9,8,7,6,5,4,3,2,1"), "--prizes"),

@@ -59,6 +59,16 @@ def test_odds_and_time_follow_the_results(begun):
     assert begun("time", "--tables", "1", "--at", "19:30")["finish_p50"] > times["finish_p50"]
 
 
+def test_the_odds_of_ratings_taken_as_right(begun):
+    averaged = {one["name"]: one for one in begun("odds")["players"]}
+    sure = begun("odds", "--sure")
+    assert not sure["ratings_averaged"]
+    for one in sure["players"]:
+        assert one["p_title"] == pytest.approx(averaged[one["name"]]["p_title_if_sure"])
+    coins = begun("odds", "--sure", "--walkovers", "1")["players"]
+    assert [one["p_title"] for one in coins] == pytest.approx([0.25] * 4)
+
+
 def test_next_says_what_each_match_decides(begun):
     begun("score", "W1.1", "1:2", "--at", "19:20")
     stakes = {row["match"]: row for row in begun("odds", "--prizes", "60,40")["at_stake"]}
@@ -134,6 +144,7 @@ def test_bad_entries_are_one_line(begun):
         (["stand", "W1.1"], "W1.1"),
         (["tiebreak"], "tie"),
         (["change"], "--tables"),
+        (["odds", "--fairest"], "--fairest"),
         (["forfeit", "Cy", "W1.1"], "W1.1"),
     ):
         result = begun.run("tournament", *words, "--file", begun.file)

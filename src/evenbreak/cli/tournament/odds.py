@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -28,13 +29,13 @@ Examples:
 """
 
 
-def under_way(file: str, at: str, prizes: str | None) -> Answer:
+def under_way(file: str, at: str, prizes: str | None, sure: bool, walkovers: float) -> Answer:
     """Find each player's odds in the tournament under way."""
     from evenbreak.answers.tournament_under_way import odds_under_way
 
-    outlook = outlook_of(file, at)
+    outlook = replace(outlook_of(file, at), walkovers=walkovers)
     paid = paid_places(prizes, len(outlook.state.order))
-    return odds_under_way(outlook, prizes=paid, source=PurePath(file).name)
+    return odds_under_way(outlook, sure=sure, prizes=paid, source=PurePath(file).name)
 
 
 @click.command("odds", epilog=EXAMPLES)
@@ -43,7 +44,7 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
 @click.option(
     "--sure",
     is_flag=True,
-    help="Take the ratings as right, even if the file states their standard errors.",
+    help="Take the ratings as right, even if they have standard errors.",
 )
 @click.option(
     "--before-draw",
