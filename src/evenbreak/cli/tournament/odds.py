@@ -54,8 +54,8 @@ def under_way(file: str, at: str, prizes: str | None, sure: bool, walkovers: flo
 @click.option(
     "--fairest",
     is_flag=True,
-    help="With --race-to or --chart: also list the races by side that make the tournament fairest "
-    "for about as many games.",
+    help="With --race-to or --chart: also list the races by side and by round that make the "
+    "tournament fairest for about as many games.",
 )
 @click.option(
     "--walkovers",
