@@ -2,6 +2,9 @@ from .advice import Advice as Advice
 from .advice import Option as Option
 from .advice import Point as Point
 from .advice import advice as advice
+from .league_rules import against_all as against_all
+from .league_rules import first_edges as first_edges
+from .league_rules import league_nights as league_nights
 from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight

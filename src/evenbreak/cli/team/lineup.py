@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import click
@@ -14,15 +13,13 @@ from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_doubts
 from evenbreak.cli.kit.values import LONGEST, SCORE, Whole, refuse
-from evenbreak.cli.team.lists import race_of, scale_of_teams
+from evenbreak.cli.team.lists import caps_of, race_of, scale_of_teams
 from evenbreak.cli.team.points import point_of
 
 if TYPE_CHECKING:
-    from evenbreak.files.team_list import TeamList
     from evenbreak.ratings.scale import Scale
 
 MOST_SETS = 25
-_AT_MOST = re.compile(r"\s*(\d+)\s*(?::|x|of)\s*(\d+(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
 EXAMPLES = """\b
 Examples:
@@ -161,7 +158,7 @@ def command(
     played = sets or min(len(each) for each in rosters) * times
     sizes = _sizes(doubles, played)
     squads = [
-        teams.Squad(roster.players, _caps(each, cap, at_most), times)
+        teams.Squad(roster.players, caps_of(each, cap, at_most), times)
         for roster, each in zip(rosters, lists, strict=True)
     ]
     meeting = Meeting(
@@ -191,29 +188,3 @@ def _sizes(doubles: str | None, sets: int) -> tuple[int, ...]:
         refuse(f"--doubles {doubles!r}; give numbers of sets from 1 to {sets}, such as 1,3")
     pairs = {int(part) for part in numbers}
     return tuple(2 if k in pairs else 1 for k in range(1, sets + 1))
-
-
-def _caps(team: TeamList, cap: float | None, at_most: str | None) -> tuple[teams.Cap, ...]:
-    import numpy as np
-
-    if cap is None and at_most is None:
-        return ()
-    levels, source = team.levels, team.file.source
-    if np.isnan(levels).all():
-        levels = team.file.roster.rating
-    if np.isnan(levels).any():
-        name = team.file.roster.players[int(np.isnan(levels).argmax())]
-        refuse(f"{source} has no level for {name!r}; the caps need one for everybody")
-    caps = []
-    if cap is not None:
-        caps.append(teams.Cap(tuple(levels.tolist()), cap, "the sum of the levels"))
-    if at_most is not None:
-        found = _AT_MOST.fullmatch(at_most)
-        if found is None:
-            refuse(f"--at-most {at_most!r}; give a number of players and a level, such as 2:6")
-        high = float(found[2])
-        above = tuple(float(level >= high) for level in levels)
-        caps.append(
-            teams.Cap(above, int(found[1]), f"the number of players of level {high:g} or more")
-        )
-    return tuple(caps)

@@ -1,10 +1,12 @@
-"""What the commands about two teams share: the scale of both lists, and what is played."""
+"""What the commands about teams share: the scale of their lists, the caps, what is played."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from evenbreak import handicaps
+from evenbreak import handicaps, teams
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
 from evenbreak.ratings.scale import SCALES
@@ -13,11 +15,11 @@ if TYPE_CHECKING:
     from evenbreak.files.team_list import TeamList
     from evenbreak.ratings.scale import Scale
 
+_AT_MOST = re.compile(r"\s*(\d+)\s*(?::|x|of)\s*(\d+(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
-def scale_of_teams(
-    lists: tuple[TeamList, TeamList], stated: Scale | None
-) -> tuple[Scale, list[str]]:
-    """Return the scale of two teams' ratings, and the warnings about both files."""
+
+def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Scale, list[str]]:
+    """Return the scale of the teams' ratings, and the warnings about their files."""
     import numpy as np
 
     from evenbreak.answers.scale_doubts import league_doubts
@@ -30,13 +32,11 @@ def scale_of_teams(
         else:
             refuse_levels(each.file, "say with --scale how many levels double the odds")
     scales = [each.file.scale for each in lists if each.file.scale is not None]
-    if len(scales) == 2 and not scales[0].same_points(scales[1]):
-        refuse(
-            f"{lists[0].file.source} and {lists[1].file.source} state different scales; put all "
-            "ratings on one"
-        )
+    if any(not scales[0].same_points(other) for other in scales[1:]):
+        files = " and ".join(dict.fromkeys(each.file.source for each in lists))
+        refuse(f"{files}: different scales are stated; put all ratings on one")
     points = stated or next(iter(scales), SCALES["npl"])
-    warnings = [line for each in lists for line in each.file.warnings]
+    warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
     if not scales and stated is None:
         rated = np.concatenate([each.file.roster.rating for each in lists])
         warnings += league_doubts(points, rated, "name the scale with --scale")
@@ -60,3 +60,30 @@ def race_of(race: int | None, race_to: int | None, chart: str | None, *, or_else
     if chart is not None:
         return chart_by_difference("--chart", chart)
     return handicaps.Fairest(race_to) if race_to is not None else race
+
+
+def caps_of(team: TeamList, cap: float | None, at_most: str | None) -> tuple[teams.Cap, ...]:
+    """Return the caps that --cap and --at-most ask for, with a weight for each player."""
+    import numpy as np
+
+    if cap is None and at_most is None:
+        return ()
+    levels, source = team.levels, team.file.source
+    if np.isnan(levels).all():
+        levels = team.file.roster.rating
+    if np.isnan(levels).any():
+        name = team.file.roster.players[int(np.isnan(levels).argmax())]
+        refuse(f"{source} has no level for {name!r}; the caps need one for everybody")
+    caps = []
+    if cap is not None:
+        caps.append(teams.Cap(tuple(levels.tolist()), cap, "the sum of the levels"))
+    if at_most is not None:
+        found = _AT_MOST.fullmatch(at_most)
+        if found is None:
+            refuse(f"--at-most {at_most!r}; give a number of players and a level, such as 2:6")
+        high = float(found[2])
+        above = tuple(float(level >= high) for level in levels)
+        caps.append(
+            teams.Cap(above, int(found[1]), f"the number of players of level {high:g} or more")
+        )
+    return tuple(caps)
