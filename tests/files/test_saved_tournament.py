@@ -7,8 +7,10 @@ import json
 
 import pytest
 
+from evenbreak.answers.tournament_matches import tournament_matches_answer
 from evenbreak.errors import DataError
 from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -164,6 +166,28 @@ def test_times_tables_and_the_game_are_those_of_cuescore(tmp_path):
     assert state.events[0].at == "2024-09-03T19:01:00"
     assert all(one.call.table == 1 for one in state.calls.values())
     assert len(state.calls) == 3
+
+
+def test_head_starts_of_cuescore_are_taken_out(tmp_path):
+    data = cuescore(night(4, "single", 99))
+    for one, start, score in zip(data["matches"], (0, 2, 3), ((5, 1), (4, 5), (5, 3)), strict=True):
+        one |= {"handicapA": 0, "handicapB": start, "scoreA": score[0], "scoreB": score[1]}
+    one = data["matches"][1]
+    data["matches"][2]["playerB"] = one["playerB"]
+    path = tmp_path / "cup.json"
+    path.write_text(json.dumps(data))
+    state = imported(path, race=0)
+    second, final = state.counted["W1.2"], state.counted["F"]
+    assert (second.score, second.winner) == ((4, 3), second.players[1])
+    assert (state.needed("W1.2", second.players), state.needed("W1.2", second.players[::-1])) == (
+        (5, 3),
+        (3, 5),
+    )
+    assert (final.score, final.race) == ((5, 0), (5, 2))
+    rows = tournament_matches_answer(state, "cup").to_frame().set_index("match")
+    row = rows.loc["W1.2"]
+    assert [row[key] for key in ("score_a", "score_b", "race_a", "race_b")] == [4, 3, 5, 3]
+    assert moves.correct(state, "W1.2", (5, 2)).winner == second.players[0]
 
 
 def test_a_file_that_contradicts_itself_is_refused(tmp_path):

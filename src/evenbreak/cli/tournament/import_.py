@@ -103,6 +103,9 @@ def command(
     state = new_tournament(out, events)
     players, played = len(state.entrants), len(state.winners) if state.drawn else 0
     said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
+    if played and (starts := sum(one.race is not None for one in state.counted.values())):
+        had = f"{count_of(starts, 'match', 'matches')} had a head start"
+        said.append(f"{had}, which is taken out of the score; the matches to come have none.")
     unrated = [
         one.name
         for one in state.entrants.values()
