@@ -290,7 +290,7 @@ def _ordering(order: list[int]) -> str | None:
     """Return the name of an order of drops; None if brackets-manager has none.
 
     >>> _ordering([4, 3, 2, 1]), _ordering([2, 1, 4, 3]), _ordering([1, 3, 2, 4])
-    ('reverse', 'pair_flip', None)
+    ('reverse', 'reverse_half_shift', None)
     """
     straight = sorted(order)
     return next((name for name, make in _ORDERINGS.items() if make(straight) == order), None)
