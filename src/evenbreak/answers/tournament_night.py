@@ -31,6 +31,10 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
 
 _LISTED = 8  # waiting matches that are named
+_UNDECIDED = (
+    "What each match decides is left out: many matches are still to be played, or something is "
+    "still to be drawn."
+)
 _SHOWN = 6  # players whose title odds everybody sees
 
 
@@ -131,6 +135,8 @@ def night_answer(
         parts.append(_swiss_table(state))
     if under_way:
         parts.append(_title_table(night))
+        if decides and state.standing.to_play and not decided:
+            parts.append(_UNDECIDED)
     data = {
         "odds": [
             {"name": name, "p_title": p, "p_title_if_sure": sure}
