@@ -12,11 +12,14 @@ import os
 import re
 import shlex
 import tempfile
+from collections.abc import Callable
+from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import NamedTuple
 from unittest.mock import patch
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -27,7 +30,11 @@ from evenbreak.answers.faces.to_text import to_text
 from evenbreak.answers.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
+from evenbreak.files.tournament_store import new_tournament
 from evenbreak.sheets.answer_page import answer_page
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, What
+from evenbreak.tournaments.evening.fold import Evening, evening
 from places import ROOT
 
 GOLDEN = ROOT / "tests" / "golden"
@@ -145,6 +152,10 @@ ASKED = {
     "--discipline 9-ball",
     "tournament_time_of_day": "tournament time data/demo_entrants.csv --format single "
     "--seeding rating --chart fargo_r6_hot --tables 4 --minutes-per-game 7 --start 18:30",
+    "tournament_next": "tournament next --at 20:10 --prizes 60,40",
+    "tournament_odds_under_way": "tournament odds --at 20:10",
+    "tournament_time_under_way": "tournament time --at 20:10",
+    "tournament_show": "tournament show --at 20:10",
     "simulate": "simulate data/demo_league_roster.csv --weeks 10 --replicas 40 --no-matches "
     "--out OUT",
 }
@@ -161,11 +172,36 @@ OTHER_UNITS = ("validate", "tournament time")
 
 SENTENCES = ("heading", "sentences", "details", "warnings", "schema_version")
 
+PLAYERS = ("Ann Lee", "Bo Diaz", "Cy Young", "Di Park", "Ed Moss", "Flo Hart")
+
 WORDLESS = re.compile(r"\s+")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d[\d,]*(?:\.\d+)?(?:e[-+]\d+)?%?")
 
 FILES = dict.fromkeys(("index.md", "physics.md", "table_5_1.csv", "figure_5_1.png"), b"")
 """What `reproduce` writes here; elsewhere tests hold its files to the committed ones."""
+
+
+@cache
+def tonight() -> bytes:
+    """Return the file of a tournament under way: two results and two matches on tables."""
+    entrants = [Entrant(name, 640.0 - 40.0 * k, 30.0) for k, name in enumerate(PLAYERS)]
+    plan = Plan("double", 5, losers_race=4, scale="fargo", tables=2)
+    events = [Event("2025-03-01T18:50:00", Opened(plan, tuple(entrants)))]
+
+    def happens(at: str, move: Callable[[Evening], What]) -> None:
+        events.append(Event(f"2025-03-01T{at}:00", move(evening(events))))
+
+    happens("19:00", lambda state: moves.draw(state, np.random.default_rng(1)))
+    for table, (match, score) in enumerate([("W1.2", (5, 3)), ("W1.4", (2, 5))], 1):
+        happens("19:00", lambda state, m=match, t=table: moves.call(state, m, t))
+        happens("19:35", lambda state, m=match, s=score: moves.result(state, m, s))
+    happens("19:40", lambda state: moves.call(state, "W2.1", 1))
+    happens("19:45", lambda state: moves.call(state, "W2.2", 2))
+    happens("20:05", lambda state: moves.score(state, "W2.2", (1, 3)))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "tonight.db"
+        new_tournament(str(file), sorted(events, key=lambda event: event.at))
+        return file.read_bytes()
 
 
 def ask(line: str, *options: str) -> str:
@@ -176,6 +212,7 @@ def ask(line: str, *options: str) -> str:
     ):
         # Files are named as a reader in the checkout names them.
         Path("data").symlink_to(ROOT / "data")
+        Path("tonight.db").write_bytes(tonight())
         words = [word.replace("OUT", "out") for word in shlex.split(line)]
         result = CliRunner().invoke(program, [*words, *options])
     assert result.exit_code == 0, result.output

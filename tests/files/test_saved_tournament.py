@@ -4,27 +4,19 @@ The files in saved/ come from brackets-manager, which played them out by itself.
 """
 
 import json
-from pathlib import Path
 
-import numpy as np
 import pytest
 
+from evenbreak.answers.tournament_matches import tournament_matches_answer
 from evenbreak.errors import DataError
-from evenbreak.files.saved_tournament import read_saved_tournament
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
-from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.events import Plan
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from tournament_nights import AT, SAVED, imported, night
 
-SAVED = Path(__file__).parent / "saved"
-AT = "2025-03-01T19:30:00"
 PLAN = Plan("imported", 5, scale="fargo", starter=500.0, tables=3)
-
-
-def imported(path: Path, race: int = 5) -> Evening:
-    plan = Plan("imported", race, scale="fargo", starter=500.0, tables=0, discipline="")
-    return evening(read_saved_tournament(path, plan, {"Player 1": Entrant("Player 1", 600.0)}, AT))
 
 
 @pytest.mark.parametrize("name", ["double12", "double8_all", "single8", "rr5"])
@@ -49,23 +41,6 @@ def test_brackets_manager_match_by_match(name: str) -> None:
     )
     assert state.entrants["Player 1"].rating == 600.0
     assert {one.rating for one in state.entrants.values()} == {500.0, 600.0}
-
-
-def night(players: int, form: str, results: int, **plan: object) -> Evening:
-    """Return an evening of which so many matches have been played."""
-    entrants = tuple(Entrant(f"P{k}", 500.0) for k in range(1, players + 1))
-    events = [Event(AT, Opened(Plan(form, 5, scale="fargo", **plan), entrants))]  # type: ignore[arg-type]
-    rng = np.random.default_rng(3)
-    events.append(Event(AT, moves.draw(evening(events), rng)))
-    for _ in range(results):
-        state = evening(events)
-        if not state.standing.to_play:
-            break
-        name = state.standing.to_play[0]
-        score = (5, int(rng.integers(5)))
-        what = moves.result(state, name, score if rng.random() < 0.5 else score[::-1])
-        events.append(Event(AT, what))
-    return evening(events)
 
 
 def cuescore(state: Evening) -> dict[str, object]:
@@ -193,6 +168,28 @@ def test_times_tables_and_the_game_are_those_of_cuescore(tmp_path):
     assert len(state.calls) == 3
 
 
+def test_head_starts_of_cuescore_are_taken_out(tmp_path):
+    data = cuescore(night(4, "single", 99))
+    for one, start, score in zip(data["matches"], (0, 2, 3), ((5, 1), (4, 5), (5, 3)), strict=True):
+        one |= {"handicapA": 0, "handicapB": start, "scoreA": score[0], "scoreB": score[1]}
+    one = data["matches"][1]
+    data["matches"][2]["playerB"] = one["playerB"]
+    path = tmp_path / "cup.json"
+    path.write_text(json.dumps(data))
+    state = imported(path, race=0)
+    second, final = state.counted["W1.2"], state.counted["F"]
+    assert (second.score, second.winner) == ((4, 3), second.players[1])
+    assert (state.needed("W1.2", second.players), state.needed("W1.2", second.players[::-1])) == (
+        (5, 3),
+        (3, 5),
+    )
+    assert (final.score, final.race) == ((5, 0), (5, 2))
+    rows = tournament_matches_answer(state, "cup").to_frame().set_index("match")
+    row = rows.loc["W1.2"]
+    assert [row[key] for key in ("score_a", "score_b", "race_a", "race_b")] == [4, 3, 5, 3]
+    assert moves.correct(state, "W1.2", (5, 2)).winner == second.players[0]
+
+
 def test_a_file_that_contradicts_itself_is_refused(tmp_path):
     data = json.loads((SAVED / "brackets_manager_double8_all.json").read_text())
     first = data["match"][0]
@@ -208,4 +205,13 @@ def test_a_file_that_contradicts_itself_is_refused(tmp_path):
         imported(path)
     path.write_text('{"a": ')
     with pytest.raises(DataError, match="damaged"):
+        imported(path)
+
+
+def test_a_double_elimination_without_a_final_is_refused(tmp_path):
+    data = json.loads((SAVED / "brackets_manager_double8_all.json").read_text())
+    data["match"] = [one for one in data["match"] if one["group_id"] < 2]
+    path = tmp_path / "cup.json"
+    path.write_text(json.dumps(data))
+    with pytest.raises(DataError, match="no grand final"):
         imported(path)

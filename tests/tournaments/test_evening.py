@@ -249,6 +249,16 @@ def test_a_match_stands_only_when_those_before_it_do() -> None:
         stand(evening(events), "W3.1")
 
 
+def test_only_races_that_are_played_change() -> None:
+    state = evening(
+        [Event(AT, Opened(Plan("round-robin", 5), (Entrant("A", 1.0), Entrant("B", 2.0))))]
+    )
+    drawn = evening([*state.events, Event(AT, moves.draw(state, np.random.default_rng(1)))])
+    for races in ({"losers_race": 3}, {"final_race": 3}):
+        with pytest.raises(InputError, match="no"):
+            moves.change(drawn, **races)
+
+
 @pytest.mark.parametrize("handicapped", [False, True])
 def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> None:
     plan = Plan("double", 5, scale="fargo", handicapped=handicapped)

@@ -16,6 +16,7 @@ from evenbreak.tournaments import (
     title_odds,
     tournament_fairness,
 )
+from evenbreak.tournaments.odds.fairest_rounds import fairest_rounds, round_of
 from tournaments.fields import by_fargo, by_seed
 
 RATINGS = [660, 600, 560, 520, 480, 440, 400, 340]
@@ -54,6 +55,23 @@ def test_the_fairest_races_come_first() -> None:
     assert all(one.games_mean <= 100 and one.races.race in lengths for one in short)
     with pytest.raises(InputError, match="combinations"):
         fairest_races(double_elimination(8), RATINGS, [])
+
+
+def test_races_by_round_are_fairer_than_one_length() -> None:
+    bracket = double_elimination(8)
+    one_length = tournament_fairness(bracket, RATINGS, Fairest(7))
+    begin = {round_of(match): 7 for match in bracket.matches}
+    games = 0.95 * one_length.games_mean, 1.05 * one_length.games_mean
+    asked = {"lengths": dict.fromkeys(begin, (5, 9)), "games_mean": games}
+    best = fairest_rounds(bracket, RATINGS, begin, **asked)
+    again = tournament_fairness(bracket, RATINGS, best.found.races)
+    assert again.spread == pytest.approx(best.found.spread)
+    assert best.found.spread < 0.5 * one_length.spread
+    assert games[0] <= again.games_mean <= games[1]
+    assert all(5 <= length <= 9 for length in best.games.values())
+    assert fairest_rounds(bracket, RATINGS, begin, **asked, tries=1).games != begin
+    with pytest.raises(InputError, match="final"):
+        fairest_rounds(bracket, RATINGS, {("winners", 1): 7}, **asked)
 
 
 def test_a_redraw_is_the_mean_of_all_placements() -> None:

@@ -53,6 +53,23 @@ def test_before_the_first_match_odds_are_averaged_over_the_ratings() -> None:
     assert found.odds.title[0] < found.as_if_sure.title[0]
 
 
+def test_walkovers_happen_only_in_matches_that_have_not_begun() -> None:
+    events = one_played(begun())
+    events = after(events, "19:45", moves.call(evening(events), "W1.2", 1))
+    events = after(events, "19:46", moves.drop(evening(events), "P1"))
+    state = outlook(events).state
+    laws = pair_odds(state.bracket, state.ratings, 5, scale="fargo")
+    wins = {name: law.win.copy() for name, law in laws.items()}
+    for name, win in wins.items():
+        if name != "W1.2":
+            win[:] = 0.1 + 0.8 * win
+        gone = state.order.index("P1")
+        win[gone], win[:, gone], win[gone, gone] = 0.0, 1.0, 0.5
+    expected = title_odds(state.bracket, wins, results=state.results)
+    found = Outlook(state, "2025-03-01T20:00:00", walkovers=0.2)
+    np.testing.assert_allclose(found.odds.p_place, expected.p_place, atol=1e-12)
+
+
 def test_a_live_score_is_worth_the_race_that_is_left() -> None:
     events = begun()
     one, other = evening(events).pair("W1.4")

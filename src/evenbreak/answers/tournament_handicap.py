@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.parts import Column, Part, Quantity, Table
+from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
 from evenbreak.answers.wording import decimals, percent
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.odds.fairest_rounds import RoundOf, fairest_rounds, round_of
 from evenbreak.tournaments.odds.fairness import (
     Fairness,
     fairest_races,
@@ -18,13 +20,15 @@ from evenbreak.tournaments.odds.fairness import (
     upper_half,
 )
 from evenbreak.tournaments.odds.planning import exact_plan
-from evenbreak.tournaments.odds.races import Fairest, Race
+from evenbreak.tournaments.odds.races import Fairest, Race, Races
 from evenbreak.tournaments.odds.title import PlaceOdds
 
 _EVEN = 0.03  # a half of the field that is favoured by less than this is not
 _REACH = 2  # how many games longer or shorter a race may be
 _OTHERWISE = (3, 5, 7, 9, 11)  # games of the races that are tried in place of a chart
 _GAMES = (0.85, 1.02)  # the games of the fairer tournaments, as shares of today's
+_GAMES_BY_ROUND = (0.95, 1.05)
+_WORTH_IT = 0.95  # of the unfairness of the races by side
 _SHOWN = 5
 
 
@@ -58,7 +62,7 @@ def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
 
 
 def fairer_races(tournament: Tournament) -> list[Part]:
-    """Return today's races and those by side that make the tournament fairest.
+    """Return today's races, and those by side and by round that make the tournament fairest.
 
     They take about as many games on average; the ratings are taken as right.
 
@@ -96,12 +100,70 @@ def fairer_races(tournament: Tournament) -> list[Part]:
     ]
     rows = [_row(today), *map(_row, found[:_SHOWN])]
     table = Table("fairer_races", columns, rows, title="Today's races, and the fairest by side")
+    by_round = _by_round(tournament, today, found)
     return [
         table,
+        *by_round,
         "Unfairness is 0 if everybody has the same title odds, and 1 if they are off by an equal "
         "share on average (root mean square). The stronger player needs the games in the table, "
         "the weaker as many as is fairest.",
     ]
+
+
+def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairness]) -> list[Part]:
+    """Return races by round, if they are fairer than those by side."""
+    bracket = tournament.bracket
+    if bracket.groups or not by_side:
+        return []
+    fewest, most = (part * today.games_mean for part in _GAMES_BY_ROUND)
+    near = [one for one in by_side if fewest <= one.games_mean <= most]
+    begin = near[0] if near else min(by_side, key=lambda one: abs(one.games_mean - fewest))
+    middle = today if isinstance(today.races.race, Fairest) else begin
+    best = fairest_rounds(
+        bracket,
+        tournament.ratings,
+        _by_rounds(bracket, begin.races),
+        lengths={
+            one: (max(1, games - _REACH), games + _REACH)
+            for one, games in _by_rounds(bracket, middle.races).items()
+        },
+        games_mean=(fewest, most),
+        scale=tournament.scale,
+    )
+    if not fewest <= best.found.games_mean <= most:
+        return []
+    if best.found.spread > _WORTH_IT * by_side[0].spread:
+        return ["Races that differ from round to round would be hardly fairer than those by side."]
+    now = {round_of(match): tournament.races.of(match) for match in reversed(bracket.matches)}
+    rows = [
+        [side, number, f"to {best.games[side, number]}", _words(now[side, number])]
+        for side, number in dict.fromkeys(map(round_of, bracket.matches))
+    ]
+    columns = [
+        Column("side", "side", left=True),
+        Column("round", "round"),
+        Column("race", "race", left=True),
+        Column("race_today", "today", left=True),
+    ]
+    quantities = [
+        Quantity("unfairness_by_round", best.found.spread),
+        Quantity("games_mean_by_round", best.found.games_mean),
+    ]
+    said = (
+        f"Round by round, races of other lengths bring unfairness from {today.spread:.2f} down to "
+        f"{best.found.spread:.2f}, with {best.found.games_mean:.0f} games on average."
+    )
+    table = Table("races_by_round", columns, rows, title="The fairest races by round")
+    return [said, Quantities(quantities), table]
+
+
+def _by_rounds(bracket: Bracket, races: Races) -> dict[RoundOf, int]:
+    """Return the games of the stronger player in each round."""
+    found: dict[RoundOf, int] = {}
+    for match in bracket.matches:
+        race: Any = races.of(match)
+        found.setdefault(round_of(match), race.race_to)
+    return found
 
 
 def _lengths(race: Race) -> Sequence[Race]:

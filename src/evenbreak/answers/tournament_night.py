@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,12 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_odds import share
-from evenbreak.answers.wording import count_of, listed
+from evenbreak.answers.tournament_stakes import Stake, stakes
+from evenbreak.answers.wording import count_of, decimals, listed, percent
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
-from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import (
@@ -30,6 +31,10 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
 
 _LISTED = 8  # waiting matches that are named
+_UNDECIDED = (
+    "What each match decides is left out: many matches are still to be played, or something is "
+    "still to be drawn."
+)
 _SHOWN = 6  # players whose title odds everybody sees
 
 
@@ -54,7 +59,14 @@ def begun_at(outlook: Outlook) -> int:
     return 60 * outlook.start.hour + outlook.start.minute
 
 
-def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") -> Answer:
+def night_answer(
+    night: Outlook,
+    said: Sequence[str] = (),
+    *,
+    decides: bool = False,
+    prizes: Sequence[float] = (),
+    source: str = "",
+) -> Answer:
     """Return the state of a tournament: what is played next, the title odds, when it ends.
 
     Parameters
@@ -63,6 +75,10 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
         the tournament.
     said
         what has just happened, a sentence each.
+    decides
+        whether to find what each match that can be played decides.
+    prizes
+        the money for each place, for what the matches decide.
     source
         the name of its file, for the heading.
 
@@ -86,7 +102,9 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
     under_way = bool(state.standing.to_play or tied) or stage_to_draw(state) is not None
     if under_way:
         found = night.finish()
-        tables = _tables(state, found)
+        calls = found.calls()
+        tables = _tables(state, calls)
+        decided = stakes(night, prizes) if decides else {}
         if tied:
             words.append(
                 f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
@@ -96,11 +114,13 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
             words.append(_draw_words(state))
         elif state.standing.to_play:
             words.append(_next_words(state, tables))
+            if len(decided) > 1:
+                words.append(_most_words(state, decided))
         words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
         keys = ("finish_p10", "finish_p50", "finish_p90")
         parts += [
             Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
-            _next_table(night, tables),
+            _next_table(night, tables, decided, calls if decides else (), prizes),
         ]
     else:
         first = [state.order[k] for k in np.flatnonzero(odds.title > 0.0).tolist()]
@@ -115,6 +135,8 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
         parts.append(_swiss_table(state))
     if under_way:
         parts.append(_title_table(night))
+        if decides and state.standing.to_play and not decided:
+            parts.append(_UNDECIDED)
     data = {
         "odds": [
             {"name": name, "p_title": p, "p_title_if_sure": sure}
@@ -206,13 +228,13 @@ def waits_for(state: Evening, match: str) -> str:
     return " and ".join(dict.fromkeys(sources))
 
 
-def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
+def _tables(state: Evening, options: Sequence[Call]) -> list[tuple[int | None, str]]:
     """Return the matches on tables, those to call to the free tables, then those that wait."""
     playing: list[tuple[int | None, str]] = sorted(
         (one.call.table, name) for name, one in state.on_tables.items()
     )
     free = free_tables(state)
-    calls = [call.match for call in found.calls() if call.match in state.standing.to_play]
+    calls = [call.match for call in options if call.match in state.standing.to_play]
     grouped = {name for group in state.bracket.groups for name in group.matches}
     calls.sort(key=lambda name: state.bracket.match(name).round if name in grouped else 0)
     now: list[str] = []
@@ -230,7 +252,7 @@ def _tables(state: Evening, found: Finish) -> list[tuple[int | None, str]]:
 
 def next_calls(night: Outlook) -> list[tuple[int, str]]:
     """Return which matches to call to which of the free tables."""
-    tables = _tables(night.state, night.finish())
+    tables = _tables(night.state, night.finish().calls())
     return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
 
 
@@ -253,8 +275,23 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
     return " ".join(said) or "No match can be called before one of those on the tables ends."
 
 
-def _next_table(night: Outlook, tables: Sequence[tuple[int | None, str]]) -> Table:
+def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
+    """Return which match decides most."""
+    name, stake = next(iter(decided.items()))
+    pair = " against ".join(state.pair(name))
+    moves = percent(stake.title)
+    return f"{name}, {pair}, matters most for the title: its result moves {moves} of the odds."
+
+
+def _next_table(
+    night: Outlook,
+    tables: Sequence[tuple[int | None, str]],
+    decided: Mapping[str, Stake],
+    calls: Sequence[Call],
+    prizes: Sequence[float],
+) -> Table:
     state = night.state
+    later = {call.match: call.later for call in calls if np.isfinite(call.later)}
     columns = [
         Column("match", "match", left=True),
         Column(("player_a", "player_b"), "between", " - ".join, left=True),
@@ -263,7 +300,7 @@ def _next_table(night: Outlook, tables: Sequence[tuple[int | None, str]]) -> Tab
         Column("table", "table"),
         Column("state", "", left=True),
     ]
-    rows = []
+    rows: list[list[Any]] = []
     for table, name in tables:
         pair = state.pair(name)
         if name in state.on_tables:
@@ -273,9 +310,25 @@ def _next_table(night: Outlook, tables: Sequence[tuple[int | None, str]]) -> Tab
             words = "call" if table else "waits for a table"
         score = night.scores.get(name)
         rows.append([name, pair, state.needed(name, pair), score, table, words])
+        if calls:
+            rows[-1].append(later.get(name))
+        if decided:
+            rows[-1].append(decided[name].title if name in decided else None)
+        if decided and prizes:
+            rows[-1].append(decided[name].prize if name in decided else None)
     if not any(row[3] for row in rows):
         columns[3] = Column(("score_a", "score_b"))
+    if calls:
+        columns.append(Column("minutes_later", "called first,\nends later by", _minutes))
+    if decided:
+        columns.append(Column("title_at_stake", "title odds\nthat move", percent))
+    if decided and prizes:
+        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
     return Table("next", columns, rows)
+
+
+def _minutes(later: float) -> str:
+    return f"{later:.0f} min"
 
 
 def _colon(score: tuple[int, int]) -> str:

@@ -13,6 +13,7 @@ from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words
 from evenbreak.answers.tournament_night import begun_at, heading
 from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
+from evenbreak.answers.tournament_stakes import stakes
 from evenbreak.answers.tournament_time import assumed_words, starts_table
 from evenbreak.answers.tournament_what_if import savings_words, what_if
 from evenbreak.answers.wording import decimals, percent
@@ -29,13 +30,18 @@ from evenbreak.tournaments.odds.title import TitleOdds
 _WORTH_SAYING = 3.0  # minutes
 
 
-def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: str = "") -> Answer:
+def odds_under_way(
+    outlook: Outlook, *, sure: bool = False, prizes: Sequence[float] = (), source: str = ""
+) -> Answer:
     """Return each player's chance of each place, given the results and scores so far.
 
     Parameters
     ----------
     outlook
         the tournament.
+    sure
+        whether to take the ratings as right; otherwise the odds are averaged over how far those
+        with a standard error may be off.
     prizes
         the money for each place.
     source
@@ -50,11 +56,12 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     >>> print(odds_under_way(Outlook(state, "2025-03-01T19:40:00")).sentences[0])
     The favourite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
     """
-    state, odds, sure = outlook.state, outlook.odds, outlook.as_if_sure
-    table = odds_table(state.ratings, sure, odds, prizes)
+    state, plug_in = outlook.state, outlook.as_if_sure
+    odds = plug_in if sure else outlook.odds
+    table = odds_table(state.ratings, plug_in, odds, prizes)
     quantities = [
-        Quantity("exact", sure.exact and odds is sure),
-        Quantity("ratings_averaged", odds is not sure),
+        Quantity("exact", plug_in.exact and odds is plug_in),
+        Quantity("ratings_averaged", odds is not plug_in),
     ]
     if isinstance(odds, TitleOdds):
         quantities = [
@@ -66,8 +73,8 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
     if state.standing.to_play:
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)
-        parts.append(how_words(sure, odds, to_draw=_to_draw(state)))
-    if odds is not sure and outlook.games:
+        parts.append(how_words(plug_in, odds, outlook.walkovers, _to_draw(state)))
+    if odds is not plug_in and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."
         )
@@ -83,26 +90,21 @@ def _to_draw(state: Evening) -> str:
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     """Return what the matches that can be played change for the title, prizes and the finish."""
-    found, ready = outlook.finish(), outlook.state.standing.to_play
-    money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}
+    found, decided = outlook.finish(), stakes(outlook, prizes)
     rows: list[list[Any]] = []
-    for lever in outlook.leverages():
-        name = lever.match
-        if name in ready:
-            first, second = found.if_won(name)
-            later = None if np.isnan(first - second) else first - second
-            pair = pair_words(outlook.state.standing, name)
-            rows.append([name, pair, float(lever.swing.sum()) / 2.0, later])
-            if name in money:
-                rows[-1].append(float(money[name].sum()) / 2.0)
-    rows.sort(key=lambda row: -row[2])
+    for name, stake in decided.items():
+        first, second = found.if_won(name)
+        later = None if np.isnan(first - second) else first - second
+        rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
+        if stake.prize is not None:
+            rows[-1].append(stake.prize)
     columns = [
         Column("match", "match", left=True),
         Column(("player_a", "player_b"), "between", " - ".join, left=True),
         Column("title_at_stake", "title odds\nthat move", percent),
         Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
     ]
-    if money:
+    if prizes:
         columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
     return Table("at_stake", columns, rows, title="What the next matches decide")
 
@@ -149,7 +151,7 @@ def time_under_way(
 
     races = state.races
     found = outlook.finish(tables=usual, turnover=turnover)
-    changes = what_if(found, ask, state.whole, usual, races)
+    changes = what_if(found, ask, state.whole, usual, races, taken=len(state.on_tables))
     begun = begun_at(outlook)
     early, middle, late = found.bands
     keys = ("finish_p10", "finish_p50", "finish_p90")

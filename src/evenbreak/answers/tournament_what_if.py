@@ -21,7 +21,13 @@ _CHANGES = {
 
 
 def what_if(
-    found: Finish, ask: Callable[[int, Races], Finish], bracket: Bracket, tables: int, races: Races
+    found: Finish,
+    ask: Callable[[int, Races], Finish],
+    bracket: Bracket,
+    tables: int,
+    races: Races,
+    *,
+    taken: int = 0,
 ) -> Table:
     """Return by how much changes move the end.
 
@@ -35,9 +41,11 @@ def what_if(
         the tournament.
     tables, races
         the tables and races as they are.
+    taken
+        the tables with matches under way, which cannot be taken away.
     """
     changes = {"one_more_table": (tables + 1, races)}
-    if tables > 1:
+    if tables > max(1, taken):
         changes["one_table_fewer"] = tables - 1, races
     if (fewer := shorter(races)) is not None:
         changes["races_one_shorter"] = tables, fewer

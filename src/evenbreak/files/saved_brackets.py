@@ -11,6 +11,9 @@ From: TypeAlias = tuple[Any, str]
 """The key of another match, and its outcome: winner or loser."""
 
 
+_RUNNING = 3  # the status of a match in play in brackets-manager
+
+
 class SavedMatch(NamedTuple):
     """A match of a saved bracket.
 
@@ -183,6 +186,8 @@ def of_brackets_manager(data: Mapping[str, Any]) -> SavedBracket:
         spots[group, number, int(one["number"])] = one
     kind = stages[0].get("type")
     double = kind == "double_elimination"
+    if double and not any(group == 3 for group, _, _ in spots):
+        raise ExportError("has no grand final, so nobody wins it; add one in brackets-manager")
     matches = []
     for (group, number, place), one in spots.items():
         sides: list[Any] = [one.get("opponent1"), one.get("opponent2")]
@@ -196,11 +201,20 @@ def of_brackets_manager(data: Mapping[str, Any]) -> SavedBracket:
         side = {1: "winners", 2: "losers" if double else "third place"}.get(group, "final")
         if group == 3 and number == 2:
             side = "second final"
-        matches.append(SavedMatch(one["id"], side, number, tuple(slots), _winner(sides)))
+        match = SavedMatch(one["id"], side, number, tuple(slots), _winner(sides))
+        matches.append(match._replace(**_running(one, sides, names)))
     players = [name for name in names.values() if name]
     return SavedBracket(
         str(stages[0].get("name") or ""), tuple(players), matches, kind == "round_robin"
     )
+
+
+def _running(one: Mapping[str, Any], sides: Sequence[Any], names: Mapping[Any, str]) -> Any:
+    """Return the players and the score of a match in play."""
+    if one.get("status") != _RUNNING or any((side or {}).get("id") is None for side in sides):
+        return {}
+    a, b = (count_of(side.get("score"), "score") or 0 for side in sides)
+    return {"pair": tuple(names[side["id"]] for side in sides), "score": (a, b)}
 
 
 def _second_final(matches: Sequence[SavedMatch]) -> list[SavedMatch]:

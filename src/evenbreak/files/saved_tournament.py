@@ -271,7 +271,16 @@ def _result(name: str, pair: tuple[str, str], played: Sequence[Match], winner: i
         fewer = any(FEWER_GAMES in one.remarks for one in played)
         winner = 1 if (score[0] > score[1]) != fewer else 2
     forfeit = any(one.forfeit for one in played)
-    return Result(name, pair, (0, 0) if forfeit else score, pair[winner - 1], forfeit=forfeit)
+    first = played[0]
+    uneven = not forfeit and len(played) == 1 and first.race_a != first.race_b
+    return Result(
+        name,
+        pair,
+        (0, 0) if forfeit else score,
+        pair[winner - 1],
+        forfeit=forfeit,
+        race=(first.race_a, first.race_b) if uneven else None,
+    )
 
 
 def _moment(text: str) -> str:

@@ -147,6 +147,9 @@ def test_the_handicap_of_a_whole_tournament(odds):
     assert today["race"] == "to 7"
     assert best["unfairness"] <= today["unfairness"] == pytest.approx(fair["unfairness"])
     assert best["games_mean"] <= 1.02 * today["games_mean"]
+    assert fair["unfairness_by_round"] < best["unfairness"]
+    assert 0.95 <= fair["games_mean_by_round"] / today["games_mean"] <= 1.05
+    assert {row["race_today"] for row in fair["races_by_round"]} == {"to 7", "to 5"}
     hot = odds("--chart", "fargo_r6_hot", *FARGO)
     assert hot["p_title_stronger_half"] > 0.6
 
@@ -174,6 +177,8 @@ def test_swiss(odds):
         (("--chart", "npl_10", "--losers-race", "5"), "--losers-race"),
         (("--race", "5", "--format", "single", "--final", "single"), "--final"),
         (("--race", "5", "--third-place"), "--third-place"),
+        (("--race", "5", "--format", "single", "--losers-race", "4"), "--losers-race"),
+        (("--race", "5", "--format", "round-robin", "--final-race", "7"), "--final-race"),
         (("--race", "5", "--qualifiers", "4", "--final", "single"), "--qualifiers"),
         (("--race", "5", "--prizes", "a lot"), "a lot"),
         (("--race", "5", "--prizes", "9,8,7,6,5,4,3,2,1"), "--prizes"),

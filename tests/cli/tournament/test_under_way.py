@@ -59,6 +59,28 @@ def test_odds_and_time_follow_the_results(begun):
     assert begun("time", "--tables", "1", "--at", "19:30")["finish_p50"] > times["finish_p50"]
 
 
+def test_the_odds_of_ratings_taken_as_right(begun):
+    averaged = {one["name"]: one for one in begun("odds")["players"]}
+    sure = begun("odds", "--sure")
+    assert not sure["ratings_averaged"]
+    for one in sure["players"]:
+        assert one["p_title"] == pytest.approx(averaged[one["name"]]["p_title_if_sure"])
+    coins = begun("odds", "--sure", "--walkovers", "1")["players"]
+    assert [one["p_title"] for one in coins] == pytest.approx([0.25] * 4)
+
+
+def test_next_says_what_each_match_decides(begun):
+    begun("score", "W1.1", "1:2", "--at", "19:20")
+    stakes = {row["match"]: row for row in begun("odds", "--prizes", "60,40")["at_stake"]}
+    rows = begun("next", "--prizes", "60,40")["next"]
+    assert len(rows) == len(stakes) == 2
+    for row in rows:
+        for key in ("title_at_stake", "prize_at_stake"):
+            assert row[key] == pytest.approx(stakes[row["match"]][key])
+    assert min(row["minutes_later"] for row in rows) == 0.0
+    assert "title_at_stake" not in begun("undo")["next"][0]
+
+
 def test_a_match_stands_and_results_count_again(begun):
     for match, score in (("W1.1", "3:0"), ("W1.2", "3:0"), ("W2.1", "3:1")):
         begun("result", match, score)
@@ -102,6 +124,17 @@ def test_export_writes_a_file_and_a_chart_says_the_races(night, tmp_path):
     assert (row["race_a"], row["score_b"], row["winner"]) == ("7", "1", "Ann")
 
 
+def test_the_bracket_goes_to_brackets_manager_and_back(begun, tmp_path):
+    begun("result", "W1.1", "3:2")
+    saved, again = tmp_path / "cup.json", str(tmp_path / "again.db")
+    begun("export", "--brackets-manager", str(saved))
+    words = ("--race", "3", "--ratings", begun.entrants, "--out", again)
+    assert begun.run("tournament", "import", str(saved), *words).exit_code == 0
+    shown = begun.run("tournament", "show", "--file", again, "--json")
+    read, written = json.loads(shown.stdout)["matches"], begun("show")["matches"]
+    assert sorted(map(str, read)) == sorted(map(str, written))
+
+
 def test_bad_entries_are_one_line(begun):
     for words, said in (
         (["odds", "--race", "5"], "--race"),
@@ -111,6 +144,7 @@ def test_bad_entries_are_one_line(begun):
         (["stand", "W1.1"], "W1.1"),
         (["tiebreak"], "tie"),
         (["change"], "--tables"),
+        (["odds", "--fairest"], "--fairest"),
         (["forfeit", "Cy", "W1.1"], "W1.1"),
     ):
         result = begun.run("tournament", *words, "--file", begun.file)

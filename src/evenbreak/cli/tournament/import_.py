@@ -103,6 +103,10 @@ def command(
     state = new_tournament(out, events)
     players, played = len(state.entrants), len(state.winners) if state.drawn else 0
     said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
+    if played and (starts := sum(one.race is not None for one in state.counted.values())):
+        had = f"{count_of(starts, 'match', 'matches')} had a head start"
+        to_come = "; the matches to come have none" if state.standing.to_play else ""
+        said.append(f"{had}, which is taken out of the score{to_come}.")
     unrated = [
         one.name
         for one in state.entrants.values()

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.values import Number, numbers, refuse
+from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.cli.tournament.evening import or_under_way, outlook_of
-from evenbreak.cli.tournament.options import MOST_PLAYERS, tournament_options
+from evenbreak.cli.tournament.options import tournament_options
+from evenbreak.cli.tournament.prize_money import paid_places, prizes_option
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
@@ -27,13 +29,13 @@ Examples:
 """
 
 
-def under_way(file: str, at: str, prizes: str | None) -> Answer:
+def under_way(file: str, at: str, prizes: str | None, sure: bool, walkovers: float) -> Answer:
     """Find each player's odds in the tournament under way."""
     from evenbreak.answers.tournament_under_way import odds_under_way
 
-    outlook = outlook_of(file, at)
-    paid = _prizes(prizes, len(outlook.state.order))
-    return odds_under_way(outlook, prizes=paid, source=PurePath(file).name)
+    outlook = replace(outlook_of(file, at), walkovers=walkovers)
+    paid = paid_places(prizes, len(outlook.state.order))
+    return odds_under_way(outlook, sure=sure, prizes=paid, source=PurePath(file).name)
 
 
 @click.command("odds", epilog=EXAMPLES)
@@ -42,7 +44,7 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
 @click.option(
     "--sure",
     is_flag=True,
-    help="Take the ratings as right, even if the file states their standard errors.",
+    help="Take the ratings as right, even if they have standard errors.",
 )
 @click.option(
     "--before-draw",
@@ -52,8 +54,8 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
 @click.option(
     "--fairest",
     is_flag=True,
-    help="With --race-to or --chart: also list the races by side that make the tournament fairest "
-    "for about as many games.",
+    help="With --race-to or --chart: also list the races by side and by round that make the "
+    "tournament fairest for about as many games.",
 )
 @click.option(
     "--walkovers",
@@ -62,12 +64,7 @@ def under_way(file: str, at: str, prizes: str | None) -> Answer:
     default="0",
     help="The chance that a match is a walkover; in real double eliminations it is 0.047.",
 )
-@click.option(
-    "--prizes",
-    metavar="MONEY,...",
-    help="The money for first place, second, ..., such as 500,300,150: adds each player's average "
-    "prize.",
-)
+@prizes_option("each player's average prize")
 @faces()
 def command(
     *,
@@ -100,22 +97,8 @@ def command(
         tournament,
         sure=sure,
         walkovers=walkovers,
-        prizes=_prizes(prizes, len(tournament.roster)),
+        prizes=paid_places(prizes, len(tournament.roster)),
         fairest=fairest,
         seed=seed,
         warnings=warnings,
     )
-
-
-def _prizes(text: str | None, players: int) -> tuple[float, ...]:
-    if text is None:
-        return ()
-    wanted = "give an amount for each paid place, such as 500,300,150"
-    read: Any = numbers(",", range(1, MOST_PLAYERS + 1), 0.0, 1e12, wanted)
-    try:
-        found: tuple[float, ...] = read(text)
-    except click.BadParameter as error:
-        refuse(f"--prizes is {error.message}")
-    if len(found) > players:
-        refuse(f"--prizes has {len(found)} places for {players} players; give fewer")
-    return found

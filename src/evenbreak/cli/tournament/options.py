@@ -151,6 +151,8 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             "--pod-size": pod_size,
             "--rounds": rounds,
             "--third-place": third_place or None,
+            "--losers-race": losers_race,
+            "--final-race": final_race,
         }
         _refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
         _check_qualifiers(form, qualifiers)
@@ -302,6 +304,8 @@ _OPTIONS_OF = {
     "--pod-size": ("pods",),
     "--rounds": ("swiss",),
     "--third-place": ("single",),
+    "--losers-race": ("double", "pods", "consolation"),
+    "--final-race": tuple(form for form in FORMATS if form not in ("swiss", "round-robin")),
 }
 """Which formats an option is for."""
 

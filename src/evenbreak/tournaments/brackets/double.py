@@ -84,7 +84,7 @@ def double_elimination(
     one_of(final, "final", ("true", "single"))
     one_of(placement, "placement", ("half shift", "redraw"))
     if qualifiers is None:
-        drafts, ranks = _to_the_end(list(entrants), drops, true_final=final == "true")
+        drafts, ranks = to_the_end(list(entrants), drops, true_final=final == "true")
         return bracket_of(f"double elimination, {final} final", names, drafts, ranks)
     last = _checked_qualifiers(qualifiers, len(entrants))
     drafts, winning, losing, ranks = double_down(list(entrants), last, drops)
@@ -220,9 +220,14 @@ def redrawn(bracket: Bracket, qualifiers: Sequence[Slot]) -> Bracket:
     return replace(bracket, matches=matches)
 
 
-def _to_the_end(
+def to_the_end(
     entrants: list[DraftSlot], drops: Drops | Sequence[Sequence[int]], *, true_final: bool
 ) -> tuple[list[Draft], list[Rank]]:
+    """Return the matches of a double elimination, byes among them, and the places.
+
+    >>> [draft.name for draft in to_the_end([0, 3, 1, 2], "straight", true_final=True)[0]]
+    ['W1.1', 'W1.2', 'L1.1', 'W2.1', 'L2.1', 'F', 'F2']
+    """
     drafts, (best,), (other,), ranks = double_down(entrants, 2, drops)
     drafts.append(Draft("F", "final", 1, (best, other)))
     finals = ["F"]

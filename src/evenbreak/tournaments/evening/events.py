@@ -148,6 +148,8 @@ class Result:
     A correction is a result too: of two results of one match by the same players the later counts.
     After a correction the director may let the matches stand that were played since: then
     `winner` is the player who moved on, though the score says otherwise.
+    `race` is the games that each needed, where they are not those of the plan: with head starts of
+    another program, for example.
     """
 
     match: str
@@ -157,6 +159,7 @@ class Result:
     forfeit: bool = False
     corrects: bool = False
     stands: bool = False
+    race: tuple[int, int] | None = None
 
     @property
     def loser(self) -> str:

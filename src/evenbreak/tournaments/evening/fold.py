@@ -209,7 +209,12 @@ class Evening:
         return one, other
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
-        """Return the games that each of two players needs in a match."""
+        """Return the games that each of two players needs in a match, or needed in it."""
+        for played in reversed(self.records.get(match, ())):
+            result = played.result
+            if result.race is not None and set(result.players) == set(players):
+                each = dict(zip(result.players, result.race, strict=True))
+                return each[players[0]], each[players[1]]
         one, other = (self.entrants[name].rating for name in players)
         race = self.races.of(self.bracket.match(match))
         m, n = games_needed(np.array([one - other]), race, self.scale)

@@ -198,6 +198,11 @@ def change(
         raise InputError("nothing is changed; give --tables, --race, --losers-race or --final-race")
     if state.plan.chart is not None and found != Changed(tables):
         raise InputError("the races come from a chart, so only the tables can be changed")
+    sides = {match.side for match in state.whole.matches} if state.drawn else {"losers", "final"}
+    if losers_race is not None and not sides & {"losers", "consolation"}:
+        raise InputError("there is no losers' side, so it has no race; change --race")
+    if final_race is not None and "final" not in sides:
+        raise InputError("there is no final, so it has no race; change --race")
     if tables is not None and state.drawn:
         taken = max((one.call.table for one in state.on_tables.values()), default=0)
         if tables < taken:

@@ -56,10 +56,13 @@ class Outlook:
         the state of the evening; the draw has been made.
     now
         what time it is, such as 2025-03-01T19:30:00.
+    walkovers
+        the chance that a match that has not begun is a walkover, for either player.
     """
 
     state: Evening
     now: str
+    walkovers: float = 0.0
 
     @property
     def start(self) -> datetime:
@@ -114,8 +117,7 @@ class Outlook:
         """The matches in play whose score is known."""
         state, found = self.state, []
         for name, live in state.live.items():
-            pair = state.pair(name)
-            seats = state.order.index(pair[0]), state.order.index(pair[1])
+            pair, seats = state.pair(name), self._seats(name)
             games = dict(zip(live.what.players, live.what.score, strict=True))
             score = games[pair[0]], games[pair[1]]
             found.append(_InScore(name, seats, state.needed(name, pair), score))
@@ -153,7 +155,8 @@ class Outlook:
     def _swiss_odds(self, chances: Mapping[str, Floats]) -> PlaceOdds:
         state = self.state
         win = chances[state.whole.matches[-1].name].copy()
-        for name, (one, other), _, _ in self._in_score:
+        for name in {*self.state.on_tables, *self.state.live}:
+            one, other = self._seats(name)
             win[one, other], win[other, one] = (
                 chances[name][pair] for pair in ((one, other), (other, one))
             )
@@ -172,15 +175,25 @@ class Outlook:
         usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
 
         gone = [state.order.index(name) for name in state.dropped]
+        begun = [(name, *self._seats(name)) for name in state.on_tables]
 
         def chances(skills: Floats) -> dict[str, Floats]:
-            tables = usual(skills)
+            played = tables = usual(skills)
+            if self.walkovers:
+                either = 0.5 * self.walkovers
+                made = {id(t): either + (1.0 - self.walkovers) * t for t in played.values()}
+                tables = {name: made[id(table)] for name, table in played.items()}
             if gone:
                 made = {id(table): table.copy() for table in tables.values()}
                 for table in made.values():
                     for seat in gone:
                         table[seat], table[:, seat], table[seat, seat] = 0.0, 1.0, 0.5
                 tables = {name: made[id(table)] for name, table in tables.items()}
+            if self.walkovers:
+                for name, one, other in begun:
+                    won = float(played[name][one, other])
+                    tables[name] = tables[name].copy()
+                    tables[name][one, other], tables[name][other, one] = won, 1.0 - won
             for name, (one, other), needs, score in self._in_score:
                 p = state.scale.win_probability(skills[one] - skills[other])
                 won = float(betainc(needs[0] - score[0], needs[1] - score[1], p))
@@ -189,6 +202,10 @@ class Outlook:
             return tables
 
         return chances
+
+    def _seats(self, match: str) -> tuple[int, int]:
+        one, other = self.state.pair(match)
+        return self.state.order.index(one), self.state.order.index(other)
 
     @property
     def games(self) -> list[Games]:

@@ -7,7 +7,7 @@ more than on others. In a tournament without favourites each of n players has 1/
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -103,9 +103,16 @@ def tournament_fairness(
     plan = races if isinstance(races, Races) else Races(races)
     rated = column(ratings, "ratings", len(bracket.players), "players")
     laws = pair_odds(bracket, rated, plan, scale=scale, break_advantage=break_advantage)
+    return fairness_of(bracket, rated, plan, laws)
+
+
+def fairness_of(
+    bracket: Bracket, ratings: Floats, races: Races, laws: Mapping[str, PairOdds]
+) -> Fairness:
+    """Return how fair races are, given the odds of each match that they make."""
     odds = title_odds(bracket, laws)
-    edge = len(rated) * odds.title - 1.0
-    return Fairness(plan, odds, edge, upper_half(rated, odds.title), _games(odds, laws))
+    edge = len(ratings) * odds.title - 1.0
+    return Fairness(races, odds, edge, upper_half(ratings, odds.title), _games(odds, laws))
 
 
 def fairest_races(
@@ -157,7 +164,7 @@ def fairest_races(
     return sorted(kept, key=lambda one: one.spread)
 
 
-def _games(odds: TitleOdds, laws: dict[str, PairOdds]) -> float:
+def _games(odds: TitleOdds, laws: Mapping[str, PairOdds]) -> float:
     return float(
         sum(
             meeting.probability @ laws[name].mean_games[meeting.first, meeting.second]
