@@ -28,6 +28,7 @@ from evenbreak.tournaments.brackets.knockout import (
 from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.brackets.swiss import swiss_bracket
+from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night, rack_bracket
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -132,12 +133,21 @@ class Evening:
             raise InputError(
                 "the draw has not been made yet; make it with evenbreak tournament draw"
             )
+        if self.plan.form == "chips":
+            return self.chip_night.bracket
         return bracket_now(self._drawn_up, self.plan, self.later)
 
     @cached_property
     def whole(self) -> Bracket:
         """The bracket with a stand-in for what is drawn in the course of the evening."""
+        if self.plan.form == "chips":
+            return self.bracket
         return whole_bracket(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def chip_night(self) -> ChipNight:
+        """Who is at which table of a chip tournament, who waits, and what everybody has left."""
+        return chip_night(self.events)
 
     @cached_property
     def _drawn_up(self) -> Bracket:
@@ -188,6 +198,11 @@ class Evening:
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
         """The matches that are being played."""
+        if self.plan.form == "chips":
+            return {
+                one.name: OnTable(Called(one.name, one.table, one.players), one.since)
+                for one in self.chip_night.playing
+            }
         return {
             name: one
             for name, one in self.calls.items()
@@ -210,6 +225,8 @@ class Evening:
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
         """Return the games that each of two players needs in a match."""
+        if self.plan.form == "chips":
+            return 1, 1  # a rack
         one, other = (self.entrants[name].rating for name in players)
         race = self.races.of(self.bracket.match(match))
         m, n = games_needed(np.array([one - other]), race, self.scale)
@@ -293,6 +310,7 @@ def evening(events: Iterable[Event]) -> Evening:
                 entrants[entrant.name] = entrant
                 if line is not None and lines is not None:
                     lines[line] = len(order)
+                if order:
                     order.append(entrant.name)
             case Dropped(name=name):
                 if order:
@@ -377,6 +395,8 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
             return round_robin(order)
         case "swiss":
             return swiss_bracket(swiss_of(plan, order))
+        case "chips":
+            return rack_bracket(order)
     return king_of_the_hill(order)
 
 
