@@ -212,7 +212,7 @@ class _Walk:
         before, self.won[rack.name] = self.won[rack.name], winner
         self.count()
         now = self.racks.get(self.tables.get(rack.table, ""))
-        if winner != before and now is not None and now.after == rack.name:
+        if now is not None and now.after == rack.name and before in {*now.players} - {winner}:
             self.swap(now, before, winner)
         for name, chips in self.chips.items():
             if chips and name in self.gone and name not in self.dropped:
