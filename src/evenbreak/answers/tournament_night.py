@@ -9,14 +9,16 @@ import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.times_of_day import ends_words, time_of_day
+from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
 from evenbreak.answers.tournament import pair_words, races_words
+from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.wording import count_of, listed
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import (
@@ -36,7 +38,8 @@ _SHOWN = 6  # players whose title odds everybody sees
 def heading(outlook: Outlook, source: str = "") -> str:
     """Return what is played by whom."""
     state = outlook.state
-    races = races_words(state.races)
+    chips = state.plan.form == "chips"
+    races = chip_heading(state) if chips else races_words(state.races)
     if not state.drawn:
         text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
     else:
@@ -44,14 +47,14 @@ def heading(outlook: Outlook, source: str = "") -> str:
         players, played = count_of(len(state.order), "player"), len(state.winners)
         text = (
             f"{form[0].upper()}{form[1:]}: {players}, "
-            f"{count_of(played, 'match', 'matches')} decided\n{races}"
+            f"{count_of(played, *(('rack',) if chips else ('match', 'matches')))} decided\n{races}"
         )
     return f"{source}: {text}" if source else text
 
 
 def begun_at(outlook: Outlook) -> int:
     """Return the time of day at which the evening began, in minutes after midnight."""
-    return 60 * outlook.start.hour + outlook.start.minute
+    return minute_of_day(outlook.start)
 
 
 def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") -> Answer:
@@ -79,6 +82,8 @@ def night_answer(night: Outlook, said: Sequence[str] = (), *, source: str = "") 
     state = night.state
     if not state.drawn:
         return _before_the_draw(state, heading(night, source), said)
+    if state.plan.form == "chips":
+        return chip_night_answer(night, said, heading(night, source))
     odds = night.odds
     words = list(said)
     parts: list[Part] = []
@@ -170,6 +175,10 @@ def _title_table(night: Outlook) -> Table:
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
     columns = [Column("name", "player", left=True), Column("rating", "rating")]
     rows = [[entrant.name, entrant.rating] for entrant in state.entrants.values()]
+    if state.plan.form == "chips":
+        columns.append(Column("chips", "chips"))
+        for row, entrant in zip(rows, state.entrants.values(), strict=True):
+            row.append(chips_of(state.plan, entrant))
     words = [*said, "Make the draw with: evenbreak tournament draw"]
     return Answer(heading, ["\n".join(words), Table("entrants", columns, rows)])
 

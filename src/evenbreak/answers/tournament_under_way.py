@@ -11,6 +11,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words
+from evenbreak.answers.tournament_chips import chip_time_answer
 from evenbreak.answers.tournament_night import begun_at, heading
 from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
 from evenbreak.answers.tournament_time import assumed_words, starts_table
@@ -76,6 +77,8 @@ def odds_under_way(outlook: Outlook, *, prizes: Sequence[float] = (), source: st
 
 def _to_draw(state: Evening) -> str:
     """Return what the odds take as still to be drawn."""
+    if state.plan.form == "chips":
+        return "racks"
     if stage_to_draw(state) is None:
         return "rounds" if state.plan.form == "swiss" and state.standing.to_play else ""
     return "rounds" if state.plan.form == "swiss" else "qualifiers"
@@ -83,12 +86,13 @@ def _to_draw(state: Evening) -> str:
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     """Return what the matches that can be played change for the title, prizes and the finish."""
-    found, ready = outlook.finish(), outlook.state.standing.to_play
+    ready, levers = outlook.state.standing.to_play, outlook.leverages()
+    found = outlook.finish() if levers else None
     money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}
     rows: list[list[Any]] = []
-    for lever in outlook.leverages():
+    for lever in levers:
         name = lever.match
-        if name in ready:
+        if found is not None and name in ready:
             first, second = found.if_won(name)
             later = None if np.isnan(first - second) else first - second
             pair = pair_words(outlook.state.standing, name)
@@ -139,6 +143,9 @@ def time_under_way(
         if nothing is left to play.
     """
     state = outlook.state
+    if state.plan.form == "chips":
+        above = heading(outlook, source)
+        return chip_time_answer(outlook, above, tables=tables, turnover=turnover)
     if not state.standing.to_play and stage_to_draw(state) is None:
         raise InputError("all matches have been played")
     usual = state.plan.tables if tables is None else tables

@@ -11,7 +11,7 @@ from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.chips.endgame import last_players
-from evenbreak.tournaments.chips.play import ChipOdds, play_chips
+from evenbreak.tournaments.chips.play import ChipOdds, play_chips, tables_in_use
 from evenbreak.tournaments.clock.event_pace import lognormal
 from evenbreak.tournaments.evening.chip_night import ChipNight
 from evenbreak.tournaments.odds.title import PlaceOdds
@@ -72,12 +72,13 @@ def _played(
 ) -> ChipOdds:
     night = state.chip_night
     still = [state.order.index(name) for name in night.order]
+    most = state.plan.tables if tables is None else tables
     return play_chips(
         [night.chips[name] for name in night.order],
         win[np.ix_(still, still)],
-        tables=state.plan.tables if tables is None else tables,
+        tables=most,
         line=range(len(still)),
-        in_use=len(night.tables),
+        in_use=max(len(night.tables), tables_in_use(len(still), most)),
         to_the_end=to_the_end,
         runs=_RUNS,
     )
