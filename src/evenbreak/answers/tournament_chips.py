@@ -119,6 +119,7 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
         bands = _bands(night)
         parts.insert(0, Quantities([Quantity(k, v) for k, v in zip(_KEYS, bands, strict=True)]))
         begun = minute_of_day(night.start)
+        words += [f"Next in the line: {name}." for name in state.chip_night.line[:1]]
         words.append(ends_words(*(begun + at for at in bands)))
     else:
         words += [f"{name} wins the tournament." for name in state.chip_night.order]
@@ -238,8 +239,11 @@ def chip_time_answer(
         change,
     ]
     plain = event_pace(state.plan.discipline).mean_minutes(1)
-    usual_words = f"A rack of {state.plan.discipline} is taken to last {plain:.0f} minutes"
+    usual_words = (
+        f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes with the change "
+        "of players."
+    )
     if timed := len(outlook.timed):
-        usual_words += f", with the break to the next, and adjusted by the {timed} timed tonight"
-    parts.append(f"{usual_words}.")
+        usual_words += f" The {count_of(timed, 'rack')} timed so far tonight adjust that."
+    parts.append(usual_words)
     return Answer(heading, parts, csv=change, data={"start": outlook.start.isoformat()})

@@ -44,11 +44,12 @@ def heading(outlook: Outlook, source: str = "") -> str:
         text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
     else:
         form = state.bracket.format
-        players, played = count_of(len(state.order), "player"), len(state.winners)
-        text = (
-            f"{form[0].upper()}{form[1:]}: {players}, "
-            f"{count_of(played, *(('rack',) if chips else ('match', 'matches')))} decided\n{races}"
-        )
+        played = len(state.winners)
+        so_far = f"{count_of(played, 'match', 'matches')} decided"
+        if chips:
+            so_far = f"{count_of(played, 'rack')} played"
+        players = count_of(len(state.order), "player")
+        text = f"{form[0].upper()}{form[1:]}: {players}, {so_far}\n{races}"
     return f"{source}: {text}" if source else text
 
 

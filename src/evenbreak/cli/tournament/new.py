@@ -69,6 +69,8 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
         roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
     if plan.form == "swiss":
         swiss_round(swiss_of(plan, roster.players))  # refuses what cannot be paired
+    if plan.chips is not None:
+        plan.chips.chips(roster.rating)  # refuses ratings below the chart
     errors = np.nan_to_num(roster.standard_error).tolist()
     entrants = tuple(
         Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)

@@ -108,6 +108,8 @@ def correct(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
 
 def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     """Enter the score of a match in play."""
+    if state.plan.form == "chips":
+        raise InputError(f"a rack has no score; enter its winner with result {match}")
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
         raise InputError(f"{name} has a result, {score_words(before)}")
