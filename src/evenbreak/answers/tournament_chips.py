@@ -240,8 +240,8 @@ def chip_time_answer(
     ]
     plain = event_pace(state.plan.discipline).mean_minutes(1)
     usual_words = (
-        f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes with the change "
-        "of players."
+        f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes, with the "
+        "change of players."
     )
     if timed := len(outlook.timed):
         usual_words += f" The {count_of(timed, 'rack')} timed so far tonight adjust that."

@@ -35,7 +35,8 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     What,
 )
-from evenbreak.tournaments.evening.fold import bracket_of, evening
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.fold import evening
 
 _READERS: tuple[tuple[Any, Callable[[Any], SavedBracket]], ...] = (
     (export_cuescore, of_cuescore),

@@ -48,8 +48,9 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     """Begin a tournament: write its entrants and what is played to a new file.
 
     Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
-    place of a bye, or in a chip tournament at the end of the line. The other commands read and write tonight.db unless --file or the environment
-    variable EVENBREAK_TOURNAMENT names another file.
+    place of a bye, or in a chip tournament at the end of the line. The other commands read and
+    write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another
+    file.
     """
     from dataclasses import replace
 

@@ -20,10 +20,16 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.tournament.checked_options import (
+    check_qualifiers,
+    refuse_of_other_formats,
+    refuse_races,
+)
 from evenbreak.files.chip_chart import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of
+from evenbreak.tournaments.evening.fold import ELIMINATIONS
 from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
@@ -151,7 +157,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
         **rest: Any,
     ) -> Any:
         if form == "chips":
-            _refuse_races(chips, race, race_to, chart, losers_race, final_race)
+            refuse_races(chips, race, race_to, chart, losers_race, final_race)
             race, seeding = 1, _order_of_the_line(seeding)
         races = _races(race, race_to, chart, losers_race, final_race)
         given = {
@@ -165,8 +171,8 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             "--third-place": third_place or None,
             "--chips": chips,
         }
-        _refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
-        _check_qualifiers(form, qualifiers)
+        refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
+        check_qualifiers(form, qualifiers)
         file = files.read_entrants(entrants)
         points, warnings = _scale(file, scale, starter, "fargo" if chips else "npl")
         roster = with_starters(file.roster, points, starter, starter_sd)
@@ -225,8 +231,9 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             type=click.Choice(SEEDINGS),
             default="listed",
             help="The order of the seeds: as the file lists them, by rating, or drawn at random "
-            "(blind, as the line of a chip tournament is unless given). Or no seeds (drawn): the first two rows of the file meet, and so on, with "
-            "rows named bye 1, bye 2 ... for byes.",
+            "(blind; used for the line of a chip tournament unless given). Or no seeds (drawn): "
+            "the first two rows of the file meet, and so on, with rows named bye 1, bye 2 ... for "
+            "byes.",
         ),
         click.option(
             "--third-place", is_flag=True, help="Single elimination with a match for third place."
@@ -314,51 +321,10 @@ def _races(
     )
 
 
-def _refuse_races(chips: str | None, *races: Any) -> None:
-    """Refuse a chip tournament with races, or without a chart."""
-    if any(one is not None for one in races):
-        refuse("a chip tournament is played by the rack; leave out the races")
-    if chips is None:
-        refuse("the chip chart is missing; give it with --chips, such as --chips hoboken")
-
-
 def _order_of_the_line(seeding: str) -> str:
     """Return how the line of a chip tournament is drawn: blind unless --seeding is given."""
     source = click.get_current_context().get_parameter_source("seeding")
     return "blind" if source is ParameterSource.DEFAULT else seeding
-
-
-_OPTIONS_OF = {
-    "--final": ("double",),
-    "--qualifiers": ("double", "groups", "pods"),
-    "--placement": ("double",),
-    "--drops": ("double", "pods"),
-    "--groups": ("groups",),
-    "--pod-size": ("pods",),
-    "--rounds": ("swiss",),
-    "--third-place": ("single",),
-    "--chips": ("chips",),
-}
-"""Which formats an option is for."""
-
-
-def _refuse_of_other_formats(form: str, given: set[str]) -> None:
-    for name, formats in _OPTIONS_OF.items():
-        if name in given and form not in formats:
-            refuse(f"{name} is for --format {' or '.join(formats)}, not {form}")
-    if {"--qualifiers", "--final"} <= given:
-        refuse("--qualifiers leads to one final; leave out --final")
-    if "--placement" in given and "--qualifiers" not in given:
-        refuse("--placement is for qualifiers; give --qualifiers M, or leave it out")
-
-
-def _check_qualifiers(form: str, qualifiers: int | None) -> None:
-    if qualifiers is None:
-        return
-    if form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
-        refuse(f"--qualifiers is {qualifiers}; give 2, 4, 8 or another power of 2")
-    if form == "pods" and qualifiers > 2:
-        refuse(f"--qualifiers is {qualifiers}; 1 or 2 go on from a pod")
 
 
 def _scale(

@@ -17,18 +17,10 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
-from evenbreak.tournaments.brackets.double import double_elimination, pods
 from evenbreak.tournaments.brackets.group_ranks import ranked
-from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
-from evenbreak.tournaments.brackets.knockout import (
-    consolation,
-    king_of_the_hill,
-    single_elimination,
-)
-from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
-from evenbreak.tournaments.brackets.swiss import swiss_bracket
-from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night, rack_bracket
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -45,7 +37,7 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
-from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
+from evenbreak.tournaments.evening.later_draws import bracket_now, whole_bracket
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
 
@@ -306,12 +298,9 @@ def evening(events: Iterable[Event]) -> Evening:
                 ties[tie.group] = tie
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
-            case Late(entrant=entrant, line=line):
-                entrants[entrant.name] = entrant
-                if line is not None and lines is not None:
-                    lines[line] = len(order)
-                if order:
-                    order.append(entrant.name)
+            case Late() as late:
+                entrants[late.entrant.name] = late.entrant
+                _let_in(late, order, lines)
             case Dropped(name=name):
                 if order:
                     dropped.append(name)
@@ -330,6 +319,15 @@ def evening(events: Iterable[Event]) -> Evening:
         {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
     )
+
+
+def _let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None:
+    """Let a player in who comes after the draw."""
+    if not order:
+        return
+    if late.line is not None and lines is not None:
+        lines[late.line] = len(order)
+    order.append(late.entrant.name)
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:
@@ -364,46 +362,3 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
     if not kept or not isinstance(first := kept[0].what, Opened):
         raise InputError("the first event does not open a tournament")
     return first, kept
-
-
-def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
-    """Return the bracket of a draw.
-
-    >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
-    (('W1.1', 0),)
-    """
-    if plan.layout:
-        return laid_out(plan.form, order, plan.layout)
-    pattern: Any = plan.drops
-    final: Any = plan.final
-    match plan.form:
-        case "double":
-            return double_elimination(
-                order, final=final, qualifiers=plan.qualifiers, drops=pattern, lines=lines
-            )
-        case "single":
-            return single_elimination(order, third_place=plan.third_place, lines=lines)
-        case "consolation":
-            return consolation(order, lines=lines)
-        case "pods":
-            each: Any = plan.qualifiers or 1
-            return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
-        case "groups":
-            many = groups_of(plan, len(order))
-            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
-        case "round-robin":
-            return round_robin(order)
-        case "swiss":
-            return swiss_bracket(swiss_of(plan, order))
-        case "chips":
-            return rack_bracket(order)
-    return king_of_the_hill(order)
-
-
-def groups_of(plan: Plan, players: int) -> int:
-    """Return the number of groups: unless given, groups of four, or of three and four.
-
-    >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
-    [2, 3, 4, 4]
-    """
-    return plan.groups or max(2, -(-players // 4))
