@@ -1,11 +1,12 @@
 """Make the teams of a league that does not exist: two squads, results and a schedule.
 
-    python data/make_demo_teams.py         # writes four files into data/
+    python data/make_demo_teams.py         # writes five files into data/
     python data/make_demo_teams.py folder  # or into a folder of your choice
 
 `demo_team.csv` and `demo_opponents.csv` are two squads on the Fargo scale, with skill levels;
 `demo_team_results.csv` and `demo_team_schedule.csv` are the matches played and to come of a season
-of eight teams: five sets a match, a round robin home and away.
+of eight teams: five sets a match, a round robin home and away. `demo_team_rosters.csv` has all
+players of another league, of six teams.
 """
 
 import sys
@@ -43,6 +44,53 @@ TEAMS = {
     "Cue Tips": 0.40,
     "Scratch Club": 0.33,
 }
+# The ratings of the teams of another league; skill levels go by ratings.
+ROSTERS = {
+    "Eight Ballers": (668, 631, 588, 552, 470, 431),
+    "Nine Lives": (701, 645, 522, 480, 455, 402),
+    "Break Room": (605, 590, 566, 541, 519, 498),
+    "Long Rail": (630, 572, 540, 471, 433, 380),
+    "Side Spin": (560, 545, 502, 466, 421, 377),
+    "Late Shift": (575, 498, 462, 450, 390, 361),
+}
+FIRST = [
+    "Ada",
+    "Bruno",
+    "Carla",
+    "Denis",
+    "Elif",
+    "Femi",
+    "Greta",
+    "Hugo",
+    "Ines",
+    "Jonas",
+    "Kaja",
+    "Luis",
+    "Mona",
+    "Nils",
+    "Otto",
+    "Piet",
+    "Rosa",
+    "Sami",
+    "Tara",
+    "Umut",
+    "Vera",
+    "Wim",
+    "Xenia",
+    "Yann",
+    "Zofia",
+    "Arne",
+    "Bela",
+    "Cleo",
+    "Dora",
+    "Emil",
+    "Fina",
+    "Goran",
+    "Hana",
+    "Ivo",
+    "Jule",
+    "Karl",
+]
 SETS = 5
 PLAYED = 9  # rounds; five are to come
 
@@ -71,6 +119,17 @@ def squad(players: tuple[tuple[str, int, int, int], ...]) -> list[str]:
     return [HEADER, *(f"{name},{r},{error},{level},fargo" for name, r, error, level in players)]
 
 
+def rosters() -> list[str]:
+    """Return the lines of the file of all teams."""
+    names = iter(FIRST)
+    lines = ["team,player,rating,level,scale"]
+    for team, ratings in ROSTERS.items():
+        for rating in ratings:
+            level = min(7, max(2, round((rating - 300) / 55)))
+            lines.append(f"{team},{next(names)},{rating},{level},fargo")
+    return lines
+
+
 def main(folder: str | None = None) -> None:
     """Write all files."""
     target = Path(folder) if folder else Path(__file__).parent
@@ -86,6 +145,7 @@ def main(folder: str | None = None) -> None:
     for name, lines in {
         "demo_team.csv": squad(TEAM),
         "demo_opponents.csv": squad(OPPONENTS),
+        "demo_team_rosters.csv": rosters(),
         "demo_team_results.csv": results,
         "demo_team_schedule.csv": schedule,
     }.items():

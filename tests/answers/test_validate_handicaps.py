@@ -2,6 +2,7 @@
 
 import re
 import shlex
+from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
@@ -10,13 +11,18 @@ from evenbreak.answers.validate_handicaps import handicap_remarks
 from evenbreak.cli.program import program
 from evenbreak.handicaps import league_chart
 from evenbreak.ratings import scale_of, validate
+from evenbreak.ratings.calibration import wilson
+from evenbreak.ratings.handicap_fairness import HandicapFairness
 from handicapped import by_chart, by_class
 
 NPL = scale_of("npl")
 
 
 def said(season):
-    found = validate(season, prior_sd=0.5)
+    return remarks(validate(season, prior_sd=0.5), season)
+
+
+def remarks(found, season):
     return list(handicap_remarks(found, league_chart(season), NPL))
 
 
@@ -48,8 +54,14 @@ def test_a_class_has_its_worth_beside_what_a_start_takes_back():
     assert re.search(r"7:[45] would", worth)
 
 
-def test_nothing_is_found_in_a_league_that_plays_by_its_chart():
-    fair, scale, chart = said(by_chart(3, matches=1500))
+@pytest.fixture(scope="module")
+def by_the_book():
+    season = by_chart(3, matches=1500)
+    return validate(season, prior_sd=0.5), season
+
+
+def test_nothing_is_found_in_a_league_that_plays_by_its_chart(by_the_book):
+    fair, scale, chart = remarks(*by_the_book)
     assert fair.startswith("The handicaps look fair")
     assert "agree" in scale
     assert "but for" not in chart
@@ -57,3 +69,29 @@ def test_nothing_is_found_in_a_league_that_plays_by_its_chart():
 
 def test_a_league_without_handicaps_hears_nothing(chosen):
     assert list(handicap_remarks(chosen, league_chart(chosen.forecasts.results), NPL)) == []
+
+
+def spots(*counts):
+    """Return the starts of 1, 2, ... games with so many (won, matches), and all together."""
+    every = [*enumerate(counts, 1), (None, tuple(map(sum, zip(*counts, strict=True))))]
+    return [
+        HandicapFairness(games, matches, won, won / matches, *wilson(won / matches, matches), 0.5)
+        for games, (won, matches) in every
+    ]
+
+
+@pytest.mark.parametrize(
+    ("counts", "parts"),
+    [
+        (((100, 200), (68, 100), (32, 100)), ["not one by one", "2 games gives too little", "68%"]),
+        (((92, 200), (100, 200), (108, 200)), []),
+        (((180, 400), (200, 400), (228, 400)), ["The more games are given, the more often", "57%"]),
+    ],
+)
+def test_starts_that_are_fair_only_on_average_are_named(by_the_book, counts, parts):
+    found, season = by_the_book
+    fairness = remarks(replace(found, spots=spots(*counts)), season)[0]
+    assert fairness.startswith("The handicaps look fair")
+    assert ("on average" in fairness) == bool(parts)
+    for part in parts:
+        assert part in fairness

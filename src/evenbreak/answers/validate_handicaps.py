@@ -1,20 +1,24 @@
 """Whether handicaps were fair, what a start is worth, and which chart the races come from."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.validate_judgement import (
     clearly_off,
+    more_or_less,
     percents,
     scale_way,
     share_of,
+    starts_trend,
     starts_way,
+    unfair_starts,
 )
 from evenbreak.answers.wording import count_of, listed, percent, race
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.handicap_fairness import HandicapFairness
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.starts import Starts, even_start
 from evenbreak.ratings.validate import Validation
@@ -71,6 +75,8 @@ def _fairness(found: Validation, by_games: int) -> str:
             f"The handicaps may give too {_little(1 if every.low > 0.5 else -1)}. {figures}; fair "
             "is 50%, just outside that range."
         )
+    if by_size := _unfair_by_size(found.spots[:-1]):
+        return f"The handicaps look fair on average, but not one by one. {by_size} {figures}."
     way = clearly_off(share_of(every), every.expected)
     if way:
         under = "under" if way > 0 else "over"
@@ -82,7 +88,29 @@ def _fairness(found: Validation, by_games: int) -> str:
     return f"The handicaps look fair. {figures}."
 
 
-def _little(way: int) -> str:
+def _unfair_by_size(spots: Sequence[HandicapFairness]) -> str:
+    """Return which starts are unfair although they are fair on average; '' if none is."""
+    if wrong := unfair_starts(spots):
+        said = [
+            f"a start of {count_of(int(one.spot or 0), 'game')} gives too "
+            f"{_little(one.share - 0.5)} (the player who gave it won {one.won:,} of "
+            f"{one.matches:,}, {percent(one.share)})"
+            for one in wrong
+        ]
+        words = listed(said)
+        return f"{words[0].upper()}{words[1:]}."
+    way = starts_trend(spots)
+    if not way:
+        return ""
+    small, large = spots[0], spots[-1]
+    return (
+        f"The more games are given, the {more_or_less(way > 0)} often the player who gives them "
+        f"wins: from {percent(small.share)} with {count_of(int(small.spot or 0), 'game')} to "
+        f"{percent(large.share)} with {large.spot}."
+    )
+
+
+def _little(way: float) -> str:
     return "little" if way > 0 else "much"
 
 

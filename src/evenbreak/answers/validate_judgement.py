@@ -1,5 +1,8 @@
 """When a figure of a validated season is clearly off, and how figures are written."""
 
+from collections.abc import Sequence
+
+import numpy as np
 from scipy.special import ndtri
 
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
@@ -54,6 +57,40 @@ def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, in
 def share_of(spot: HandicapFairness) -> Estimate:
     """Return the share of handicap races that the player who gave games won."""
     return Estimate(spot.share, spot.low, spot.high)
+
+
+def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
+    """Return the starts that are clearly unfair by themselves, of those by the games given.
+
+    >>> from evenbreak.ratings.calibration import wilson
+    >>> fair, unfair = (HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
+    ...                 for k, w in ((1, 96), (2, 130)))
+    >>> [one.spot for one in unfair_starts([fair, unfair])]
+    [2]
+    """
+    return [one for one in spots if clearly_off(share_of(one), 0.5, tests=len(spots))]
+
+
+def starts_trend(spots: Sequence[HandicapFairness]) -> int:
+    """Return 1 where players clearly win more often the more games they give, -1 where less, or 0.
+
+    >>> from evenbreak.ratings.calibration import wilson
+    >>> spots = [HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
+    ...          for k, w in ((1, 84), (2, 100), (3, 118))]
+    >>> starts_trend(spots), starts_trend(spots[:1])
+    (1, 0)
+    """
+    if len(spots) < 2:
+        return 0
+    games, matches, won = (
+        np.array([getattr(one, name) for one in spots], dtype=float)
+        for name in ("spot", "matches", "won")
+    )
+    share = won.sum() / matches.sum()
+    far = games - (games @ matches) / matches.sum()
+    spread = share * (1.0 - share) * (matches @ far**2)
+    z = far @ (won - matches * share) / np.sqrt(spread) if spread > 0.0 else 0.0
+    return int(np.sign(z)) if abs(z) > ndtri(1.0 - UNLIKELY / 2.0) else 0
 
 
 def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:

@@ -25,6 +25,8 @@ SECTIONS = {
     },
     "Run teams": {
         "lineup": Entry("team.lineup", "Whom to put up now, and what each choice is worth."),
+        "round": Entry("team.round_", "A round of two teams: who wins, and the fair head start."),
+        "caps": Entry("team.caps", "What a cap and the order of nomination do to a league."),
         "season": Entry("team.season", "A team season: title, promotion, relegation."),
     },
     "Run a league": {

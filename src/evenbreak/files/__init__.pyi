@@ -29,6 +29,7 @@ from .schedule import ScheduleFile as ScheduleFile
 from .schedule import read_schedule as read_schedule
 from .several_results import read_seasons as read_seasons
 from .team_list import TeamList as TeamList
+from .team_list import read_squads as read_squads
 from .team_list import read_team as read_team
 from .team_season import TeamMatches as TeamMatches
 from .team_season import TeamNames as TeamNames

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from evenbreak.arrays import Floats, short_repr
+from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers
+from evenbreak.files.player_names import clean_name
 from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
-from evenbreak.files.text_table import read_table
+from evenbreak.files.text_table import TextTable, read_table
 
 _LEVELS = ("skill level", "handicap", "sl")
 COLUMNS = {"player": (*REQUIRED["player"], "team player")}
@@ -60,7 +62,39 @@ def read_team(path: str | Path) -> TeamList:
     >>> team.file.roster.rating, team.levels
     (array([612., 540.]), array([6., 5.]))
     """
-    table = read_table(path, COLUMNS, MORE, rows="players")
+    return _team_of(read_table(path, COLUMNS, MORE, rows="players"))
+
+
+def read_squads(path: str | Path) -> dict[str, TeamList]:
+    r"""Read all teams of a league from a CSV file with the columns team, player, rating and level.
+
+    Raises
+    ------
+    DataError
+        with every problem of a team as for `read_team`, if a player has no team, or there are
+        fewer than two teams.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "teams.csv"
+    ...     _ = path.write_text("team,player,rating\nRacks,Ann,612\nCues,Bo,540\nRacks,Cy,500\n")
+    ...     {team: one.file.roster.players for team, one in read_squads(path).items()}
+    {'Racks': ('Ann', 'Cy'), 'Cues': ('Bo',)}
+    """
+    table = read_table(path, {"team": MORE["team"], **COLUMNS}, MORE, rows="players")
+    teams: dict[str, list[int]] = {}
+    for line, name in zip(table.lines.tolist(), map(clean_name, table.cells("team")), strict=True):
+        if not name:
+            table.problems.add(line, "team is empty; name the team of each player")
+        teams.setdefault(name, []).append(line)
+    table.problems.raise_any()
+    if len(teams) < 2:
+        raise DataError([f"{table.source}: names one team only; a league has two or more"])
+    every = set(table.lines.tolist())
+    return {name: _team_of(table.without(every - set(lines))) for name, lines in teams.items()}
+
+
+def _team_of(table: TextTable) -> TeamList:
     levels = numbers(
         table, "level", at_least=0, at_most=1000, remedy="write a skill level", may_be_empty=True
     ).values

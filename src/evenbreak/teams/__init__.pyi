@@ -2,11 +2,17 @@ from .advice import Advice as Advice
 from .advice import Option as Option
 from .advice import Point as Point
 from .advice import advice as advice
+from .league_rules import against_all as against_all
+from .league_rules import first_edges as first_edges
+from .league_rules import league_nights as league_nights
 from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
 from .order import order_of as order_of
 from .reliance import best_by_skills as best_by_skills
+from .round_law import Outcome as Outcome
+from .round_law import RoundLaw as RoundLaw
+from .round_law import round_law as round_law
 from .sealed import SealedLineUp as SealedLineUp
 from .sealed import SealedNight as SealedNight
 from .sealed import sealed as sealed

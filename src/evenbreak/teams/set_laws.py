@@ -105,7 +105,7 @@ def set_laws(
     one_of(size, "size", (1, 2))
     if not isinstance(count, Points):
         one_of(count, "count", ("sets", "games"))
-    points, errors = _differences(ours, theirs, size)
+    points, errors = rating_differences(ours, theirs, size)
     scale = scale_of(scale)
     needs_1, needs_2 = games_needed(points, race, scale)
     if skills is not None:
@@ -163,7 +163,7 @@ def law_in_play(
     >>> law.sum(axis=1).round(3)
     array([0.324, 0.676])
     """
-    points, errors = _differences(ours, theirs, len(ours))
+    points, errors = rating_differences(ours, theirs, len(ours))
     scale = scale_of(scale)
     m, n = (int(needs[0, 0]) for needs in games_needed(points, race, scale))
     a, b = (whole(games, "score") for games in score)
@@ -208,7 +208,7 @@ def _reach(needs_1: Ints, needs_2: Ints, count: Count) -> int:
     return count.win + count.shutout
 
 
-def _differences(ours: Roster, theirs: Roster, size: int) -> tuple[Floats, Floats]:
+def rating_differences(ours: Roster, theirs: Roster, size: int = 1) -> tuple[Floats, Floats]:
     """Return the rating difference of every two picks, and its standard error."""
     sides = []
     for roster in (ours, theirs):

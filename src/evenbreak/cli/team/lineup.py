@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak import files, handicaps, ratings, teams
+from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.systems import (
-    chart_by_difference,
-    chart_doubts,
-    refuse_levels,
-    refuse_other_scale,
-)
+from evenbreak.cli.kit.systems import chart_doubts
 from evenbreak.cli.kit.values import LONGEST, SCORE, Whole, refuse
+from evenbreak.cli.team.lists import caps_of, race_of, scale_of_teams
 from evenbreak.cli.team.points import point_of
-from evenbreak.ratings.scale import SCALES
 
 if TYPE_CHECKING:
-    from evenbreak.files.team_list import TeamList
     from evenbreak.ratings.scale import Scale
 
 MOST_SETS = 25
-_AT_MOST = re.compile(r"\s*(\d+)\s*(?::|x|of)\s*(\d+(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
 EXAMPLES = """\b
 Examples:
@@ -154,29 +146,26 @@ def command(
     taken to choose as well as they can. After each nomination, ask again with --used, --score and
     --named.
     """
-    import numpy as np
-
     from evenbreak.answers.lineup import lineup_answer
-    from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.answers.starters import starters_words
     from evenbreak.answers.team_meeting import SEALED, Meeting
 
     lists = files.read_team(ours), files.read_team(theirs)
-    points = _scale(lists, scale)
+    points, doubts = scale_of_teams(lists, scale)
     rosters = [with_starters(each.file.roster, points, starter, starter_sd) for each in lists]
     if sure:
         rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
     played = sets or min(len(each) for each in rosters) * times
     sizes = _sizes(doubles, played)
     squads = [
-        teams.Squad(roster.players, _caps(each, cap, at_most), times)
+        teams.Squad(roster.players, caps_of(each, cap, at_most), times)
         for roster, each in zip(rosters, lists, strict=True)
     ]
     meeting = Meeting(
         rosters[0],
         rosters[1],
         (squads[0], squads[1]),
-        _race(race, race_to, chart),
+        race_of(race, race_to, chart),
         points,
         sizes,
         order.strip().lower() if order.strip().lower() == SEALED else order,
@@ -184,41 +173,11 @@ def command(
     )
     asked = any(value is not None and value != () for value in (used, score, playing, named))
     point = point_of(meeting, used, score, playing, named, last) if asked else None
-    warnings = [line for each in lists for line in each.file.warnings]
-    if all(each.file.scale is None for each in lists) and scale is None:
-        rated = np.concatenate([each.file.roster.rating for each in lists])
-        warnings += league_doubts(points, rated, "name the scale with --scale")
+    warnings = doubts
     warnings += chart_doubts(meeting.race, points)
     for each, roster in zip(lists, rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
     return lineup_answer(meeting, point, seed=seed, warnings=warnings)
-
-
-def _scale(lists: tuple[TeamList, TeamList], stated: Scale | None) -> Scale:
-    for each in lists:
-        if stated is not None:
-            refuse_other_scale(
-                each.file, stated, "--scale", "leave --scale out, or correct the file", stated=True
-            )
-        else:
-            refuse_levels(each.file, "say with --scale how many levels double the odds")
-    scales = [each.file.scale for each in lists if each.file.scale is not None]
-    if len(scales) == 2 and not scales[0].same_points(scales[1]):
-        refuse(
-            f"{lists[0].file.source} and {lists[1].file.source} state different scales; put all "
-            "ratings on one"
-        )
-    return stated or next(iter(scales), SCALES["npl"])
-
-
-def _race(race: int | None, race_to: int | None, chart: str | None) -> Any:
-    given = [value for value in (race, race_to, chart) if value is not None]
-    if len(given) != 1:
-        wanted = "give one of --race N, --race-to N and --chart NAME"
-        refuse(f"{'the races are missing' if not given else 'the races are given twice'}; {wanted}")
-    if chart is not None:
-        return chart_by_difference("--chart", chart)
-    return handicaps.Fairest(race_to) if race_to is not None else race
 
 
 def _sizes(doubles: str | None, sets: int) -> tuple[int, ...]:
@@ -229,29 +188,3 @@ def _sizes(doubles: str | None, sets: int) -> tuple[int, ...]:
         refuse(f"--doubles {doubles!r}; give numbers of sets from 1 to {sets}, such as 1,3")
     pairs = {int(part) for part in numbers}
     return tuple(2 if k in pairs else 1 for k in range(1, sets + 1))
-
-
-def _caps(team: TeamList, cap: float | None, at_most: str | None) -> tuple[teams.Cap, ...]:
-    import numpy as np
-
-    if cap is None and at_most is None:
-        return ()
-    levels, source = team.levels, team.file.source
-    if np.isnan(levels).all():
-        levels = team.file.roster.rating
-    if np.isnan(levels).any():
-        name = team.file.roster.players[int(np.isnan(levels).argmax())]
-        refuse(f"{source} has no level for {name!r}; the caps need one for everybody")
-    caps = []
-    if cap is not None:
-        caps.append(teams.Cap(tuple(levels.tolist()), cap, "the sum of the levels"))
-    if at_most is not None:
-        found = _AT_MOST.fullmatch(at_most)
-        if found is None:
-            refuse(f"--at-most {at_most!r}; give a number of players and a level, such as 2:6")
-        high = float(found[2])
-        above = tuple(float(level >= high) for level in levels)
-        caps.append(
-            teams.Cap(above, int(found[1]), f"the number of players of level {high:g} or more")
-        )
-    return tuple(caps)

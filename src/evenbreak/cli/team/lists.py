@@ -1,0 +1,89 @@
+"""What the commands about teams share: the scale of their lists, the caps, what is played."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from evenbreak import handicaps, teams
+from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
+from evenbreak.cli.kit.values import refuse
+from evenbreak.ratings.scale import SCALES
+
+if TYPE_CHECKING:
+    from evenbreak.files.team_list import TeamList
+    from evenbreak.ratings.scale import Scale
+
+_AT_MOST = re.compile(r"\s*(\d+)\s*(?::|x|of)\s*(\d+(?:\.\d+)?)\s*\+?\s*", re.ASCII)
+
+
+def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Scale, list[str]]:
+    """Return the scale of the teams' ratings, and the warnings about their files."""
+    import numpy as np
+
+    from evenbreak.answers.scale_doubts import league_doubts
+
+    for each in lists:
+        if stated is not None:
+            refuse_other_scale(
+                each.file, stated, "--scale", "leave --scale out, or correct the file", stated=True
+            )
+        else:
+            refuse_levels(each.file, "say with --scale how many levels double the odds")
+    scales = [each.file.scale for each in lists if each.file.scale is not None]
+    if any(not scales[0].same_points(other) for other in scales[1:]):
+        files = " and ".join(dict.fromkeys(each.file.source for each in lists))
+        refuse(f"{files}: different scales are stated; put all ratings on one")
+    points = stated or next(iter(scales), SCALES["npl"])
+    warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
+    if not scales and stated is None:
+        rated = np.concatenate([each.file.roster.rating for each in lists])
+        warnings += league_doubts(points, rated, "name the scale with --scale")
+    return points, warnings
+
+
+def race_of(race: int | None, race_to: int | None, chart: str | None, *, or_else: str = "") -> Any:
+    """Return the race that one of three options asks for.
+
+    Parameters
+    ----------
+    race, race_to, chart
+        the options' values.
+    or_else
+        what may be given instead, such as '--games K, '.
+    """
+    given = [value for value in (race, race_to, chart) if value is not None]
+    if len(given) != 1:
+        wanted = f"give one of {or_else}--race N, --race-to N and --chart NAME"
+        refuse(f"{'the races are missing' if not given else 'the races are given twice'}; {wanted}")
+    if chart is not None:
+        return chart_by_difference("--chart", chart)
+    return handicaps.Fairest(race_to) if race_to is not None else race
+
+
+def caps_of(team: TeamList, cap: float | None, at_most: str | None) -> tuple[teams.Cap, ...]:
+    """Return the caps that --cap and --at-most ask for, with a weight for each player."""
+    import numpy as np
+
+    if cap is None and at_most is None:
+        return ()
+    levels, source = team.levels, team.file.source
+    if np.isnan(levels).all():
+        levels = team.file.roster.rating
+    if np.isnan(levels).any():
+        name = team.file.roster.players[int(np.isnan(levels).argmax())]
+        refuse(f"{source} has no level for {name!r}; the caps need one for everybody")
+    caps = []
+    if cap is not None:
+        caps.append(teams.Cap(tuple(levels.tolist()), cap, "the sum of the levels"))
+    if at_most is not None:
+        found = _AT_MOST.fullmatch(at_most)
+        if found is None:
+            refuse(f"--at-most {at_most!r}; give a number of players and a level, such as 2:6")
+        high = float(found[2])
+        above = tuple(float(level >= high) for level in levels)
+        caps.append(
+            teams.Cap(above, int(found[1]), f"the number of players of level {high:g} or more")
+        )
+    return tuple(caps)

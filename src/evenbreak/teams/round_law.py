@@ -1,0 +1,186 @@
+"""The total of a round between two teams, and the head start that makes the round even.
+
+Given the players' skills, the matches of a round are independent, so the law of the lead is the
+convolution of theirs. Each match is so many single games, or a race of which every game counts.
+Where everybody meets everybody and ratings have errors, a player's error is the same in all their
+matches: then the law is averaged over drawn skills.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import binom
+from scipy.stats.qmc import MultivariateNormalQMC
+
+from evenbreak.arrays import Floats, short_repr
+from evenbreak.checks import number, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.given_ratings import averaging_rule
+from evenbreak.handicaps.charts.race_of_pair import Race
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.teams.set_laws import rating_differences, set_laws
+
+_ALIKE = 1e-12  # chances that differ by less are equal
+_DRAWS = 512  # of the skills, where everybody meets everybody; they leave an error of about .001
+
+
+class Outcome(NamedTuple):
+    """What comes of a round: P(we win it), P(it is tied), P(they win it)."""
+
+    win: float
+    tie: float
+    lose: float
+
+    @property
+    def unfair(self) -> float:
+        """How far the round is from even: |P(win) - P(lose)|."""
+        return abs(self.win - self.lose)
+
+
+@short_repr
+@dataclass(frozen=True)
+class RoundLaw:
+    """The law of our lead at the end of a round, in games.
+
+    Parameters
+    ----------
+    lead
+        P(we lead by k - reach games), for k = 0, 1, ..., 2 reach.
+    """
+
+    lead: Floats
+
+    @property
+    def reach(self) -> int:
+        """The largest lead."""
+        return len(self.lead) // 2
+
+    @cached_property
+    def mean(self) -> float:
+        """Our lead on average."""
+        return float(self.lead @ np.arange(-self.reach, self.reach + 1))
+
+    def with_start(self, start: float) -> Outcome:
+        """Return what comes of the round if we start with so many games (fewer than 0: they do).
+
+        A start with half a game leaves no ties.
+
+        >>> RoundLaw(np.array([0.25, 0.0, 0.5, 0.0, 0.25])).with_start(1)
+        Outcome(win=0.75, tie=0.0, lose=0.25)
+        """
+        start = number(start, "start")
+        leads = np.arange(-self.reach, self.reach + 1) + start
+        return Outcome(
+            float(self.lead[leads > 0].sum()),
+            float(self.lead[leads == 0].sum()),
+            float(self.lead[leads < 0].sum()),
+        )
+
+    @cached_property
+    def fair_start(self) -> int:
+        """The start in whole games with which the round is nearest to even; the smallest of them.
+
+        >>> RoundLaw(np.array([0.6, 0.0, 0.3, 0.0, 0.1])).fair_start
+        1
+        """
+        starts = sorted(range(-self.reach - 1, self.reach + 2), key=abs)
+        unfair = [self.with_start(start).unfair for start in starts]
+        least = min(unfair) + _ALIKE
+        return next(start for start, off in zip(starts, unfair, strict=True) if off <= least)
+
+
+def round_law(
+    ours: Roster,
+    theirs: Roster,
+    *,
+    games: int | None = None,
+    race: Race | None = None,
+    everybody: bool = False,
+    scale: Scale | str | float = "fargo",
+) -> RoundLaw:
+    """Return the law of our lead in games at the end of a round.
+
+    Parameters
+    ----------
+    ours, theirs
+        the two teams with their ratings. Where they state standard errors, the chances of each
+        match are averaged over how far the ratings may be off.
+    games, race
+        what each match is, one of them: so many single games, or a race of which all games count.
+    everybody
+        whether each of our players meets each of theirs; else the first meets the first, and so on.
+    scale
+        the scale of the ratings.
+
+    Raises
+    ------
+    InputError
+        if a player has no rating, the teams have different sizes but meet one to one, or not just
+        one of `games` and `race` is given.
+
+    >>> law = round_law(Roster(["Ann"], [500]), Roster(["Bo"], [600]), games=2)
+    >>> law.lead.round(4), law.fair_start
+    (array([0.4444, 0.    , 0.4444, 0.    , 0.1111]), 1)
+    """
+    if (games is None) == (race is None):
+        raise InputError("give one of games and race")
+    if not everybody and len(ours) != len(theirs):
+        raise InputError(
+            f"one team has {len(ours)} players and the other {len(theirs)}; leave out those who "
+            "do not play, or let everybody meet everybody"
+        )
+    scale = scale_of(scale)
+    if race is None:
+        whole(games, "games", at_least=1)
+    errors = np.nan_to_num(np.concatenate([ours.standard_error, theirs.standard_error]))
+    met = [(i, j) for i in range(len(ours)) for j in range(len(theirs)) if everybody or i == j]
+
+    def law(skills: tuple[Floats, Floats] | None) -> Floats:
+        if race is None:
+            laws = _single_games(ours, theirs, int(games or 1), scale, skills)
+        else:
+            found = set_laws(ours, theirs, race, scale=scale, count="games", skills=skills)
+            laws = found.sum(axis=2)
+        lead = np.ones(1)
+        for pair in met:
+            lead = np.convolve(lead, laws[pair])
+        return lead
+
+    if not (everybody and errors.any()):
+        return RoundLaw(law(None))
+    ratings = np.concatenate([ours.rating, theirs.rating])
+    drawn = MultivariateNormalQMC(ratings, np.diag(errors**2), rng=0).random(_DRAWS)
+    split = len(ours)
+    return RoundLaw(np.mean([law((one[:split], one[split:])) for one in drawn], axis=0))
+
+
+def _single_games(
+    ours: Roster,
+    theirs: Roster,
+    games: int,
+    scale: Scale,
+    skills: tuple[Floats, Floats] | None,
+) -> Floats:
+    """Return the law of the lead after single games: shape (ours, theirs, 2 games + 1)."""
+    points, errors = rating_differences(ours, theirs)
+    if skills is not None:
+        points, errors = skills[0][:, None] - skills[1], np.zeros(points.shape)
+    nodes, weights = averaging_rule(float(errors.max()), games, scale)
+    p = scale.win_probability(points + nodes[:, None, None] * errors)
+    law = np.zeros((*points.shape, 2 * games + 1))
+    for won in range(games + 1):
+        law[..., 2 * won] = np.tensordot(weights, binom.pmf(won, games, p), axes=1)
+    return law
+
+
+def known_starts(law: RoundLaw, *others: int) -> Sequence[int]:
+    """Return the starts worth listing: none, those up to one beyond the fair one, and others."""
+    sign = 1 if law.fair_start >= 0 else -1
+    listed = {sign * k for k in range(abs(law.fair_start) + 2)} | set(others)
+    return sorted(listed, key=lambda start: sign * start)
