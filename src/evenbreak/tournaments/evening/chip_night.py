@@ -212,7 +212,7 @@ class _Walk:
         before, self.won[rack.name] = self.won[rack.name], winner
         self.count()
         now = self.racks.get(self.tables.get(rack.table, ""))
-        if now is not None and now.after == rack.name and before in {*now.players} - {winner}:
+        if now is not None and now.after == rack.name:
             self.swap(now, before, winner)
         for name, chips in self.chips.items():
             if chips and name in self.gone and name not in self.dropped:
@@ -234,6 +234,8 @@ class _Walk:
 
     def swap(self, rack: Rack, wrong: str, right: str) -> None:
         """Let the right player stay at a table whose next rack has just begun."""
+        if wrong == right or wrong not in rack.players:
+            return
         if right in rack.players:
             self.racks[rack.name] = rack._replace(players=(right, wrong))
             return

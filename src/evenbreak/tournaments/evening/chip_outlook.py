@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,11 +20,16 @@ if TYPE_CHECKING:
 
 _RUNS = 10_000
 _EXACT = 4  # players at most whose odds are exact
+_CELLS, _FEWEST, _MOST = 4e6, 200, 2_000  # draws of the skills
 
 
-def rack_table(state: Evening, chances: Mapping[str, Floats]) -> Floats:
-    """Return P(i beats j in a rack), which is the same in every rack."""
-    return chances[state.bracket.matches[-1].name]
+def drawn_racks(state: Evening, skills: Floats, covariance: Floats) -> Floats:
+    """Return P(i beats j in a rack) by many draws of the players' skills, the third axis."""
+    count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
+    rng = np.random.default_rng(0)
+    drawn = rng.multivariate_normal(skills, covariance, count, method="eigh").T
+    racks: Floats = state.scale.win_probability(drawn[:, None] - drawn)
+    return racks
 
 
 def chip_odds(state: Evening, win: Floats) -> PlaceOdds:

@@ -18,10 +18,11 @@ from scipy.special import betainc
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.chips.racks import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.finish import Finish, finish
-from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, rack_table
+from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
 from evenbreak.tournaments.evening.later_draws import pairings, stage_to_draw, swiss_of
@@ -131,7 +132,7 @@ class Outlook:
         if state.plan.form == "swiss":
             return self._swiss_odds(chances)
         if state.plan.form == "chips":
-            return chip_odds(state, rack_table(state, chances))
+            return chip_odds(state, rack_chances(state.ratings, scale=state.scale))
         if stage_to_draw(state) is not None:
             return redraw_odds(state.whole, chances, results=state.results, samples=_REDRAWS)
         return title_odds(state.bracket, chances, results=state.results, rng=rng)
@@ -143,12 +144,12 @@ class Outlook:
             return self.as_if_sure
         state = self.state
         skills, covariance = skills_tonight(state.ratings, self.errors, self.games, state.scale)
-        if state.plan.form in ("swiss", "chips"):
+        if state.plan.form == "chips":
+            return chip_odds(state, drawn_racks(state, skills, covariance))
+        if state.plan.form == "swiss":
             asked = state.whole, self.chances, skills, covariance
-            drawn = drawn_chances(*asked, samples=_RATINGS, rng=np.random.default_rng(0))
-            if state.plan.form == "swiss":
-                return self._swiss_odds(drawn)
-            return chip_odds(state, rack_table(state, drawn))
+            rng = np.random.default_rng(0)
+            return self._swiss_odds(drawn_chances(*asked, samples=_RATINGS, rng=rng))
         if stage_to_draw(state) is not None:
             return self.as_if_sure
         return over_ratings(
@@ -256,7 +257,7 @@ class Outlook:
         self, *, tables: int | None = None, turnover: Turnover | None = None
     ) -> Floats:
         """Return when a chip tournament ends in each of many evenings, as `finish` does."""
-        win = rack_table(self.state, self.chances(self.state.ratings))
+        win = rack_chances(self.state.ratings, scale=self.state.scale)
         pace = learned_pace(self.state.plan.discipline, self.timed)
         later = chip_minutes(self.state, win, pace, tables=tables, turnover=turnover)
         return self.minutes(self.now) + later
