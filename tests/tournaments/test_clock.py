@@ -283,3 +283,12 @@ def test_what_cannot_be_timed_is_refused(asked: dict, named: str) -> None:
     bracket = double_elimination(4)
     with pytest.raises(InputError, match=named):
         finish(bracket, **{"laws": laws_of(bracket), **asked})
+
+
+def test_of_many_matches_the_longest_paths_are_tried_and_the_rest_follow():
+    bracket = double_elimination([f"P{k}" for k in range(32)])
+    laws = pair_odds(bracket, np.linspace(700.0, 400.0, 32), 5, scale="fargo")
+    calls = finish(bracket, laws, tables=4).calls()
+    assert sorted(call.match for call in calls) == sorted(f"W1.{k}" for k in range(1, 17))
+    assert [bool(np.isnan(call.later)) for call in calls] == [False] * 12 + [True] * 4
+    assert calls[0].later == 0.0

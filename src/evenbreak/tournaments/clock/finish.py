@@ -17,11 +17,13 @@ from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.clock.evenings import Evenings, InPlay, play_evenings
 from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.matches_of import Waiting, waiting
-from evenbreak.tournaments.clock.table_schedule import Schedule, schedule
+from evenbreak.tournaments.clock.table_schedule import Schedule, longest_paths, schedule
 from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)
-_TRIED = 500  # evenings on which each call is tried
+_TRIED, _FEWEST_TRIED = 500, 60  # evenings on which each call is tried; fewer of large brackets
+_CALLS = 12  # calls that are tried
+_WORK = 7e7  # what trying them may cost: calls x evenings x matches x matches
 
 
 class Start(NamedTuple):
@@ -42,7 +44,7 @@ class Start(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A match that could be called next.
+    """A match that could be called next; NaN where it was not tried because there are many.
 
     Parameters
     ----------
@@ -128,13 +130,16 @@ class Finish:
         """Return the matches that can be called next, the one with the soonest finish first.
 
         All are tried on the same evenings, some of those played out, so that small differences
-        are real.
+        are real. Of many matches those with the longest remaining path are tried; the others
+        follow in that order, with NaN for what was not tried.
         """
-        room = self._room.on_the_first(_TRIED)
-        ready = [name for name in self.standing.to_play if name not in room.on_tables]
-        ends = {name: room.ends(room.planned(self.names.index(name))) for name in ready}
-        if not ends:
+        ready = [name for name in self.standing.to_play if name not in self._room.on_tables]
+        tried, untried = self._most_urgent(ready)
+        if not tried:
             return []
+        runs = int(_WORK / (len(tried) * len(self.names) ** 2))
+        room = self._room.on_the_first(min(_TRIED, max(_FEWEST_TRIED, runs)))
+        ends = {name: room.ends(room.planned(self.names.index(name))) for name in tried}
         best = min(ends, key=lambda name: float(ends[name].mean()))
         calls = []
         for name, end in ends.items():
@@ -144,7 +149,18 @@ class Finish:
             later = end - ends[best]
             error = float(later.std() / np.sqrt(len(later)))
             calls.append(Call(name, float(end.mean()), float(later.mean()), error))
-        return sorted(calls, key=lambda call: call.later)
+        calls.sort(key=lambda call: call.later)
+        return calls + [Call(name, np.nan, np.nan, np.nan) for name in untried]
+
+    def _most_urgent(self, ready: Sequence[str]) -> tuple[list[str], list[str]]:
+        """Return the matches to try calling, and the others, those that matter most first."""
+        if len(ready) <= _CALLS:
+            return list(ready), []
+        evenings = self._room.evenings
+        minutes = np.where(evenings.needed, evenings.minutes, 0.0).mean(axis=0)
+        path = longest_paths(self._room.waits, minutes)
+        order = sorted(ready, key=lambda name: -path[self.names.index(name)])
+        return order[:_CALLS], order[_CALLS:]
 
 
 @dataclass(frozen=True, eq=False)
