@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
@@ -67,6 +68,8 @@ class EveningView:
         who finished where, as far as decided.
     older
         whether odds and finish are those before the last entry.
+    chips
+        in a chip tournament each player with chips, table and place in the line.
     """
 
     state: Evening
@@ -79,6 +82,7 @@ class EveningView:
     odds: list[tuple[str, float]]
     places: list[tuple[str, str]]
     older: bool
+    chips: Sequence[Mapping[str, Any]] = ()
 
     @property
     def over(self) -> bool:
@@ -97,7 +101,7 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         what has been worked out, perhaps for an earlier state.
     """
     if not state.drawn:
-        return EveningView(state, races_words(state.races), [], [], [], [], None, [], [], False)
+        return EveningView(state, _races(state), [], [], [], [], None, [], [], False)
     data: dict[str, Any] = known.data if known else {}
     older = known is None or known.version < len(state.events)
     called = {name: table for table, name in known.calls} if known and not older else {}
@@ -114,11 +118,12 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
             for key in ("finish_p10", "finish_p50", "finish_p90")
         )
         finish = early, middle, late
-    odds = sorted(((one["name"], one["p_title"]) for one in data.get("odds", [])), key=_chance)
+    listed = data.get("odds") or data.get("players", [])  # of a chip tournament
+    odds = sorted(((one["name"], one["p_title"]) for one in listed), key=_chance)
     places = [(one["place"], one["name"]) for one in data.get("places", [])]
     return EveningView(
         state,
-        races_words(state.races),
+        _races(state),
         sorted(playing, key=lambda one: one.table or 0),
         sorted(calls, key=lambda one: one.table or 0),
         waiting,
@@ -127,7 +132,12 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         [one for one in odds if one[1] > 0.0],
         places,
         older,
+        [one for one in data.get("players", []) if one["chips"]],
     )
+
+
+def _races(state: Evening) -> str:
+    return "" if state.plan.form == "chips" else races_words(state.races)
 
 
 def match_view(state: Evening, name: str, table: int | None = None) -> MatchView:
