@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.remarks import Remark
-from evenbreak.answers.report_frames import file_name
 from evenbreak.files.results import ResultsFile
 from evenbreak.files.roster import RosterFile
 

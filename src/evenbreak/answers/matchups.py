@@ -7,10 +7,10 @@ from typing import Any
 import pandas as pd
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.remarks import Remarks
-from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.round import AT_A_TIME, Round
 from evenbreak.answers.round_words import (
     about_levels,

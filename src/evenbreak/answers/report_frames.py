@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from evenbreak import __version__
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
 
@@ -66,11 +66,6 @@ def summary_frame(
 def count_groups(ratings: Ratings) -> int:
     """Return how many groups of players never met; a player without results is no group."""
     return len(np.unique(ratings.component[~ratings.idle]))
-
-
-def file_name(file: ResultsFile | RosterFile) -> str:
-    """Return the name of a file without its folders."""
-    return file.source.replace("\\", "/").rpartition("/")[2]
 
 
 def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:

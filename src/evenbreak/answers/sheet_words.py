@@ -5,9 +5,10 @@ from typing import Any
 
 import pandas as pd
 
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.prior_words import level_words
-from evenbreak.answers.report_frames import count_groups, dates_of, file_name
+from evenbreak.answers.report_frames import count_groups, dates_of
 from evenbreak.answers.scale_words import game_chance, like_scale_words
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.wording import count_of, percent, race

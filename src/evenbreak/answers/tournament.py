@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.remarks import Remark
-from evenbreak.answers.report_frames import file_name
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.arrays import Floats

@@ -7,8 +7,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from evenbreak.answers.file_words import file_name
 from evenbreak.answers.left_out import left_out
-from evenbreak.answers.report_frames import count_groups, file_name
+from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,

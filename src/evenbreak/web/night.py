@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
-import threading
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -20,9 +18,10 @@ from evenbreak.answers.tournament_night import begun_at, next_calls, night_answe
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.web.beside import Beside
 
 _STALE = 30.0  # seconds after which the finish is worked out again
-_WAIT = 0.06  # seconds that a page waits for what is being worked out
+_WAIT, _WAIT_AT_FIRST = 0.03, 0.3  # seconds that a page waits for what is being worked out
 
 
 def now() -> str:
@@ -70,6 +69,7 @@ class Night:
         self.known: Known | None = None
         self._read: tuple[tuple[int, int, int], int, Evening] | None = None
         self._work: asyncio.Task[None] | None = None
+        self._beside = Beside()
 
     @property
     def exists(self) -> bool:
@@ -97,7 +97,8 @@ class Night:
         if not fresh:
             if self._work is None or self._work.done():
                 self._work = asyncio.create_task(self._work_out(version, state))
-            await asyncio.wait({self._work}, timeout=_WAIT)
+            wait = _WAIT if self.known else _WAIT_AT_FIRST
+            await asyncio.wait({self._work}, timeout=wait)
             if self._work.done():
                 self._work.result()  # raises what went wrong
         return self.known
@@ -109,36 +110,9 @@ class Night:
             calls = next_calls(night) if state.standing.to_play else []
             return Known(version, 0.0, data, calls, begun_at(night))
 
-        found = await _beside(work)
+        found = await self._beside.run(work)
         clock = asyncio.get_running_loop().time()
         self.known = Known(found.version, clock, found.data, found.calls, found.start)
-
-
-async def _beside(work: Callable[[], Known]) -> Known:
-    """Return what a function returns that runs in a thread which the end of the page ends too."""
-    loop = asyncio.get_running_loop()
-    done: asyncio.Future[Known] = loop.create_future()
-
-    def settle(found: Known | None, error: Exception | None) -> None:
-        if done.cancelled():
-            return
-        if error is not None:
-            done.set_exception(error)
-        elif found is not None:
-            done.set_result(found)
-
-    def run() -> None:
-        found: Known | None = None
-        failed: Exception | None = None
-        try:
-            found = work()
-        except Exception as error:
-            failed = error
-        with suppress(RuntimeError):  # the loop has ended meanwhile
-            loop.call_soon_threadsafe(settle, found, failed)
-
-    threading.Thread(target=run, daemon=True).start()
-    return await done
 
 
 def _mark(path: Path) -> tuple[int, int, int]:

@@ -63,7 +63,7 @@ def _field(
 ) -> tuple[ChipField, list[str]]:
     from evenbreak import files, ratings
     from evenbreak.answers.chips import ChipField, spread_field
-    from evenbreak.answers.report_frames import file_name
+    from evenbreak.answers.file_words import file_name
 
     if entrants is None:
         return spread_field(stated or ratings.SCALES["fargo"], tables), []

@@ -34,7 +34,7 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.sampled import places_of_samples
 from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 
-_CELLS = 4_000_000
+_CELLS = 300_000
 _SAMPLES_EACH = 20  # of a bracket that is too large to be exact; the ratings vary more
 _MOST_STATES = 1e6
 _FEWEST, _MOST = 200, 2_000  # draws of the ratings

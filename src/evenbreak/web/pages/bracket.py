@@ -12,8 +12,6 @@ from starlette.routing import Route
 from evenbreak.answers.bracket_view import bracket_panels
 from evenbreak.answers.score_cards import score_cards
 from evenbreak.answers.tournament import races_words
-from evenbreak.sheets.bracket_drawing import bracket_pdf
-from evenbreak.sheets.score_card_pages import score_cards_pdf
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.page import page, site_of
 from evenbreak.web.refusals import RefusalError
@@ -27,6 +25,8 @@ async def bracket(request: Request) -> Response:
 
 async def bracket_on_paper(request: Request) -> Response:
     """Return the bracket as a PDF."""
+    from evenbreak.sheets.bracket_drawing import bracket_pdf
+
     state = await _drawn(request)
     name = site_of(request).path.stem
     heading = [name, races_words(state.races)]
@@ -36,6 +36,8 @@ async def bracket_on_paper(request: Request) -> Response:
 
 async def cards_on_paper(request: Request) -> Response:
     """Return the score cards as a PDF."""
+    from evenbreak.sheets.score_card_pages import score_cards_pdf
+
     state = await _drawn(request)
     cards = score_cards(state, None)
     if not cards:

@@ -1,0 +1,50 @@
+"""A thread beside the pages, for what takes long."""
+
+from __future__ import annotations
+
+import asyncio
+import queue
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any, TypeVar
+
+Found = TypeVar("Found")
+
+
+class Beside:
+    """One thread that works things out, one after another; the end of the program ends it too.
+
+    It is always the same thread: each new one would keep memory of its own.
+    """
+
+    def __init__(self) -> None:
+        self._asked: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._thread: threading.Thread | None = None
+
+    async def run(self, work: Callable[[], Found]) -> Found:
+        """Return what a function returns, or raise what it raises."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._serve, daemon=True)
+            self._thread.start()
+        loop = asyncio.get_running_loop()
+        done: asyncio.Future[Found] = loop.create_future()
+
+        def settle(how: Callable[[Any], None], value: Any) -> None:
+            if not done.done():
+                how(value)
+
+        def job() -> None:
+            try:
+                outcome: tuple[Callable[[Any], None], Any] = done.set_result, work()
+            except Exception as error:
+                outcome = done.set_exception, error
+            with suppress(RuntimeError):  # the loop has ended meanwhile
+                loop.call_soon_threadsafe(settle, *outcome)
+
+        self._asked.put(job)
+        return await done
+
+    def _serve(self) -> None:
+        while True:
+            self._asked.get()()
