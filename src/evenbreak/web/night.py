@@ -21,7 +21,7 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.beside import Beside
 
 _STALE = 30.0  # seconds after which the finish is worked out again
-_WAIT, _WAIT_AT_FIRST = 0.03, 0.3  # seconds that a page waits for what is being worked out
+_WAIT = 0.03  # seconds that a page waits for what is being worked out
 
 
 def now() -> str:
@@ -97,8 +97,7 @@ class Night:
         if not fresh:
             if self._work is None or self._work.done():
                 self._work = asyncio.create_task(self._work_out(version, state))
-            wait = _WAIT if self.known else _WAIT_AT_FIRST
-            await asyncio.wait({self._work}, timeout=wait)
+            await asyncio.wait({self._work}, timeout=_WAIT)
             if self._work.done():
                 self._work.result()  # raises what went wrong
         return self.known

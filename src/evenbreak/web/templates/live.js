@@ -21,14 +21,17 @@
       }
     } catch { /* the next event tries again */ }
     waiting = false;
+    again();
   };
+  // Odds and finish may still be worked out when a page is shown.
+  const again = () => { if (document.querySelector("[data-older]")) setTimeout(renew, 2000); };
   const follow = () => {
     const stream = new EventSource("/events");
     stream.onmessage = (event) => {
-      if (seen !== null && seen !== event.data) { renew(); setTimeout(renew, 2500); }
+      if (seen !== null && seen !== event.data) renew();
       seen = event.data;
     };
   };
-  addEventListener("DOMContentLoaded", follow);
+  addEventListener("DOMContentLoaded", () => { follow(); again(); });
   setInterval(renew, 60000);
 })();
