@@ -115,8 +115,8 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        "These are ratings as rate and report make them, with the prior that the results choose: "
-        f"{use} points. With the usual prior of {default} points, {_too_sure(wrong)}."
+        f"All of this is for a prior of {use} points, which rate and report use too if --prior is "
+        f"left out. With a prior of {default} points, {_too_sure(wrong)}."
     )
 
 
