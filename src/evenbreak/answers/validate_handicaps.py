@@ -67,9 +67,11 @@ def _fairness(found: Validation, by_games: int) -> str:
             f"{figures}; fair is 50%."
         )
     if every.high - every.low > WIDE:
-        return (
-            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
-        )
+        unknown = "There are too few handicap matches to say whether the handicaps are fair"
+        by_size = _unfair_by_size(found.spots[:-1])
+        if by_size:
+            return f"{unknown} on average, but not all starts are fair. {by_size} {figures}."
+        return f"{unknown}. {figures}."
     if not every.low <= 0.5 <= every.high:
         return (
             f"The handicaps may give too {_little(1 if every.low > 0.5 else -1)}. {figures}; fair "

@@ -111,7 +111,7 @@ def _good_and_bad_days(times: float) -> str:
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
     """Return what the default prior would do where it is clearly wrong, '' where it is not."""
     wrong = wrong_chances(found.usual, found)
-    if not wrong or found.prior_sd == PRIOR_SD:
+    if not wrong or found.choice is None or found.prior_sd == PRIOR_SD:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
