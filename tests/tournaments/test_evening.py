@@ -10,10 +10,14 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from evenbreak.errors import InputError
+from evenbreak.tournaments import CHIP_CHARTS, ChipChart, ChipRow
 from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.chips.play import tables_in_use
 from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import (
     NAMES,
+    Drawn,
     Entrant,
     Event,
     Opened,
@@ -33,7 +37,9 @@ AT = "2025-03-01T19:30:00"
 
 def opened(players: int, form: str = "double") -> list[Event]:
     entrants = tuple(Entrant(f"P{k}", 600.0 - 10.0 * k) for k in range(1, players + 1))
-    return [Event(AT, Opened(Plan(form, 5, scale="fargo", starter=500.0), entrants))]
+    chips = CHIP_CHARTS["pharaohs"] if form == "chips" else None
+    plan = Plan(form, 1 if chips else 5, scale="fargo", starter=500.0, chips=chips)
+    return [Event(AT, Opened(plan, entrants))]
 
 
 def drawn(players: int, form: str = "double") -> list[Event]:
@@ -88,6 +94,7 @@ class Night(RuleBasedStateMachine):
         self.events: list[Event] = []
         self.states: list[Evening] = []
         self.newcomers = 0
+        self.race = 5
 
     @initialize(
         players=st.integers(4, 13), form=st.sampled_from(["double", "single", "consolation"])
@@ -95,6 +102,9 @@ class Night(RuleBasedStateMachine):
     def begin(self, players: int, form: str) -> None:
         self.events = drawn(players, form)
         self.states = [evening(self.events)]
+
+    def scored(self, lost: int, first: bool) -> tuple[int, int]:
+        return (self.race, lost % self.race) if first else (lost % self.race, self.race)
 
     @property
     def state(self) -> Evening:
@@ -108,7 +118,7 @@ class Night(RuleBasedStateMachine):
     @rule(data=st.data(), lost=st.integers(0, 4), first=st.booleans())
     def result(self, data: st.DataObject, lost: int, first: bool) -> None:
         name = data.draw(st.sampled_from(self.state.standing.to_play))
-        self.add(moves.result(self.state, name, (5, lost) if first else (lost, 5)))
+        self.add(moves.result(self.state, name, self.scored(lost, first)))
 
     @precondition(lambda self: self.state.counted)
     @rule(data=st.data(), lost=st.integers(0, 4), first=st.booleans())
@@ -116,7 +126,7 @@ class Night(RuleBasedStateMachine):
         name = data.draw(st.sampled_from(sorted(self.state.counted)))
         before = self.state
         try:
-            what = moves.correct(before, name, (5, lost) if first else (lost, 5))
+            what = moves.correct(before, name, self.scored(lost, first))
         except InputError:  # the score that it has
             return
         self.add(what)
@@ -141,8 +151,9 @@ class Night(RuleBasedStateMachine):
     @rule(data=st.data(), one=st.integers(0, 4), other=st.integers(0, 4))
     def score(self, data: st.DataObject, one: int, other: int) -> None:
         name = data.draw(st.sampled_from(self.state.standing.to_play))
-        self.add(moves.score(self.state, name, (one, other)))
-        assert self.state.live[name].what.score == (one, other)
+        if self.race > 1:  # a rack has no score
+            self.add(moves.score(self.state, name, (one, other)))
+            assert self.state.live[name].what.score == (one, other)
 
     @precondition(lambda self: self.state.aside)
     @rule(data=st.data())
@@ -164,7 +175,7 @@ class Night(RuleBasedStateMachine):
 
     @rule(tables=st.integers(4, 6), race=st.none() | st.just(5))
     def change(self, tables: int, race: int | None) -> None:
-        self.add(moves.change(self.state, tables=tables, race=race))
+        self.add(moves.change(self.state, tables=tables, race=race if self.race > 1 else None))
 
     @rule()
     def late(self) -> None:
@@ -200,6 +211,107 @@ class Night(RuleBasedStateMachine):
 
 Night.TestCase.settings = settings(max_examples=25, stateful_step_count=25, deadline=None)
 TestNight = Night.TestCase
+
+
+class ChipNight(Night):
+    """The same of a chip tournament, whose racks depend on each other through the line."""
+
+    @initialize(players=st.integers(2, 11))
+    def begin(self, players: int) -> None:
+        self.race = 1
+        self.events = drawn(players, "chips")
+        self.states = [evening(self.events)]
+
+    @invariant()
+    def chips_are_paid_by_the_losers(self) -> None:
+        if not self.states:
+            return
+        state, night = self.state, self.state.chip_night
+        left = {name: chips_of(state.plan, one) for name, one in state.entrants.items()}
+        for name, played in state.records.items():
+            players, loser = played[-1].result.players, played[-1].result.loser
+            counts = all(left[player] for player in players)
+            assert (name in state.counted) == counts
+            left[loser] -= counts
+        assert night.chips == left
+        there = [*night.order, *night.gone]
+        assert sorted(there) == sorted(left)
+        for name in left:
+            assert (name in night.gone) == (not left[name] or name in state.dropped)
+
+    @invariant()
+    def tables_are_in_use_while_somebody_waits(self) -> None:
+        if self.states and len(self.state.chip_night.order) > 1:
+            night, tables = self.state.chip_night, self.state.plan.tables
+            usual = tables_in_use(len(night.order), tables)
+            assert len(night.tables) >= usual
+            assert len(night.order) == 2 * len(night.tables) + len(night.line)
+
+
+ChipNight.TestCase.settings = settings(max_examples=15, stateful_step_count=40, deadline=None)
+TestChipNight = ChipNight.TestCase
+
+
+def test_a_chip_night_is_played_like_a_line_of_players() -> None:
+    rng = np.random.default_rng(3)
+    events = drawn(9, "chips")
+    state = evening(events)
+    left = {name: chips_of(state.plan, one) for name, one in state.entrants.items()}
+    tables = {k + 1: list(state.order[2 * k : 2 * k + 2]) for k in range(4)}
+    line = [*state.order[8:]]
+    while len(tables) and sum(map(bool, left.values())) > 1:
+        table = int(rng.choice(sorted(tables)))
+        winner, loser = tables.pop(table)[:: rng.choice([1, -1])]
+        left[loser] -= 1
+        line += [loser] * bool(left[loser])
+        among = sum(map(bool, left.values()))
+        if among > 1 and max((among - 1) // 2, 1) > len(tables):
+            tables[table] = [winner, line.pop(0)]
+        else:
+            line.append(winner)
+        events.append(Event(AT, moves.result(state, str(table), winner)))
+        state = evening(events)
+        now = state.chip_night
+        assert {rack.table: list(rack.players) for rack in now.playing} == tables
+        assert (list(now.line), now.chips) == (line, left)
+    assert not state.standing.to_play
+
+
+def chip_racks(events: list[Event], *racks: tuple[int, str]) -> list[Event]:
+    for table, winner in racks:
+        events = [*events, Event(AT, moves.result(evening(events), str(table), winner))]
+    return events
+
+
+def test_a_wrong_winner_is_corrected_at_once_or_later() -> None:
+    events = chip_racks(drawn(5, "chips"), (1, "P1"))
+    before = evening(events).chip_night
+    assert before.line == ("P2",)
+    events.append(Event(AT, moves.correct(evening(events), "1", "P2")))
+    now = evening(events).chip_night
+    assert now.playing[0].players == ("P2", "P5")
+    assert now.line == ("P1",)
+    later = chip_racks(events, (1, "P2"), (2, "P3"))
+    state = evening([*later, Event(AT, moves.correct(evening(later), "R1", "P1"))])
+    assert state.chip_night.order == evening(later).chip_night.order  # nobody is called away
+    assert state.chip_night.chips["P2"] == evening(later).chip_night.chips["P2"] - 1
+    assert not state.aside
+
+
+def test_racks_of_a_player_whose_chips_were_gone_are_set_aside() -> None:
+    chart = ChipChart("one each", [ChipRow(0, 1)])
+    opened = Opened(Plan("chips", 1, chips=chart), tuple(Entrant(name, 9.0) for name in "ABCDE"))
+    events = [Event(AT, opened), Event(AT, Drawn(("A", "B", "C", "D", "E"), None))]
+    events = chip_racks(events, (1, "A"), (2, "C"), (2, "E"), (2, "A"))
+    assert evening(events).chip_night.gone == ("B", "D", "C", "E")
+    wrong = evening([*events, Event(AT, moves.correct(evening(events), "R1", "B"))])
+    assert [one.result.match for one in wrong.aside] == ["R4"]
+    assert wrong.chip_night.gone == ("D", "C", "A")
+    assert sorted(wrong.chip_night.order) == ["B", "E"]
+    with pytest.raises(InputError, match="stand"):
+        stand(wrong, "R4")
+    with pytest.raises(InputError, match="does not count"):
+        moves.correct(wrong, "r4", "E")
 
 
 def played(events: list[Event], **scores: tuple[int, int]) -> list[Event]:

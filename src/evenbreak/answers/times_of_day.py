@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+
 _DAY = 24 * 60
 
 
@@ -13,6 +15,15 @@ def time_of_day(minutes: float) -> str:
     """
     moment = round(minutes) % _DAY
     return f"{moment // 60:02d}:{moment % 60:02d}"
+
+
+def minute_of_day(moment: datetime) -> int:
+    """Return a time of day in minutes after midnight.
+
+    >>> minute_of_day(datetime(2025, 3, 1, 19, 30))
+    1170
+    """
+    return 60 * moment.hour + moment.minute
 
 
 def ends_words(early: float, middle: float, late: float) -> str:

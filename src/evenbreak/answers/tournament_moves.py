@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from evenbreak.answers.tournament import slot_words, unrated_words
+from evenbreak.answers.tournament_chips import chip_changes, entered_words, rack_words
 from evenbreak.answers.tournament_night import waits_for
 from evenbreak.answers.wording import some_of
 from evenbreak.tournaments.brackets.bracket import Place, Source
@@ -39,6 +40,8 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
     if not isinstance(event.what, Result):
         return []
     result = event.what
+    if after.plan.form == "chips":
+        return [f"{rack_words(result)}.", *chip_changes(before, after)]
     said = [f"{score_words(result)} in {result.match}."]
     if any(_leads_on(after, result.match)):
         said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
@@ -67,6 +70,8 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
     """
     if not (before.drawn and after.drawn):
         return []
+    if after.plan.form == "chips":
+        return chip_changes(before, after)
     said = []
     gone = [name for name in before.counted if name not in after.counted and name != besides]
     if gone:
@@ -121,6 +126,8 @@ def forfeited(before: Evening, after: Evening) -> list[str]:
     """Return in words what follows from a player going home."""
     gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
     said = [f"{name} has dropped out." for name in sorted(gone)]
+    if after.plan.form == "chips":
+        return said + chip_changes(before, after)
     if after.drawn:
         said += [
             f"{score_words(result)} in {name}."
@@ -142,6 +149,8 @@ def entry_words(state: Evening, name: str) -> str:
 def _entered(state: Evening, name: str) -> str:
     if not state.drawn:
         return f"{name} has entered."
+    if state.plan.form == "chips":
+        return entered_words(state, name)
     seat = state.order.index(name)
     for match, seats in state.standing.seats.items():
         if seat in seats:

@@ -9,8 +9,9 @@ import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.times_of_day import ends_words, time_of_day
+from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
 from evenbreak.answers.tournament import pair_words, races_words
+from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.tournament_stakes import Stake, stakes
 from evenbreak.answers.wording import count_of, decimals, listed, percent
@@ -18,6 +19,7 @@ from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
+from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import (
@@ -41,22 +43,24 @@ _SHOWN = 6  # players whose title odds everybody sees
 def heading(outlook: Outlook, source: str = "") -> str:
     """Return what is played by whom."""
     state = outlook.state
-    races = races_words(state.races)
+    chips = state.plan.form == "chips"
+    races = chip_heading(state) if chips else races_words(state.races)
     if not state.drawn:
         text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
     else:
         form = state.bracket.format
-        players, played = count_of(len(state.order), "player"), len(state.winners)
-        text = (
-            f"{form[0].upper()}{form[1:]}: {players}, "
-            f"{count_of(played, 'match', 'matches')} decided\n{races}"
-        )
+        played = len(state.winners)
+        so_far = f"{count_of(played, 'match', 'matches')} decided"
+        if chips:
+            so_far = f"{count_of(played, 'rack')} played"
+        players = count_of(len(state.order), "player")
+        text = f"{form[0].upper()}{form[1:]}: {players}, {so_far}\n{races}"
     return f"{source}: {text}" if source else text
 
 
 def begun_at(outlook: Outlook) -> int:
     """Return the time of day at which the evening began, in minutes after midnight."""
-    return 60 * outlook.start.hour + outlook.start.minute
+    return minute_of_day(outlook.start)
 
 
 def night_answer(
@@ -95,33 +99,18 @@ def night_answer(
     state = night.state
     if not state.drawn:
         return _before_the_draw(state, heading(night, source), said)
+    if state.plan.form == "chips":
+        return chip_night_answer(night, said, heading(night, source))
     odds = night.odds
     words = list(said)
     parts: list[Part] = []
     tied = tied_groups(state)
     under_way = bool(state.standing.to_play or tied) or stage_to_draw(state) is not None
     if under_way:
-        found = night.finish()
-        calls = found.calls()
-        tables = _tables(state, calls)
         decided = stakes(night, prizes) if decides else {}
-        if tied:
-            words.append(
-                f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
-                "ties with: evenbreak tournament tiebreak"
-            )
-        if can_draw(state):
-            words.append(_draw_words(state))
-        elif state.standing.to_play:
-            words.append(_next_words(state, tables))
-            if len(decided) > 1:
-                words.append(_most_words(state, decided))
-        words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
-        keys = ("finish_p10", "finish_p50", "finish_p90")
-        parts += [
-            Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
-            _next_table(night, tables, decided, calls if decides else (), prizes),
-        ]
+        said_now, shown = _what_is_next(night, decided, prizes, decides)
+        words += said_now
+        parts += shown
     else:
         first = [state.order[k] for k in np.flatnonzero(odds.title > 0.0).tolist()]
         if len(first) == 1:
@@ -149,6 +138,34 @@ def night_answer(
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
     return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
+
+
+def _what_is_next(
+    night: Outlook, decided: dict[str, Stake], prizes: Sequence[float], decides: bool
+) -> tuple[list[str], list[Part]]:
+    """Return in words and as a table what is played next and when it ends."""
+    state, tied = night.state, tied_groups(night.state)
+    words: list[str] = []
+    found = night.finish()
+    calls = found.calls()
+    tables = _tables(state, calls)
+    if tied:
+        words.append(
+            f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
+            "ties with: evenbreak tournament tiebreak"
+        )
+    if can_draw(state):
+        words.append(_draw_words(state))
+    elif state.standing.to_play:
+        words.append(_next_words(state, tables))
+        if len(decided) > 1:
+            words.append(_most_words(state, decided))
+    words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
+    keys = ("finish_p10", "finish_p50", "finish_p90")
+    return words, [
+        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
+        _next_table(night, tables, decided, calls if decides else (), prizes),
+    ]
 
 
 def _draw_words(state: Evening) -> str:
@@ -192,6 +209,10 @@ def _title_table(night: Outlook) -> Table:
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
     columns = [Column("name", "player", left=True), Column("rating", "rating")]
     rows = [[entrant.name, entrant.rating] for entrant in state.entrants.values()]
+    if state.plan.form == "chips":
+        columns.append(Column("chips", "chips"))
+        for row, entrant in zip(rows, state.entrants.values(), strict=True):
+            row.append(chips_of(state.plan, entrant))
     words = [*said, "Make the draw with: evenbreak tournament draw"]
     return Answer(heading, ["\n".join(words), Table("entrants", columns, rows)])
 

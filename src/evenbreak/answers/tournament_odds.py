@@ -230,7 +230,13 @@ def how_words(
         lines.append("These are the odds before the draw; every draw is equally likely.")
     elif to_draw == "qualifiers":
         lines.append("The qualifiers of the losers' side are still to be drawn.")
-    if to_draw == "rounds":
+    if to_draw == "racks" and not odds.exact:
+        drawn = ", each time with other ratings" if averaged else ""
+        lines.append(
+            f"The rest of the evening was played out {samples} times{drawn}; other luck would "
+            f"move no title odds by more than about {title}."
+        )
+    elif to_draw == "rounds":
         drawn = ", each time with other ratings" if averaged else ""
         lines.append(
             f"The rounds to come were paired and played {samples} times{drawn}; other luck would "

@@ -11,6 +11,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words
+from evenbreak.answers.tournament_chips import chip_time_answer
 from evenbreak.answers.tournament_night import begun_at, heading
 from evenbreak.answers.tournament_odds import favourite_words, how_words, odds_table
 from evenbreak.answers.tournament_stakes import stakes
@@ -83,6 +84,8 @@ def odds_under_way(
 
 def _to_draw(state: Evening) -> str:
     """Return what the odds take as still to be drawn."""
+    if state.plan.form == "chips":
+        return "racks"
     if stage_to_draw(state) is None:
         return "rounds" if state.plan.form == "swiss" and state.standing.to_play else ""
     return "rounds" if state.plan.form == "swiss" else "qualifiers"
@@ -90,10 +93,11 @@ def _to_draw(state: Evening) -> str:
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     """Return what the matches that can be played change for the title, prizes and the finish."""
-    found, decided = outlook.finish(), stakes(outlook, prizes)
+    decided = stakes(outlook, prizes)
+    found = outlook.finish() if decided else None
     rows: list[list[Any]] = []
     for name, stake in decided.items():
-        first, second = found.if_won(name)
+        first, second = found.if_won(name) if found else (np.nan, np.nan)
         later = None if np.isnan(first - second) else first - second
         rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
         if stake.prize is not None:
@@ -141,6 +145,9 @@ def time_under_way(
         if nothing is left to play.
     """
     state = outlook.state
+    if state.plan.form == "chips":
+        above = heading(outlook, source)
+        return chip_time_answer(outlook, above, tables=tables, turnover=turnover)
     if not state.standing.to_play and stage_to_draw(state) is None:
         raise InputError("all matches have been played")
     usual = state.plan.tables if tables is None else tables

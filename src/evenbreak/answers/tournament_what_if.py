@@ -11,7 +11,9 @@ from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.clock.finish import Finish, minutes_later
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
 
-_WORTH_SAYING = 10.0  # minutes
+WORTH_SAYING = 10.0
+"""How many minutes sooner are worth a sentence."""
+
 _CHANGES = {
     "one_more_table": "one more table",
     "one_table_fewer": "one table fewer",
@@ -59,7 +61,7 @@ def what_if(
     columns = [
         Column("change"),
         Column("in_words", "change", left=True),
-        Column("minutes_later", "the finish\nmoves by", _moves),
+        Column("minutes_later", "the finish\nmoves by", moves_words),
         Column(
             "minutes_later_error",
             "standard\nerror",
@@ -81,11 +83,16 @@ def savings_words(changes: Table) -> str:
     return " ".join(
         f"With {_CHANGES[key]} it would end {clock(saved)} earlier."
         for key, saved in savings(changes).items()
-        if saved >= _WORTH_SAYING
+        if saved >= WORTH_SAYING
     )
 
 
-def _moves(minutes: float) -> str:
+def moves_words(minutes: float) -> str:
+    """Return by how much the finish moves.
+
+    >>> moves_words(-72.0), moves_words(0.2)
+    ('1 h 12 earlier', '0 min')
+    """
     if abs(minutes) < 0.5:
         return "0 min"
     return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"

@@ -24,6 +24,7 @@ from evenbreak.files.saved_brackets import (
 )
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import (
     Called,
     Drawn,
@@ -35,7 +36,7 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     What,
 )
-from evenbreak.tournaments.evening.fold import bracket_of, evening
+from evenbreak.tournaments.evening.fold import evening
 
 _READERS: tuple[tuple[Any, Callable[[Any], SavedBracket]], ...] = (
     (export_cuescore, of_cuescore),

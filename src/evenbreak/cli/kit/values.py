@@ -119,6 +119,24 @@ SCORE = TwoWhole(
 )
 """A score: 3:0, 3-0 or 3/0."""
 
+
+class _ScoreOrName(click.ParamType):  # type: ignore[type-arg]
+    """A score, or the name of a player."""
+
+    name = "score"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, int] | str:
+        """Return the score, or the name as it was written."""
+        if isinstance(value, str) and value.strip()[:1].isalpha():
+            return value
+        return SCORE.convert(value, param, ctx)
+
+
+SCORE_OR_NAME = _ScoreOrName()
+"""A score, or in a chip tournament the winner."""
+
 SPAN = TwoWhole(
     r"\.\.",
     1,

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 def command(*, match: str | None, table: int | None, file: str, at: str) -> Answer:
     """Call a match to a table; without MATCH, the next matches to all free tables.
 
+    In a chip tournament players come to the tables by themselves, in the order of the line.
+
     The times of calls and results show how fast this evening is, and so when it ends.
     """
     from evenbreak.answers.tournament_night import next_calls
@@ -35,6 +37,11 @@ def command(*, match: str | None, table: int | None, file: str, at: str) -> Answ
         refuse("--table is for one match; name it, such as W1.1")
 
     def decide(state: Evening) -> list[Called]:
+        if state.plan.form == "chips":
+            refuse(
+                "a chip tournament needs no calls: each result brings the next in the line to the "
+                "table; see evenbreak tournament next"
+            )
         if match is not None:
             return [moves.call(state, match, table)]
         called = [moves.call(state, name, k) for k, name in next_calls(Outlook(state, at))]

@@ -15,7 +15,10 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 @at_option
 @faces()
 def command(*, player: str, file: str, at: str) -> Answer:
-    """Let PLAYER go home: they forfeit all their matches to come."""
+    """Let PLAYER go home: they forfeit all their matches to come.
+
+    In a chip tournament they are out, and the next in the line takes their place at the table.
+    """
     from evenbreak.answers.tournament_moves import forfeited
     from evenbreak.tournaments.evening import moves
 

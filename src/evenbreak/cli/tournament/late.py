@@ -26,7 +26,10 @@ if TYPE_CHECKING:
 @at_option
 @faces()
 def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
-    """Let PLAYER in: before the draw, or afterwards in place of a bye that is still open."""
+    """Let PLAYER in: before the draw, or afterwards in place of a bye that is still open.
+
+    In a chip tournament they get chips by the chart and go to the end of the line.
+    """
     from evenbreak.answers.tournament_moves import entry_words
     from evenbreak.files.player_names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves

@@ -20,6 +20,7 @@ EXAMPLES = """\b
 Examples:
   evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4 --seeding blind
   evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
+  evenbreak tournament new entrants.csv --format chips --chips hoboken --tables 4
 """
 
 
@@ -47,8 +48,9 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     """Begin a tournament: write its entrants and what is played to a new file.
 
     Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
-    place of a bye. The other commands read and write tonight.db unless --file or the environment
-    variable EVENBREAK_TOURNAMENT names another file.
+    place of a bye, or in a chip tournament at the end of the line. The other commands read and
+    write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another
+    file.
     """
     from dataclasses import replace
 
@@ -68,6 +70,8 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
         roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
     if plan.form == "swiss":
         swiss_round(swiss_of(plan, roster.players))  # refuses what cannot be paired
+    if plan.chips is not None:
+        plan.chips.chips(roster.rating)  # refuses ratings below the chart
     errors = np.nan_to_num(roster.standard_error).tolist()
     entrants = tuple(
         Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)

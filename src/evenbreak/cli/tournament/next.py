@@ -8,6 +8,7 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.evening import at_option, file_option
 from evenbreak.cli.tournament.prize_money import paid_places, prizes_option
 
@@ -28,13 +29,15 @@ def command(*, prizes: str | None, file: str, at: str) -> Answer:
 
     Each match that can be played is listed with what it decides: the title odds that its result
     moves from some players to others, and how much later the tournament would end if it were
-    called first.
+    called first. In a chip tournament it shows who is at which table and who is next in the line.
     """
     from evenbreak.answers.tournament_night import night_answer
     from evenbreak.files.tournament_store import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
 
     state = read_tournament(file)
+    if prizes is not None and state.plan.form == "chips":
+        refuse("--prizes is for matches; in a chip tournament no single rack decides them")
     paid = paid_places(prizes, len(state.entrants))
     name = PurePath(file).name
     return night_answer(Outlook(state, at), decides=True, prizes=paid, source=name)

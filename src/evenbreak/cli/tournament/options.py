@@ -7,6 +7,7 @@ from functools import update_wrapper
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+from click.core import ParameterSource
 
 from evenbreak import files, ratings, tournaments
 from evenbreak.cli.kit.options import (
@@ -19,9 +20,16 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.tournament.checked_options import (
+    check_qualifiers,
+    refuse_of_other_formats,
+    refuse_races,
+)
+from evenbreak.files.chip_chart import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, bracket_of
+from evenbreak.tournaments.evening.fold import ELIMINATIONS
 from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
@@ -37,6 +45,7 @@ FORMATS = (
     "round-robin",
     "consolation",
     "king-of-the-hill",
+    "chips",
 )
 DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
 PLACEMENTS = {"half-shift": "half shift", "redraw": "redraw"}
@@ -71,6 +80,11 @@ def tournament_options(command: Command) -> Command:
         from evenbreak.answers.tournament import Tournament
 
         plan, file, scale = entered.plan, entered.file, entered.scale
+        if plan.form == "chips":
+            refuse(
+                "for a chip tournament before its first rack, ask evenbreak chips odds; for one "
+                "under way leave out ENTRANTS.csv"
+            )
         if before_draw:
             _refuse_drawn(plan)
             roster, seeded, lines = entered.roster, "to be drawn blind", None
@@ -135,12 +149,16 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
         chart: str | None,
         losers_race: int | None,
         final_race: int | None,
+        chips: str | None,
         scale: Scale | None,
         starter: float | None,
         starter_sd: float | None,
         seed: int,
         **rest: Any,
     ) -> Any:
+        if form == "chips":
+            refuse_races(chips, race, race_to, chart, losers_race, final_race)
+            race, seeding = 1, _order_of_the_line(seeding)
         races = _races(race, race_to, chart, losers_race, final_race)
         given = {
             "--final": final,
@@ -153,11 +171,12 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             "--third-place": third_place or None,
             "--losers-race": losers_race,
             "--final-race": final_race,
+            "--chips": chips,
         }
-        _refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
-        _check_qualifiers(form, qualifiers)
+        refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
+        check_qualifiers(form, qualifiers)
         file = files.read_entrants(entrants)
-        points, warnings = _scale(file, scale, starter)
+        points, warnings = _scale(file, scale, starter, "fargo" if chips else "npl")
         roster = with_starters(file.roster, points, starter, starter_sd)
         if not 2 <= len(roster) <= MOST_PLAYERS:
             refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")
@@ -181,6 +200,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             scale=points.text,
             starter=points.centre if starter is None else starter,
             starter_error=points.points_per_doubling if starter_sd is None else starter_sd,
+            chips=None if chips is None else chip_chart_of(chips),
         )
         entered = Entered(plan, races, file, roster, points, warnings, seed)
         return command(entered=entered, **rest)
@@ -190,7 +210,13 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
     wrapped = starter_options(wrapped)
     return with_options(  # type: ignore[no-any-return]
         wrapped,
-        scale_option("the one that the file states, else npl", fixed=False),
+        scale_option("the one that the file states, else npl, for chips fargo", fixed=False),
+        click.option(
+            "--chips",
+            metavar="NAME|FILE.csv",
+            help="The chips at the start of a chip tournament: hoboken, pharaohs, or a file with "
+            "the columns rating_from and chips.",
+        ),
         chart_option("Races by this chart, instead of --race."),
         _race_option("--final-race", "Races of the final.  [default: as --race or --race-to]"),
         _race_option(
@@ -207,8 +233,9 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             type=click.Choice(SEEDINGS),
             default="listed",
             help="The order of the seeds: as the file lists them, by rating, or drawn at random "
-            "(blind). Or no seeds (drawn): the first two rows of the file meet, and so on, with "
-            "rows named bye 1, bye 2 ... for byes.",
+            "(blind; used for the line of a chip tournament unless given). Or no seeds (drawn): "
+            "the first two rows of the file meet, and so on, with rows named bye 1, bye 2 ... for "
+            "byes.",
         ),
         click.option(
             "--third-place", is_flag=True, help="Single elimination with a match for third place."
@@ -261,7 +288,8 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             "form",
             type=click.Choice(FORMATS),
             default="double",
-            help="The kind of tournament. For chips, see evenbreak chips.",
+            help="The kind of tournament. For the odds of chips before the first rack, see "
+            "evenbreak chips.",
         ),
         click.argument(
             "entrants", metavar="ENTRANTS.csv" if required else "[ENTRANTS.csv]", required=required
@@ -295,42 +323,14 @@ def _races(
     )
 
 
-_OPTIONS_OF = {
-    "--final": ("double",),
-    "--qualifiers": ("double", "groups", "pods"),
-    "--placement": ("double",),
-    "--drops": ("double", "pods"),
-    "--groups": ("groups",),
-    "--pod-size": ("pods",),
-    "--rounds": ("swiss",),
-    "--third-place": ("single",),
-    "--losers-race": ("double", "pods", "consolation"),
-    "--final-race": tuple(form for form in FORMATS if form not in ("swiss", "round-robin")),
-}
-"""Which formats an option is for."""
-
-
-def _refuse_of_other_formats(form: str, given: set[str]) -> None:
-    for name, formats in _OPTIONS_OF.items():
-        if name in given and form not in formats:
-            refuse(f"{name} is for --format {' or '.join(formats)}, not {form}")
-    if {"--qualifiers", "--final"} <= given:
-        refuse("--qualifiers leads to one final; leave out --final")
-    if "--placement" in given and "--qualifiers" not in given:
-        refuse("--placement is for qualifiers; give --qualifiers M, or leave it out")
-
-
-def _check_qualifiers(form: str, qualifiers: int | None) -> None:
-    if qualifiers is None:
-        return
-    if form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
-        refuse(f"--qualifiers is {qualifiers}; give 2, 4, 8 or another power of 2")
-    if form == "pods" and qualifiers > 2:
-        refuse(f"--qualifiers is {qualifiers}; 1 or 2 go on from a pod")
+def _order_of_the_line(seeding: str) -> str:
+    """Return how the line of a chip tournament is drawn: blind unless --seeding is given."""
+    source = click.get_current_context().get_parameter_source("seeding")
+    return "blind" if source is ParameterSource.DEFAULT else seeding
 
 
 def _scale(
-    file: files.RosterFile, stated: Scale | None, starter: float | None
+    file: files.RosterFile, stated: Scale | None, starter: float | None, usual: str
 ) -> tuple[Scale, list[str]]:
     """Return the scale of the ratings, and what is doubtful about it."""
     from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
@@ -339,7 +339,7 @@ def _scale(
         refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
     else:
         refuse_levels(file, "say with --scale how many levels double the odds")
-    scale = stated or file.scale or ratings.SCALES["npl"]
+    scale = stated or file.scale or ratings.SCALES[usual]
     warnings = []
     if file.scale is None:
         remedy = "if they are on another scale, name it with --scale"

@@ -44,6 +44,8 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
     from evenbreak.files.tournament_store import read_tournament
 
     state, name = read_tournament(file), PurePath(file).stem
+    if state.plan.form == "chips":
+        refuse("a chip tournament has neither score cards nor a bracket to print")
     place = out or f"{what}.pdf"
     if PurePath(place).suffix.lower() != ".pdf":
         refuse(f"--out {place!r}; name a file that ends in .pdf")

@@ -31,17 +31,23 @@ KINDS = (".svg", ".png", ".pdf", ".html")
 @at_option
 @faces()
 def command(*, out: str | None, file: str, at: str) -> Answer:
-    """Show the bracket: each match with its players, its score and its table."""
+    """Show the bracket: each match with its players, its score and its table.
+
+    Of a chip tournament it shows the tables, the line and everybody's chips.
+    """
     from evenbreak.answers.tournament_night import bracket_table
     from evenbreak.files.tournament_store import read_tournament
 
     state = read_tournament(file)
+    chips = state.plan.form == "chips"
     if out is not None:
+        if chips:
+            refuse("--out draws a bracket, and a chip tournament has none")
         if PurePath(out).suffix.lower() not in KINDS:
             refuse(f"--out {out!r}; name a file that ends in {', '.join(KINDS)}")
         write_file(out, drawing_of(state, PurePath(file).stem, PurePath(out).suffix.lower()))
     answer = answer_of(file, state, at)
-    if not state.drawn:
+    if not state.drawn or chips:
         return answer
     table = bracket_table(state)
     return replace(answer, parts=[answer.parts[0], table, *answer.parts[1:]], csv=table)

@@ -33,15 +33,18 @@ class ChipOdds:
     error
         the standard errors of `p_place`.
     racks_mean
-        the mean number of racks, before the last two players.
+        the mean number of racks, before the last two players unless they were played out too.
     runs
         how many tournaments were played.
+    lengths
+        how long each tournament lasts, if all racks last equally long: in racks one after another.
     """
 
     p_place: Floats
     error: Floats
     racks_mean: float
     runs: int
+    lengths: Floats
 
     @property
     def title(self) -> Floats:
@@ -55,6 +58,8 @@ def play_chips(
     *,
     tables: int = 1,
     line: Sequence[int] | None = None,
+    in_use: int | None = None,
+    to_the_end: bool = False,
     runs: int = 10_000,
     rng: np.random.Generator | None = None,
 ) -> ChipOdds:
@@ -65,11 +70,16 @@ def play_chips(
     chips
         each player's chips at the start.
     racks
-        racks[i, j] = P(i, who stays at the table, beats the challenger j).
+        racks[i, j] = P(i, who stays at the table, beats the challenger j). A third axis, if there
+        is one, is for samples of the ratings, which take turns.
     tables
         how many tables there are.
     line
         the order in which players come to the tables; None: drawn anew for each run.
+    in_use
+        on how many tables the first of them are; None: as many as leave somebody to wait.
+    to_the_end
+        whether the last two are played out too, for how long it takes.
     runs
         how many tournaments.
     rng
@@ -87,15 +97,28 @@ def play_chips(
     counts = np.array([whole(count, "chips", at_least=1) for count in np.asarray(chips).tolist()])
     if len(counts) < 2:
         raise InputError(f"chips is {chips!r}; give two players or more")
-    table = checked_racks(racks, len(counts))
+    table = np.asarray(racks, dtype=float)
+    each = np.moveaxis(table.reshape(*table.shape[:2], -1), 2, 0)
+    table = np.stack([checked_racks(one, len(counts)) for one in each])
     order = None if line is None else np.array(line)
     if order is not None and sorted(order.tolist()) != list(range(len(counts))):
         raise InputError(f"line is {line!r}; give each of {len(counts)} players once")
     rng = rng or np.random.default_rng(0)
-    room = _Room(counts, table, whole(tables, "tables", at_least=1), order, runs, rng)
+    room = _Room(counts, table, whole(tables, "tables", at_least=1), order, in_use, runs, rng)
+    if to_the_end:
+        room.play_out()
     while room.running.size:
         room.rack()
-    return ChipOdds(*room.places(), float(room.racks) / runs, runs)
+    return ChipOdds(*room.places(), float(room.racks) / runs, runs, room.lengths)
+
+
+def tables_in_use(left: int, tables: int) -> int:
+    """Return how many tables are in use: so many that somebody waits, except heads-up.
+
+    >>> [tables_in_use(left, 4) for left in (2, 4, 5, 8, 16)]
+    [1, 1, 2, 3, 4]
+    """
+    return min(max((left - 1) // 2, 1), tables)
 
 
 class _Room:
@@ -107,6 +130,7 @@ class _Room:
         table: Floats,
         tables: int,
         order: Ints | None,
+        in_use: int | None,
         runs: int,
         rng: np.random.Generator,
     ) -> None:
@@ -116,7 +140,7 @@ class _Room:
         seats = np.tile(np.arange(count), (runs, 1))
         line = rng.permuted(seats, axis=1) if order is None else np.tile(order, (runs, 1))
         self.most = tables
-        in_use = int(self._tables(np.array(count), tables))
+        in_use = tables_in_use(count, tables) if in_use is None else in_use
         self.stays = line[:, 0 : 2 * in_use : 2].copy()
         self.challenges = line[:, 1 : 2 * in_use : 2].copy()
         self.open = np.full(runs, in_use)  # tables in use: the first so many
@@ -127,32 +151,31 @@ class _Room:
         self.length = np.full(runs, waiting.shape[1])
         self.left = np.full(runs, count)
         self.place = np.zeros((runs, count), dtype=np.int64)  # 0: still in
-        self.to_the_end = break_matters(table)
-        last = 1 if self.to_the_end else 2
-        self.last = last
-        self.running = np.flatnonzero(self.left > last)
+        self.lengths = np.zeros(runs)
         self.racks = 0
+        self.last = 1 if any(break_matters(one) for one in table) else 2
+        self.running = np.flatnonzero(self.left > self.last)
 
-    @staticmethod
-    def _tables(left: Ints, tables: int) -> Ints:
-        """Return how many tables are in use: somebody waits, except heads-up."""
-        in_use: Ints = np.clip((left - 1) // 2, 1, tables)
-        return in_use
+    def play_out(self) -> None:
+        """Play the last two out too."""
+        self.last = 1
+        self.running = np.flatnonzero(self.left > 1)
 
     def rack(self) -> None:
         """Play one rack in each run."""
         run = self.running
         at = (self.rng.random(len(run)) * self.open[run]).astype(np.int64)
         one, other = self.stays[run, at], self.challenges[run, at]
-        won = self.rng.random(len(run)) < self.table[one, other]
+        won = self.rng.random(len(run)) < self.table[run % len(self.table), one, other]
         winner, loser = np.where(won, one, other), np.where(won, other, one)
         self.racks += len(run)
+        self.lengths[run] += 1.0 / self.open[run]
         self.chips[run, loser] -= 1
         out = self.chips[run, loser] == 0
         self.place[run[out], loser[out]] = self.left[run[out]]
         self.left[run] -= out
         self._wait(run[~out], loser[~out])
-        close = self._tables(self.left[run], self.most) < self.open[run]
+        close = np.clip((self.left[run] - 1) // 2, 1, self.most) < self.open[run]
         stay = ~close & (self.left[run] > 1)
         goes_on = run[stay]
         self.stays[goes_on, at[stay]] = winner[stay]
@@ -169,7 +192,7 @@ class _Room:
         squares = np.zeros((count, count))
         for place in range(self.last + 1, count + 1):
             law[:, place - 1] = squares[:, place - 1] = (self.place == place).sum(axis=0)
-        if self.to_the_end:
+        if self.last == 1:
             law[:, 0] = squares[:, 0] = (self.place == 0).sum(axis=0)
         else:
             self._heads_up(law, squares)
@@ -182,7 +205,9 @@ class _Room:
         last = np.argsort(self.place, axis=1, kind="stable")[:, :2]  # the two without a place
         one, other = last[:, 0], last[:, 1]
         p = race_win_probability(
-            self.table[one, other], self.chips[rows, other], self.chips[rows, one]
+            self.table[rows % len(self.table), one, other],
+            self.chips[rows, other],
+            self.chips[rows, one],
         )
         for player, chance in ((one, p), (other, 1.0 - p)):
             for place, share in ((0, chance), (1, 1.0 - chance)):

@@ -13,6 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot
+from evenbreak.tournaments.chips.chip_charts import ChipChart
 
 
 @dataclass(frozen=True)
@@ -22,8 +23,8 @@ class Plan:
     Parameters
     ----------
     form
-        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, or the
-        format of a bracket from another program, in words.
+        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, chips, or
+        the format of a bracket from another program, in words.
     final, drops
         as in `double_elimination`.
     qualifiers
@@ -54,6 +55,8 @@ class Plan:
         the matches of a bracket from another program, in place of those of a format.
     by_match
         the races of single matches, by name.
+    chips
+        the chips that players of a chip tournament start with.
     """
 
     form: str
@@ -78,6 +81,7 @@ class Plan:
     rounds: int | None = None
     layout: tuple[Draft, ...] = ()
     by_match: Mapping[str, int] = field(default_factory=dict)
+    chips: ChipChart | None = None
 
 
 @dataclass(frozen=True)
@@ -110,7 +114,7 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Late:
-    """A late entry: before the draw, or onto the line of a bye."""
+    """A late entry: before the draw, onto the line of a bye, or to the end of a line of players."""
 
     entrant: Entrant
     line: int | None = None
@@ -276,6 +280,8 @@ def event_of(kind: str, data: Mapping[str, Any]) -> What:
             plan = dict(values["plan"])
             if plan.get("chart") is not None:
                 plan["chart"] = Chart(**plan["chart"])
+            if plan.get("chips") is not None:
+                plan["chips"] = ChipChart(**plan["chips"])
             plan["layout"] = tuple(_draft(*one) for one in plan.get("layout", ()))
             return Opened(Plan(**plan), entrants)
         if kind == "late":

@@ -17,17 +17,10 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
-from evenbreak.tournaments.brackets.double import double_elimination, pods
 from evenbreak.tournaments.brackets.group_ranks import ranked
-from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
-from evenbreak.tournaments.brackets.knockout import (
-    consolation,
-    king_of_the_hill,
-    single_elimination,
-)
-from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.standing import Standing, standing
-from evenbreak.tournaments.brackets.swiss import swiss_bracket
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -44,7 +37,7 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
-from evenbreak.tournaments.evening.later_draws import bracket_now, swiss_of, whole_bracket
+from evenbreak.tournaments.evening.later_draws import bracket_now, whole_bracket
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
 
@@ -132,12 +125,21 @@ class Evening:
             raise InputError(
                 "the draw has not been made yet; make it with evenbreak tournament draw"
             )
+        if self.plan.form == "chips":
+            return self.chip_night.bracket
         return bracket_now(self._drawn_up, self.plan, self.later)
 
     @cached_property
     def whole(self) -> Bracket:
         """The bracket with a stand-in for what is drawn in the course of the evening."""
+        if self.plan.form == "chips":
+            return self.bracket
         return whole_bracket(self._drawn_up, self.plan, self.later)
+
+    @cached_property
+    def chip_night(self) -> ChipNight:
+        """Who is at which table of a chip tournament, who waits, and what everybody has left."""
+        return chip_night(self.events)
 
     @cached_property
     def _drawn_up(self) -> Bracket:
@@ -188,6 +190,11 @@ class Evening:
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
         """The matches that are being played."""
+        if self.plan.form == "chips":
+            return {
+                one.name: OnTable(Called(one.name, one.table, one.players), one.since)
+                for one in self.chip_night.playing
+            }
         return {
             name: one
             for name, one in self.calls.items()
@@ -210,6 +217,8 @@ class Evening:
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
         """Return the games that each of two players needs in a match, or needed in it."""
+        if self.plan.form == "chips":
+            return 1, 1  # a rack
         for played in reversed(self.records.get(match, ())):
             result = played.result
             if result.race is not None and set(result.players) == set(players):
@@ -294,11 +303,9 @@ def evening(events: Iterable[Event]) -> Evening:
                 ties[tie.group] = tie
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
-            case Late(entrant=entrant, line=line):
-                entrants[entrant.name] = entrant
-                if line is not None and lines is not None:
-                    lines[line] = len(order)
-                    order.append(entrant.name)
+            case Late() as late:
+                entrants[late.entrant.name] = late.entrant
+                _let_in(late, order, lines)
             case Dropped(name=name):
                 if order:
                     dropped.append(name)
@@ -317,6 +324,15 @@ def evening(events: Iterable[Event]) -> Evening:
         {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
     )
+
+
+def _let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None:
+    """Let a player in who comes after the draw."""
+    if not order:
+        return
+    if late.line is not None and lines is not None:
+        lines[late.line] = len(order)
+    order.append(late.entrant.name)
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:
@@ -351,44 +367,3 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
     if not kept or not isinstance(first := kept[0].what, Opened):
         raise InputError("the first event does not open a tournament")
     return first, kept
-
-
-def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
-    """Return the bracket of a draw.
-
-    >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
-    (('W1.1', 0),)
-    """
-    if plan.layout:
-        return laid_out(plan.form, order, plan.layout)
-    pattern: Any = plan.drops
-    final: Any = plan.final
-    match plan.form:
-        case "double":
-            return double_elimination(
-                order, final=final, qualifiers=plan.qualifiers, drops=pattern, lines=lines
-            )
-        case "single":
-            return single_elimination(order, third_place=plan.third_place, lines=lines)
-        case "consolation":
-            return consolation(order, lines=lines)
-        case "pods":
-            each: Any = plan.qualifiers or 1
-            return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
-        case "groups":
-            many = groups_of(plan, len(order))
-            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
-        case "round-robin":
-            return round_robin(order)
-        case "swiss":
-            return swiss_bracket(swiss_of(plan, order))
-    return king_of_the_hill(order)
-
-
-def groups_of(plan: Plan, players: int) -> int:
-    """Return the number of groups: unless given, groups of four, or of three and four.
-
-    >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
-    [2, 3, 4, 4]
-    """
-    return plan.groups or max(2, -(-players // 4))

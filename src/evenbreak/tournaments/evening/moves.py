@@ -14,6 +14,7 @@ from evenbreak.tournaments.brackets.seeding import (
     by_rating,
     seeded_lines,
 )
+from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -69,24 +70,36 @@ def draw_next(state: Evening, rng: np.random.Generator) -> list[Drawn | LaterDra
     return [first, draw_later(replace(state, order=first.order), rng)]
 
 
-def result(state: Evening, match: str, score: tuple[int, int]) -> Result:
-    """Enter the result of a match that has not been decided."""
+def result(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
+    """Enter the result of a match that has not been decided.
+
+    Parameters
+    ----------
+    state
+        the evening.
+    match
+        the match; in a chip tournament the number of its table will do.
+    score
+        the games of each player; in a chip tournament the winner will do.
+    """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
         words = "was forfeited" if before.forfeit else f"has a result, {score_words(before)}"
         raise InputError(f"{name} {words}; change it with correct {name}")
     _refuse_waiting(state, name)
     pair = state.pair(name)
-    return Result(name, pair, score, _winner(state, name, pair, score))
+    games = _games(state, name, pair, score)
+    return Result(name, pair, games, _winner(state, name, pair, games))
 
 
-def correct(state: Evening, match: str, score: tuple[int, int]) -> Result:
-    """Correct the result of a match."""
-    name = known_match(state, match)
+def correct(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
+    """Correct the result of a match; in a chip tournament a table is that of its last rack."""
+    name = known_match(state, match, over=True)
     if name not in state.counted:
         raise InputError(f"{name} has no result to correct; enter it with result {name}")
     pair = state.pair(name)
-    found = Result(name, pair, score, _winner(state, name, pair, score), corrects=True)
+    games = _games(state, name, pair, score)
+    found = Result(name, pair, games, _winner(state, name, pair, games), corrects=True)
     before = state.counted[name]
     if not before.forfeit and before.games == found.games and before.winner == found.winner:
         raise InputError(f"{name} has that result already: {score_words(before)}")
@@ -95,6 +108,8 @@ def correct(state: Evening, match: str, score: tuple[int, int]) -> Result:
 
 def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     """Enter the score of a match in play."""
+    if state.plan.form == "chips":
+        raise InputError(f"a rack has no score; enter its winner with result {match}")
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
         raise InputError(f"{name} has a result, {score_words(before)}")
@@ -141,13 +156,19 @@ def drop(state: Evening, player: str) -> Dropped:
 def late(state: Evening, entrant: Entrant) -> Late:
     """Let a late player in: before the draw, or in place of the lowest seed's bye still open.
 
-    A bye is open as long as filling it changes no match that was played or called.
+    A bye is open as long as filling it changes no match that was played or called. In a chip
+    tournament a late player goes to the end of the line, as long as two are still in.
     """
     names = {name.casefold(): name for name in state.entrants}
     if entrant.name.casefold() in names:
         raise InputError(f"{names[entrant.name.casefold()]} has entered already")
     if len(state.entrants) >= MOST_PLAYERS:
         raise InputError(f"a tournament takes {MOST_PLAYERS} players at most")
+    if state.plan.form == "chips":
+        chips_of(state.plan, entrant)  # refuses a rating below the chart
+        if state.drawn and len(state.chip_night.order) < 2:
+            raise InputError(f"{entrant.name} cannot enter: the tournament is over")
+        return Late(entrant)
     if not state.drawn:
         return Late(entrant)
     byes = [k for k, seat in enumerate(state.lines or ()) if seat is None]
@@ -198,12 +219,14 @@ def change(
         raise InputError("nothing is changed; give --tables, --race, --losers-race or --final-race")
     if state.plan.chart is not None and found != Changed(tables):
         raise InputError("the races come from a chart, so only the tables can be changed")
+    if state.plan.form == "chips" and found != Changed(tables):
+        raise InputError("a chip tournament is played by the rack; only the tables can be changed")
     sides = {match.side for match in state.whole.matches} if state.drawn else {"losers", "final"}
     if losers_race is not None and not sides & {"losers", "consolation"}:
         raise InputError("there is no losers' side, so it has no race; change --race")
     if final_race is not None and "final" not in sides:
         raise InputError("there is no final, so it has no race; change --race")
-    if tables is not None and state.drawn:
+    if tables is not None and state.drawn and state.plan.form != "chips":  # there it closes later
         taken = max((one.call.table for one in state.on_tables.values()), default=0)
         if tables < taken:
             raise InputError(f"a match is on table {taken}; end it before you close the table")
@@ -223,11 +246,21 @@ def free_tables(state: Evening) -> list[int]:
     return [table for table in range(1, state.plan.tables + 1) if table not in taken]
 
 
-def known_match(state: Evening, text: str) -> str:
-    """Return the name of a match, in whatever case it was written."""
-    names = {name.casefold(): name for name in state.bracket.by_name}
+def known_match(state: Evening, text: str, *, over: bool = False) -> str:
+    """Return the name of a match, in whatever case it was written.
+
+    In a chip tournament it may be the number of a table: that of the rack on it, or of the last one
+    that is over.
+    """
+    listed = list(state.bracket.by_name)
+    names = {name.casefold(): name for name in listed}
+    if state.plan.form == "chips":
+        racks = state.chip_night.racks.values()
+        names |= {str(r.table): r.name for r in racks if (r.name in state.counted) == over}
+        if text.casefold() not in names and text.upper() in state.records:
+            raise InputError(f"{text.upper()} does not count: a player had no chips left")
     if text.casefold() not in names:
-        raise InputError(f"match {text!r} does not exist; give one of {some_of([*names.values()])}")
+        raise InputError(f"match {text!r} does not exist; give one of {some_of(listed)}")
     return names[text.casefold()]
 
 
@@ -248,6 +281,20 @@ def known_player(state: Evening, text: str) -> str:
         hint = f"; did you mean {names[near[0]]}?" if near else ""
         raise InputError(f"{text!r} is not in this tournament{hint}")
     return names[wanted]
+
+
+def _games(
+    state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int] | str
+) -> tuple[int, int]:
+    """Return the score of a result; in a chip tournament it may be the winner's name."""
+    if not isinstance(score, str):
+        return score
+    if state.plan.form != "chips":
+        raise InputError(f"{score!r} is not a score; give the games of each player, such as 7:5")
+    winner = known_player(state, score)
+    if winner not in pair:
+        raise InputError(f"{winner} is not in {name}, which is {pair[0]} against {pair[1]}")
+    return (1, 0) if winner == pair[0] else (0, 1)
 
 
 def score_words(found: Result) -> str:

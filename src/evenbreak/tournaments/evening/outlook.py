@@ -18,9 +18,11 @@ from scipy.special import betainc
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.chips.racks import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
-from evenbreak.tournaments.clock.event_pace import Timed
+from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.finish import Finish, finish
+from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
 from evenbreak.tournaments.evening.later_draws import pairings, stage_to_draw, swiss_of
@@ -131,6 +133,8 @@ class Outlook:
         chances = self.chances(state.ratings)
         if state.plan.form == "swiss":
             return self._swiss_odds(chances)
+        if state.plan.form == "chips":
+            return chip_odds(state, rack_chances(state.ratings, scale=state.scale))
         if stage_to_draw(state) is not None:
             return redraw_odds(state.whole, chances, results=state.results, samples=_REDRAWS)
         return title_odds(state.bracket, chances, results=state.results, rng=rng)
@@ -142,6 +146,8 @@ class Outlook:
             return self.as_if_sure
         state = self.state
         skills, covariance = skills_tonight(state.ratings, self.errors, self.games, state.scale)
+        if state.plan.form == "chips":
+            return chip_odds(state, drawn_racks(state, skills, covariance))
         if state.plan.form == "swiss":
             asked = state.whole, self.chances, skills, covariance
             rng = np.random.default_rng(0)
@@ -227,7 +233,7 @@ class Outlook:
             the money for first place, second, ...: then it is the prizes. None: the title.
         """
         state = self.state
-        if stage_to_draw(state) is not None or state.plan.form == "swiss":
+        if stage_to_draw(state) is not None or state.plan.form in ("swiss", "chips"):
             return []
         win = self.chances(state.ratings)
         try:
@@ -264,6 +270,15 @@ class Outlook:
             now=max([self.minutes(self.now), *(one.scored or one.started for one in playing)]),
         )
 
+    def chip_finishes(
+        self, *, tables: int | None = None, turnover: Turnover | None = None
+    ) -> Floats:
+        """Return when a chip tournament ends in each of many evenings, as `finish` does."""
+        win = rack_chances(self.state.ratings, scale=self.state.scale)
+        pace = learned_pace(self.state.plan.discipline, self.timed)
+        later = chip_minutes(self.state, win, pace, tables=tables, turnover=turnover)
+        return self.minutes(self.now) + later
+
     def _in_play(self, name: str, at: str) -> InPlay:
         live = self.state.live.get(name)
         if live is None or live.at < at or not any(live.what.score):
@@ -274,13 +289,15 @@ class Outlook:
     def timed(self) -> list[Timed]:
         """The games and minutes of the matches that were called and played tonight."""
         state, found = self.state, []
+        chips = state.plan.form == "chips"
         for name, result in state.counted.items():
             call = state.calls.get(name)
+            began = state.chip_night.racks[name].since if chips else call and call.at
             pair = result.players
             ends = [one.at for one in state.records.get(name, ()) if one.result.players == pair]
-            if call is None or not ends or not any(result.score):
+            if began is None or not ends or not any(result.score):
                 continue
-            minutes = self.minutes(ends[0]) - self.minutes(call.at)
+            minutes = self.minutes(ends[0]) - self.minutes(began)
             if minutes >= 1.0:  # shorter ones were typed in afterwards
                 found.append(Timed(sum(result.score), minutes))
         return found

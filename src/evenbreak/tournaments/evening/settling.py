@@ -30,6 +30,8 @@ def stand(state: Evening, match: str) -> list[Result]:
     InputError
         if the match was not played by other players, or an earlier one must stand first.
     """
+    if state.plan.form == "chips":
+        raise InputError("a rack of a player without chips cannot stand; play it again, or undo")
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:

@@ -1,0 +1,118 @@
+"""What is to be expected of a chip night: who finishes where, and when it ends."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.chips.endgame import last_players
+from evenbreak.tournaments.chips.play import ChipOdds, play_chips, tables_in_use
+from evenbreak.tournaments.clock.event_pace import lognormal
+from evenbreak.tournaments.evening.chip_night import ChipNight
+from evenbreak.tournaments.odds.title import PlaceOdds
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.fold import Evening
+
+_RUNS = 10_000
+_EXACT = 4  # players at most whose odds are exact
+_CELLS, _FEWEST, _MOST = 4e6, 200, 2_000  # draws of the skills
+
+
+def drawn_racks(state: Evening, skills: Floats, covariance: Floats) -> Floats:
+    """Return P(i beats j in a rack) by many draws of the players' skills, the third axis."""
+    count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
+    rng = np.random.default_rng(0)
+    drawn = rng.multivariate_normal(skills, covariance, count, method="eigh").T
+    racks: Floats = state.scale.win_probability(drawn[:, None] - drawn)
+    return racks
+
+
+def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
+    """Return who finishes where: exactly for the last players at one table, else by simulation.
+
+    Parameters
+    ----------
+    state
+        the evening; the draw has been made.
+    win
+        P(i beats j in a rack) in the order of the players; a third axis, if there is one, is for
+        samples of the ratings.
+    """
+    night = state.chip_night
+    count, left = len(night.chips), len(night.order)
+    law, error, runs = np.zeros((count, count)), np.zeros((count, count)), 0
+    seat = {name: k for k, name in enumerate(state.order)}
+    for place, name in enumerate(reversed(night.gone), left):
+        law[seat[name], place] = 1.0
+    still = [seat[name] for name in night.order]
+    if left == 1:
+        law[still[0], 0] = 1.0
+    elif left > 1:
+        found = _exactly(night, win[np.ix_(still, still)])
+        if found is None:
+            played = _played(state, win)
+            found, runs = played.p_place, played.runs
+            error[np.ix_(still, range(left))] = played.error
+        law[np.ix_(still, range(left))] = found
+    return PlaceOdds(state.bracket, law, error, runs)
+
+
+def _exactly(night: ChipNight, win: Floats) -> Floats | None:
+    if win.ndim > 2 or len(night.order) > _EXACT or len(night.tables) != 1:
+        return None
+    try:
+        return last_players([night.chips[name] for name in night.order], win).p_place
+    except InputError:  # too many chips
+        return None
+
+
+def _played(
+    state: Evening, win: Floats, tables: int | None = None, *, to_the_end: bool = False
+) -> ChipOdds:
+    night = state.chip_night
+    still = [state.order.index(name) for name in night.order]
+    most = state.plan.tables if tables is None else tables
+    return play_chips(
+        [night.chips[name] for name in night.order],
+        win[np.ix_(still, still)],
+        tables=most,
+        line=range(len(still)),
+        in_use=max(len(night.tables), tables_in_use(len(still), most)),
+        to_the_end=to_the_end,
+        runs=_RUNS,
+    )
+
+
+def chip_minutes(
+    state: Evening,
+    win: Floats,
+    pace: Pace,
+    *,
+    tables: int | None = None,
+    turnover: Turnover | None = None,
+) -> Floats:
+    """Return how long the rest of the evening takes, in minutes, in each of many evenings.
+
+    Parameters
+    ----------
+    state, win
+        as in `chip_odds`.
+    pace
+        how long matches take this evening; a rack is a match of one game.
+    tables
+        how many tables there are; None: those of the evening.
+    turnover
+        the time between two racks on a table; None: as long as a match of one game needs anyway.
+    """
+    lengths = _played(state, win, tables, to_the_end=True).lengths
+    rng = np.random.default_rng(0)
+    rack = pace.mean_minutes(1) + (0.0 if turnover is None else turnover.mean)
+    luck = lengths + pace.match_sd * np.sqrt(lengths) * rng.standard_normal(len(lengths))
+    evening = lognormal(rng.standard_normal(len(lengths)), pace.evening_sd)
+    minutes: Floats = rack * np.maximum(luck, 0.0) * evening
+    return minutes
