@@ -95,3 +95,11 @@ def test_starts_that_are_fair_only_on_average_are_named(by_the_book, counts, par
     assert ("on average" in fairness) == bool(parts)
     for part in parts:
         assert part in fairness
+
+
+def test_starts_that_are_clearly_unfair_are_named_among_few_matches(by_the_book):
+    found, season = by_the_book
+    fairness = remarks(replace(found, spots=spots((9, 9), (0, 9))), season)[0]
+    assert "look fair" not in fairness
+    assert "1 game gives too little" in fairness
+    assert "2 games gives too much" in fairness

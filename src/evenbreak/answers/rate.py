@@ -200,8 +200,8 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
         )
     if ratings.half_life is not None:
         yield (
-            f"A match counts half after {ratings.half_life:g} days; all results together are "
-            f"worth {ratings.weight:,.1f} recent games."
+            f"A match counts half after {ratings.half_life:g} days; so weighted, the results "
+            f"count as much as {ratings.weight:,.0f} games played on the last day."
         )
     if ratings.break_advantage is not None:
         points, error = ratings.break_advantage, ratings.break_error

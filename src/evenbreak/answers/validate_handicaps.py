@@ -67,9 +67,11 @@ def _fairness(found: Validation, by_games: int) -> str:
             f"{figures}; fair is 50%."
         )
     if every.high - every.low > WIDE:
-        return (
-            f"There are too few handicap matches to say whether the handicaps are fair. {figures}."
-        )
+        unknown = "There are too few handicap matches to say whether the handicaps are fair"
+        by_size = _unfair_by_size(found.spots[:-1])
+        if by_size:
+            return f"{unknown} on average, but not all starts are fair. {by_size} {figures}."
+        return f"{unknown}. {figures}."
     if not every.low <= 0.5 <= every.high:
         return (
             f"The handicaps may give too {_little(1 if every.low > 0.5 else -1)}. {figures}; fair "
@@ -148,7 +150,7 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
 
 
 def _points(estimate: Estimate, scale: Scale) -> str:
-    return f"{scale.points(estimate.value):.0f} points"
+    return f"{scale.points(estimate.value):z.0f} points"
 
 
 def _error(estimate: Estimate, scale: Scale) -> str:
@@ -229,14 +231,14 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
 
     def stronger(one: Estimate) -> str:
         value, low, high = (scale.points(part) for part in one)
-        return f"{value:.0f}  {low:.0f} to {high:.0f}"
+        return f"{value:z.0f}  {low:z.0f} to {high:z.0f}"
 
     columns = [
         Column("apart", "classes\napart" if starts.classes else "games\ngiven"),
         Column("matches", "matches"),
         Column("race", "most\nplayed", race),
         Column("stronger", "points stronger,\n95% interval", stronger),
-        Column("taken", "taken\nback", lambda one: f"{scale.points(one):.0f}"),
+        Column("taken", "taken\nback", lambda one: f"{scale.points(one):z.0f}"),
     ]
     value, low, high = starts.share
     title = (

@@ -111,12 +111,12 @@ def _good_and_bad_days(times: float) -> str:
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
     """Return what the default prior would do where it is clearly wrong, '' where it is not."""
     wrong = wrong_chances(found.usual, found)
-    if not wrong or found.prior_sd == PRIOR_SD:
+    if not wrong or found.choice is None or found.prior_sd == PRIOR_SD:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
     return (
-        "These are ratings as rate and report make them, with the prior that the results choose: "
-        f"{use} points. With the usual prior of {default} points, {_too_sure(wrong)}."
+        f"All of this is for a prior of {use} points, which rate and report use too if --prior is "
+        f"left out. With a prior of {default} points, {_too_sure(wrong)}."
     )
 
 

@@ -54,12 +54,12 @@ def decimals(places: int) -> Show:
 
 
 def signed(places: int) -> Show:
-    """Return how a difference is shown: with its sign.
+    """Return how a difference is shown: with its sign; one that rounds to 0 is never negative.
 
-    >>> signed(4)(0.0521), signed(1)(-3.26)
-    ('+0.0521', '-3.3')
+    >>> signed(4)(0.0521), signed(1)(-3.26), signed(1)(-0.04)
+    ('+0.0521', '-3.3', '+0.0')
     """
-    return lambda value: f"{value:+.{places}f}"
+    return lambda value: f"{value:+z.{places}f}"
 
 
 def games(value: float) -> str:
