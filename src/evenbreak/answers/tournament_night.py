@@ -162,10 +162,12 @@ def _what_is_next(
             words.append(_most_words(state, decided))
     words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
     keys = ("finish_p10", "finish_p50", "finish_p90")
-    return words, [
-        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
-        _next_table(night, tables, decided, calls if decides else (), prizes),
+    parts: list[Part] = [
+        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)])
     ]
+    if tables:
+        parts.append(_next_table(night, tables, decided, calls if decides else (), prizes))
+    return words, parts
 
 
 def _draw_words(state: Evening) -> str:
