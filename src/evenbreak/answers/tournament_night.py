@@ -126,7 +126,7 @@ def night_answer(
         parts.append(_title_table(night))
         if decides and state.standing.to_play and not decided:
             parts.append(_UNDECIDED)
-    data = {
+    data: dict[str, Any] = {
         "odds": [
             {"name": name, "p_title": p, "p_title_if_sure": sure}
             for name, p, sure in _title_odds(night)
@@ -135,6 +135,8 @@ def night_answer(
         "ratings_averaged": odds is not night.as_if_sure,
         "set_aside": [as_dict(one.result) for one in state.aside],
     }
+    if under_way and not any(isinstance(part, Table) and part.name == "next" for part in parts):
+        data["next"] = []  # nothing can be played before a draw or a tie-break
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
     return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
