@@ -171,7 +171,7 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
 def _twice(
     table: TextTable, pairs: Ints, scores: Ints, rounds: Sequence[str], names: Sequence[str]
 ) -> list[str]:
-    """Return warnings about matches that may have been entered twice, and teams twice in a round."""
+    """Return warnings about matches that may be entered twice, and teams twice in a round."""
     seen: dict[tuple[object, ...], int] = {}
     busy: dict[tuple[str, int], int] = {}
     said = []
