@@ -72,7 +72,7 @@ def lineup_answer(
         )
     named = point.named if point is not None else ()
     table = _table(found, sure)
-    tied = night.payoff(0) > 0.0 and _can_tie(night)
+    tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
         _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
         Quantities([Quantity("p_win", found.worth), Quantity("best", _name(found.best))]),
@@ -185,15 +185,6 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
             row.append(sure.get(option.names, 0.0))
         rows.append(row)
     return Table("options", columns, rows)
-
-
-def _can_tie(night: TeamNight) -> bool:
-    """Return whether a tie is possible."""
-    leads = np.ones(1)
-    for law in night.laws:
-        own = law.any(axis=(0, 1, 2)).astype(float)
-        leads = np.convolve(leads, own)
-    return bool(leads[len(leads) // 2] > 0.0)
 
 
 def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | None, str]:

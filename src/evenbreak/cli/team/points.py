@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from evenbreak import ratings, teams
+from evenbreak.answers.team_meeting import SEALED
+from evenbreak.answers.wording import count_of
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
 from evenbreak.files.known_names import KnownNames
+from evenbreak.teams.order import LOSER, WINNER, order_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.team_meeting import Meeting
@@ -26,6 +30,8 @@ def point_of(
     last: str | None,
 ) -> teams.Point:
     """Return the point in the night that the options describe, or refuse what cannot be."""
+    if meeting.order == SEALED:
+        refuse("--order sealed is asked before the night; leave out what has happened since")
     rosters = meeting.ours, meeting.theirs
     both: tuple[list[str], list[str]] = ([], [])
     for text in (used or "").split(","):
@@ -40,6 +46,16 @@ def point_of(
             both[side].extend(names[side])
     if score is None and len(both[0]) > len(laws):
         refuse("--used names players whose sets are over; give the score so far with --score")
+    if score is not None and meeting.count == "sets":
+        over = _named_sets(meeting.sizes, len(both[0])) - len(laws)
+        if sum(score) != over:
+            refuse(
+                f"--score {score[0]}:{score[1]} is {count_of(sum(score), 'set')}, but by the "
+                f"players used {over} {'is' if over == 1 else 'are'} over; name all who have "
+                "played with --used"
+            )
+    if last is not None and not set(order_of(meeting.order, len(meeting.sizes))) & {WINNER, LOSER}:
+        refuse("--last is for an order in which the winner or the loser of the last set names first")
     lead = 0 if score is None else score[0] - score[1]
     return teams.Point(
         tuple(both[0]),
@@ -49,6 +65,11 @@ def point_of(
         () if named is None else _named(rosters, named),
         tuple(laws),
     )
+
+
+def _named_sets(sizes: tuple[int, ...], players: int) -> int:
+    """Return how many sets so many players of a team fill."""
+    return sum(total <= players for total in accumulate(sizes))
 
 
 def _named(rosters: tuple[ratings.Roster, ratings.Roster], text: str) -> tuple[str, ...]:
