@@ -120,8 +120,8 @@ def night_answer(
             if state.plan.form != "swiss":
                 words[-1] += " Break the ties with: evenbreak tournament tiebreak"
         parts.append(_places(state, odds.p_place, odds.bracket.places))
-    if state.plan.form == "swiss" and state.counted:
-        parts.append(_swiss_table(state))
+    if state.plan.form == "swiss":
+        parts += _swiss_table(state)
     if under_way:
         parts.append(_title_table(night))
         if decides and state.standing.to_play and not decided:
@@ -175,13 +175,15 @@ def _draw_words(state: Evening) -> str:
     return f"{what} can be drawn now, with: evenbreak tournament draw"
 
 
-def _swiss_table(state: Evening) -> Table:
-    """Return the standings of a Swiss, after the rounds that are over."""
+def _swiss_table(state: Evening) -> list[Part]:
+    """Return the standings of a Swiss, once a round is over."""
     over = [
         pairs
         for pairs in pairings(state.later, state.counted)
         if all(p.winner or p.second is None for p in pairs)
     ]
+    if not over:
+        return []
     rows = swiss_standings(swiss_of(state.plan, state.order), over)
     columns = [
         Column("name", "player", left=True),
@@ -189,7 +191,7 @@ def _swiss_table(state: Evening) -> Table:
         Column("buchholz", "won by their\nopponents"),
     ]
     title = f"Standings after round {len(over)}"
-    return Table("standings", columns, [list(row) for row in rows], title=title)
+    return [Table("standings", columns, [list(row) for row in rows], title=title)]
 
 
 def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
