@@ -113,7 +113,7 @@ def test_what_was_asked_for_is_said():
         anchor={"A": 90, "B": 80},
     )
     said = " ".join(answer.sentences)
-    for figure in ("A has 90 and B has 80", "30 days", "19.8 recent games", "3.0 points higher"):
+    for figure in ("A has 90 and B has 80", "30 days", "as much as 20 games", "3.0 points higher"):
         assert figure in said
     data = answer.to_dict()
     assert (data["anchored_at"], data["half_life_days"]) == ({"A": 90, "B": 80}, 30)

@@ -292,3 +292,29 @@ def test_of_many_matches_the_longest_paths_are_tried_and_the_rest_follow():
     assert sorted(call.match for call in calls) == sorted(f"W1.{k}" for k in range(1, 17))
     assert [bool(np.isnan(call.later)) for call in calls] == [False] * 12 + [True] * 4
     assert calls[0].later == 0.0
+
+
+def test_calling_a_match_before_its_round_costs_little_while_others_are_under_way() -> None:
+    bracket = double_elimination(16)
+    laws = laws_of(bracket)
+    opening = [match for match in bracket.matches if match.name.startswith("W1.")][:4]
+    results = {match.name: bracket.players[match.slots[0]] for match in opening}
+    found = finish(
+        bracket,
+        laws,
+        tables=3,
+        pace=EXACT,
+        turnover=AT_ONCE,
+        results=results,
+        playing=[InPlay("W1.5", 0.0), InPlay("W1.6", 0.0)],
+        now=5.0,
+    )
+    calls = {call.match: call for call in found.calls()}
+    assert {"W1.7", "W2.1", "L1.1"} <= set(calls)
+    a_match = 15.0
+    assert all(0.0 <= call.later <= 2 * a_match for call in calls.values())
+    rows = [found.names.index(name) for name in calls]
+    for row in rows:
+        start = found._room.on_the_first(20).planned(row).start
+        assert (start[found._room.on_the_first(20).evenings.needed] >= 0.0).all()
+        assert (start[:, row] == 5.0).all()

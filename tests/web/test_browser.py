@@ -28,6 +28,7 @@ pytestmark = pytest.mark.skipif(
 )
 
 PAGES = ("/", "/bracket", "/fair?a=Player+1&b=560&race=7", "/screen", "/pin", "/desk", "/new")
+MORE_PAGES = ("/players", "/prizes?fee=10")
 DESK_PAGES = ("/desk/codes", "/desk/history", "/nowhere")
 AT = "2025-03-01T20:00:00"
 
@@ -76,7 +77,7 @@ def objections(page: Any) -> list[str]:
 @pytest.mark.parametrize(
     ("width", "scheme", "paths"),
     [
-        (390, "light", (*PAGES, *DESK_PAGES)),
+        (390, "light", (*PAGES, *MORE_PAGES, *DESK_PAGES)),
         (390, "dark", ("/", "/bracket", "/desk")),
         (768, "light", ("/", "/desk")),
         (1280, "light", ("/bracket", "/screen")),
@@ -95,7 +96,7 @@ def test_axe_objects_to_nothing(
 
 def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hall) -> None:
     page = opened(browser, event, width=320)
-    for path in (*PAGES, *DESK_PAGES, f"/m/{event.site.match_token('W1.3')}"):
+    for path in (*PAGES, *MORE_PAGES, *DESK_PAGES, f"/m/{event.site.match_token('W1.3')}"):
         page.goto(event.site.address + path)
         assert page.evaluate("document.documentElement.scrollWidth") <= 320, path
     page.context.close()

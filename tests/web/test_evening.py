@@ -2,6 +2,7 @@
 
 import random
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -142,3 +143,19 @@ def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
     assert "3" in hall.guest.open("/bracket").words
     assert "W1.1" not in hall.guest.open("/desk").words
     assert len(hall.state.events) == 3
+
+
+def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> None:
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    hall.guest.open("/")
+    for _ in range(100):
+        words = hall.guest.open("/players").words
+        if "next match about" in words:
+            break
+        time.sleep(0.05)
+    assert words.count("Table 1: against") == 2
+    assert words.count("next match about") == 14
+    shown = hall.guest.open("/prizes", fee="20", payout="40/30/20/10").words
+    assert "128.00 for the winner" in shown
+    assert hall.guest.open("/prizes", fee="-1").status == 400
+    assert hall.guest.open("/prizes", fee="9", payout="all mine").status == 400

@@ -14,7 +14,6 @@ from evenbreak.answers.sealed_lineup import sealed_answer
 from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
 from evenbreak.answers.wording import chance, count_of, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
-from evenbreak.teams.night import TeamNight
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
 from evenbreak.teams.solve import SolvedNight, solved, steps_of

@@ -14,20 +14,15 @@ from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.tournament_stakes import Stake, stakes
+from evenbreak.answers.tournament_swiss import swiss_table
 from evenbreak.answers.wording import count_of, decimals, listed, percent
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.later_draws import (
-    can_draw,
-    pairings,
-    stage_to_draw,
-    swiss_of,
-)
+from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.moves import free_tables, score_words
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
@@ -121,12 +116,12 @@ def night_answer(
                 words[-1] += " Break the ties with: evenbreak tournament tiebreak"
         parts.append(_places(state, odds.p_place, odds.bracket.places))
     if state.plan.form == "swiss":
-        parts += _swiss_table(state)
+        parts += swiss_table(state)
     if under_way:
         parts.append(_title_table(night))
         if decides and state.standing.to_play and not decided:
             parts.append(_UNDECIDED)
-    data = {
+    data: dict[str, Any] = {
         "odds": [
             {"name": name, "p_title": p, "p_title_if_sure": sure}
             for name, p, sure in _title_odds(night)
@@ -135,6 +130,8 @@ def night_answer(
         "ratings_averaged": odds is not night.as_if_sure,
         "set_aside": [as_dict(one.result) for one in state.aside],
     }
+    if under_way and not any(isinstance(part, Table) and part.name == "next" for part in parts):
+        data["next"] = []  # nothing can be played before a draw or a tie-break
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
     return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
@@ -162,10 +159,12 @@ def _what_is_next(
             words.append(_most_words(state, decided))
     words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
     keys = ("finish_p10", "finish_p50", "finish_p90")
-    return words, [
-        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)]),
-        _next_table(night, tables, decided, calls if decides else (), prizes),
+    parts: list[Part] = [
+        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)])
     ]
+    if tables:
+        parts.append(_next_table(night, tables, decided, calls if decides else (), prizes))
+    return words, parts
 
 
 def _draw_words(state: Evening) -> str:
@@ -173,25 +172,6 @@ def _draw_words(state: Evening) -> str:
     stage = str(stage_to_draw(state))
     what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
     return f"{what} can be drawn now, with: evenbreak tournament draw"
-
-
-def _swiss_table(state: Evening) -> list[Part]:
-    """Return the standings of a Swiss, once a round is over."""
-    over = [
-        pairs
-        for pairs in pairings(state.later, state.counted)
-        if all(p.winner or p.second is None for p in pairs)
-    ]
-    if not over:
-        return []
-    rows = swiss_standings(swiss_of(state.plan, state.order), over)
-    columns = [
-        Column("name", "player", left=True),
-        Column("won", "matches\nwon"),
-        Column("buchholz", "won by their\nopponents"),
-    ]
-    title = f"Standings after round {len(over)}"
-    return [Table("standings", columns, [list(row) for row in rows], title=title)]
 
 
 def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:

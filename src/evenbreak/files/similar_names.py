@@ -79,15 +79,17 @@ def similar_names(
     return [group for _, group in sorted(_largest(ranked))]
 
 
-def similar_name_warnings(groups: Sequence[tuple[str, ...]], source: str, remedy: str) -> list[str]:
-    """Return a warning for each group of names in a file that may mean one player.
+def similar_name_warnings(
+    groups: Sequence[tuple[str, ...]], source: str, remedy: str, *, of: str = "player"
+) -> list[str]:
+    """Return a warning for each group of names in a file that may mean one player, or team.
 
     >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
     ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
     """
     listed = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one "
-        f"player; {remedy}"
+        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one {of}; "
+        f"{remedy}"
         for group in groups[:MOST_LISTED]
     ]
     more = len(groups) - MOST_LISTED

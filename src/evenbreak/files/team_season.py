@@ -160,9 +160,37 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
             table.problems.add(line, f"{quoted(both[0])} meets itself; correct one of the teams")
     table.problems.raise_any()
     rounds = tuple(table.cells("round"))
+    twice = _twice(table, pairs, scores, rounds, teams.names)
     similar: Sequence[str] = ()
     if not teams.fixed:
         similar = similar_name_warnings(
-            similar_names(teams.names), table.source, "if so, write both alike"
+            similar_names(teams.names), table.source, "if so, write both alike", of="team"
         )
-    return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar))
+    return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar, *twice))
+
+
+def _twice(
+    table: TextTable, pairs: Ints, scores: Ints, rounds: Sequence[str], names: Sequence[str]
+) -> list[str]:
+    """Return warnings about matches that may be entered twice, and teams twice in a round."""
+    seen: dict[tuple[object, ...], int] = {}
+    busy: dict[tuple[str, int], int] = {}
+    said = []
+    for row, line in enumerate(table.lines.tolist()):
+        home, away = pairs[row].tolist()
+        key = (home, away, rounds[row], *scores[row].tolist())
+        if key in seen:
+            said.append(
+                f"{table.source}:{line}: {names[home]} against {names[away]} is in line "
+                f"{seen[key]} already; if it was entered twice, delete one"
+            )
+            continue
+        seen[key] = line
+        for team in (home, away) if rounds[row] else ():
+            if (rounds[row], team) in busy:
+                said.append(
+                    f"{table.source}:{line}: {names[team]} plays in round {rounds[row]} in line "
+                    f"{busy[rounds[row], team]} already"
+                )
+            busy.setdefault((rounds[row], team), line)
+    return said

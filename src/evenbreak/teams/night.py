@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.arrays import Floats, short_repr
 from evenbreak.checks import floats, number_probability, one_of
 from evenbreak.errors import InputError
 from evenbreak.teams.order import order_of
@@ -125,7 +125,9 @@ class TeamNight:
         >>> sorted(night.leads_after(2))
         [-2, 0, 2]
         """
-        each = {int(lead) for law in self.laws for lead in _leads_of(law)}
+        each: set[int] = set()
+        for law in self.laws:
+            each.update((np.flatnonzero(law.any(axis=(0, 1, 2))) - law.shape[3] // 2).tolist())
         found = {0}
         for _ in range(sets):
             found = {before + lead for before in found for lead in each}
@@ -135,11 +137,6 @@ class TeamNight:
         """Return what each final lead is worth: 1 won, 0 lost, `tie` tied."""
         lead = np.asarray(leads)
         return np.where(lead > 0, 1.0, np.where(lead < 0, 0.0, self.tie))
-
-
-def _leads_of(law: Floats) -> Ints:
-    """Return what a set can add to our lead."""
-    return np.flatnonzero(law.any(axis=(0, 1, 2))) - law.shape[3] // 2
 
 
 def _law(given: ArrayLike, ours: int, theirs: int) -> Floats:

@@ -39,7 +39,7 @@ class Outcome(NamedTuple):
 
     @property
     def unfair(self) -> float:
-        """How far the round is from even: |P(win) - P(lose)|."""
+        """How far the round is from even: the difference of P(win) and P(lose)."""
         return abs(self.win - self.lose)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from starlette.datastructures import FormData
+from starlette.datastructures import FormData, QueryParams
 from starlette.requests import Request
 
 from evenbreak.web.refusals import RefusalError
@@ -20,7 +20,7 @@ class Form:
     (7, 'Ann', 4)
     """
 
-    def __init__(self, fields: FormData) -> None:
+    def __init__(self, fields: FormData | QueryParams) -> None:
         self.fields = fields
 
     def text(self, name: str, *, longest: int = _LONGEST) -> str:

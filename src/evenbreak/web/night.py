@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from evenbreak.answers.tournament_night import begun_at, next_calls, night_answe
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
 
 _STALE = 30.0  # seconds after which the finish is worked out again
@@ -43,6 +44,11 @@ class Known:
         as the answer about the evening has it for JSON; `calls` besides, each a table and a match.
     start
         when the evening began, in minutes after midnight.
+    odds
+        of the places.
+    next_starts
+        when each player's next match begins: early, in the middle and late, in minutes since the
+        start; only of players who may still play.
     """
 
     version: int
@@ -50,6 +56,8 @@ class Known:
     data: dict[str, Any]
     calls: list[tuple[int, str]]
     start: int
+    odds: PlaceOdds
+    next_starts: Mapping[str, tuple[float, float, float]]
 
 
 class Night:
@@ -106,12 +114,27 @@ class Night:
         def work() -> Known:
             night = Outlook(state, self.clock())
             data = night_answer(night).to_dict()
-            calls = next_calls(night) if state.standing.to_play else []
-            return Known(version, 0.0, data, calls, begun_at(night))
+            to_play = bool(state.standing.to_play)
+            calls = next_calls(night) if to_play else []
+            starts = _next_starts(night) if to_play else {}
+            return Known(version, 0.0, data, calls, begun_at(night), night.odds, starts)
 
         found = await self._beside.run(work)
         clock = asyncio.get_running_loop().time()
-        self.known = Known(found.version, clock, found.data, found.calls, found.start)
+        self.known = replace(found, at=clock)
+
+
+def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
+    """Return when the next match of each player who does not play now begins."""
+    if night.state.plan.form == "chips":
+        return {}
+    found, starts = night.finish(), {}
+    busy = {name for one in night.state.on_tables.values() for name in one.call.players}
+    for name in night.state.order:
+        start = found.next_start(name)
+        if name not in busy and start.p_played > 0.0:
+            starts[name] = start.p10, start.p50, start.p90
+    return starts
 
 
 def _mark(path: Path) -> tuple[int, int, int]:

@@ -75,7 +75,7 @@ def test_sealed_and_blind_are_worth_the_same(ask):
         ("--race 5 --score 1:0 --used Ines~Valbrecht", "both sides"),
         ("--race 5 --score 0:0 --used Ines~Valbrecht,Pia~Rautavuori", "0:0"),
         ("--race 5 --score 2:1 --used Ines~Valbrecht,Pia~Rautavuori", "2:1"),
-        ("--race 5 --count games --score 3:3 --used Ines~Valbrecht,Pia~Rautavuori", "lead of 0"),
+        ("--race 5 --count games --score 3:3 --used Ines~Valbrecht,Pia~Rautavuori", "3:3"),
         ("--race 5 --last won", "--last"),
         ("--race 5 --order sealed --score 1:0 --used Ines~Valbrecht,Pia~Rautavuori", "sealed"),
     ],
@@ -91,3 +91,37 @@ def test_who_has_no_rating_is_said(run, tmp_path):
     ours.write_text("player,rating,scale\nAnn,600,fargo\nBo,,fargo\n")
     result = run("lineup", str(ours), TEAMS[1], "--race", "5", "--text")
     assert "Bo" in result.stderr
+
+
+AFTER_ONE = ("--race", "5", "--sure", "--used", "dario,winston")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--score", "1:0"),
+        ("--score", "0:1", "--order", "AL", "--last", "lost"),
+        ("--count", "games", "--score", "5:2"),
+        ("--count", "points", "--score", "1:2"),
+    ],
+)
+def test_scores_that_can_be_go_on(ask, words):
+    assert ask("lineup", *TEAMS, *AFTER_ONE, *words)["set"] == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "what"),
+    [
+        (("--score", "2:0"), "2:0 cannot be"),
+        (("--score", "1:1"), "1 set is over"),
+        (("--count", "games", "--score", "3:0"), "3:0 cannot be"),
+        (("--count", "games", "--score", "5:5"), "5:5 cannot be"),
+        (("--count", "points", "--score", "1:1"), "1:1 cannot be"),
+        (("--score", "1:0", "--order", "AL", "--last", "lost"), "--last lost contradicts"),
+        (("--score", "1:0", "--named", "nobody"), "neither team"),
+    ],
+)
+def test_scores_that_cannot_be_are_refused(run, words, what):
+    result = run("lineup", *TEAMS, *AFTER_ONE, *words)
+    assert result.exit_code == 2
+    assert what in result.stderr

@@ -66,3 +66,14 @@ def test_teams_of_a_list_are_the_only_ones(run, tmp_path):
     result = run("season", RESULTS, SCHEDULE, "--teams", str(teams))
     assert result.exit_code == 3
     assert "'Cue Tips' is not in the list of teams" in result.stderr
+
+
+def test_what_may_have_been_entered_twice_is_named(run, tmp_path):
+    results, schedule = tmp_path / "r.csv", tmp_path / "s.csv"
+    results.write_text("home,away,home_score,away_score\nA,B,3,2\nB,A,3,2\nA,B,3,2\nC,D,1,4\n")
+    schedule.write_text("round,home,away\n3,A,C\n3,B,D\n3,A,D\n4,A,C\n")
+    said = run("season", str(results), str(schedule), "--sure", "--seasons", "1000").stderr
+    assert "r.csv:4: A against B is in line 2 already" in said
+    assert "s.csv:4: A plays in round 3 in line 2 already" in said
+    assert "s.csv:4: D plays in round 3 in line 3 already" in said
+    assert said.count("already") == 3

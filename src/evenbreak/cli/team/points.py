@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from evenbreak import ratings, teams
 from evenbreak.answers.team_meeting import SEALED
-from evenbreak.answers.wording import count_of
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.team.scores import check_score
 from evenbreak.files.known_names import KnownNames
 from evenbreak.teams.order import LOSER, WINNER, order_of
 
@@ -46,16 +45,10 @@ def point_of(
             both[side].extend(names[side])
     if score is None and len(both[0]) > len(laws):
         refuse("--used names players whose sets are over; give the score so far with --score")
-    if score is not None and meeting.count == "sets":
-        over = _named_sets(meeting.sizes, len(both[0])) - len(laws)
-        if sum(score) != over:
-            refuse(
-                f"--score {score[0]}:{score[1]} is {count_of(sum(score), 'set')}, but by the "
-                f"players used {over} {'is' if over == 1 else 'are'} over; name all who have "
-                "played with --used"
-            )
     if last is not None and not set(order_of(meeting.order, len(meeting.sizes))) & {WINNER, LOSER}:
-        refuse("--last is for an order in which the winner or the loser of the last set names first")
+        refuse("--last is for an order in which the winner or loser of the last set names first")
+    if score is not None:
+        check_score(meeting, score, _sets_over(meeting, len(both[0]), len(laws)), last)
     lead = 0 if score is None else score[0] - score[1]
     return teams.Point(
         tuple(both[0]),
@@ -67,9 +60,10 @@ def point_of(
     )
 
 
-def _named_sets(sizes: tuple[int, ...], players: int) -> int:
-    """Return how many sets so many players of a team fill."""
-    return sum(total <= players for total in accumulate(sizes))
+def _sets_over(meeting: Meeting, used: int, playing: int) -> int:
+    """Return how many sets are over, if so many of our players are used up or playing."""
+    begun = next((k for k in range(len(meeting.sizes) + 1) if sum(meeting.sizes[:k]) >= used), 0)
+    return max(0, begun - playing)
 
 
 def _named(rosters: tuple[ratings.Roster, ratings.Roster], text: str) -> tuple[str, ...]:
@@ -97,7 +91,7 @@ def _player(
         (side, rosters[side].players[place])
         for side in sides
         if (place := KnownNames(rosters[side].players).place(wanted)) is not None
-    ]
+    ] or _by_beginning([(side, name) for side in sides for name in rosters[side].players], wanted)
     if not found and len(sides) == 1 and option == "--playing":
         other = KnownNames(rosters[1 - sides[0]].players).place(wanted)
         if other is not None:
@@ -108,6 +102,13 @@ def _player(
     if len(found) > 1 and not any_side:
         refuse(f"{option}: both teams have a {wanted!r}; write ours:{wanted} or theirs:{wanted}")
     return found[0]
+
+
+def _by_beginning(players: list[tuple[int, str]], wanted: str) -> list[tuple[int, str]]:
+    """Return the one player whose first or last name begins like this; none if there are more."""
+    begin = f" {wanted.casefold()}"
+    found = [(side, name) for side, name in players if wanted and begin in f" {name.casefold()}"]
+    return found if len(found) == 1 else []
 
 
 def _in_play(meeting: Meeting, text: str) -> tuple[list[list[str]], Floats]:

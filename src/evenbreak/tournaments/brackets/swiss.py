@@ -112,7 +112,8 @@ def swiss_round(
     Raises
     ------
     InputError
-        if a round is not complete, fewer than two players are left, all rounds are over, or the extra is not installed.
+        if a round is not complete, fewer than two players are left, all rounds are over, or the
+        extra is not installed.
     """
     check_rounds(event, played)
     if len(played) == event.rounds:

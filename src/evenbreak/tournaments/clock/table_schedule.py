@@ -91,8 +91,6 @@ def schedule(
     if first is not None:
         rank[first] = count
     missing = np.tile(waits.after.sum(axis=0), (runs, 1))
-    if first is not None:
-        missing[:, first] = 0
     ready = np.full((runs, count), now)
     open_ = np.ones((runs, count), dtype=bool)
     free = np.maximum(tables, now)
@@ -109,6 +107,10 @@ def schedule(
 
     for k, match in enumerate(under_way):
         take(np.full(runs, match), np.full(runs, k), np.full(runs, now))
+    if first is not None:  # its round does not matter, only players of a group who are busy
+        busy = [match for match in under_way if waits.shared[match, first]]
+        missing[:, first] = 0
+        ready[:, first] = end[:, busy].max(axis=1, initial=now)
     for _ in range(count - len(under_way)):
         can = open_ & (missing == 0)
         table = free.argmin(axis=1)

@@ -13,13 +13,21 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament_moves import draw_words, forfeited, happened, reopened
+from evenbreak.answers.tournament_moves import (
+    draw_words,
+    forfeited,
+    happened,
+    reopened,
+    tie_words,
+)
 from evenbreak.answers.tournament_night import bracket_table
 from evenbreak.files.tournament_desk import authors, back_up, proposals
 from evenbreak.files.tournament_store import add_events, read_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, What, as_dict
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, page, site_of
@@ -46,12 +54,16 @@ async def desk(request: Request) -> Response:
         "decided": [],
         "proposed": [],
         "warnings": [],
+        "tied": [],
+        "drawable": False,
     }
     if state.drawn:
         shown["decided"] = [name for name in state.counted if name in state.records]
         ready = {name: set(state.pair(name)) for name in state.standing.to_play}
         found = await asyncio.to_thread(proposals, site.path)
         shown["proposed"] = [p for p in found if ready.get(p.match) == set(p.score)]
+        shown["tied"] = tied_groups(state)
+        shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
     return page(request, "desk.html", live=False, **shown)
@@ -149,6 +161,19 @@ async def drop(request: Request) -> Response:
     )
 
 
+async def tiebreak(request: Request) -> Response:
+    """Break the ties of a group whose matches are played."""
+    await _form(request)
+    rng = np.random.default_rng()
+    found: list[TieBreak] = []
+
+    def decide(state: Evening) -> list[What]:
+        found.append(break_ties(state, rng))
+        return [found[-1].ranked]
+
+    return await _enter(request, decide, lambda _, __: tie_words(found[-1]))
+
+
 async def undo(request: Request) -> Response:
     """Take back what happened last, if nothing has come in since the page was made."""
     form = await _form(request)
@@ -226,6 +251,6 @@ ROUTES = [
     Route("/desk/codes", codes),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
-        for one in (draw, call, result, forfeit, drop, undo, save)
+        for one in (draw, call, result, forfeit, drop, tiebreak, undo, save)
     ),
 ]
