@@ -12,7 +12,7 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
 from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
-from evenbreak.answers.wording import chance, count_of, listed, percent
+from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
@@ -112,10 +112,10 @@ def names_words(names: Sequence[str]) -> str:
 
 def _heading(meeting: Meeting, found: Advice) -> str:
     ours, theirs = len(meeting.ours), len(meeting.theirs)
-    sets = count_of(len(meeting.sizes), "set")
     return (
-        f"Set {found.set_number} of {sets}: {ours} players against {theirs}, "
-        f"{race_words(meeting.race)}\n{scale_words(meeting.scale)}"
+        f"Set {found.set_number} of {len(meeting.sizes)}: {ours} players against {theirs}, "
+        f"{race_words(meeting.race)}\nRatings "
+        f"{scale_words(meeting.scale)}"
     )
 
 
