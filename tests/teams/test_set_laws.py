@@ -26,6 +26,11 @@ def test_the_lead_in_games_is_that_of_the_final_scores() -> None:
     assert law[0, 0] == pytest.approx(expected, abs=1e-14)
 
 
+def test_one_sided_long_races_stay_chances() -> None:
+    law = set_laws(Roster(["Ann"], [843.0]), Roster(["Bo"], [250.0]), 13)
+    assert law.max() == 1.0
+
+
 def test_points_are_those_of_apa() -> None:
     law = set_laws(US, THEM, 3, count=Points())[0, 0]
     p = FARGO.win_probability(40.0)

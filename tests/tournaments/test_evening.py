@@ -208,6 +208,14 @@ class Night(RuleBasedStateMachine):
         if self.states:
             assert directly(self.state) == self.state.counted
 
+    @invariant()
+    def no_table_holds_two_matches(self) -> None:
+        if self.states:
+            taken = [one.call.table for one in self.state.on_tables.values()]
+            assert len(taken) == len(set(taken))
+            if self.state.plan.form != "chips":  # there a table closes when its rack is over
+                assert max(taken, default=0) <= self.state.plan.tables
+
 
 Night.TestCase.settings = settings(max_examples=25, stateful_step_count=25, deadline=None)
 TestNight = Night.TestCase
@@ -388,6 +396,28 @@ def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> N
         moves.change(evening(events), tables=1)
     with pytest.raises(InputError, match="--tables"):
         moves.change(evening(events))
+
+
+def test_a_match_with_a_score_keeps_its_race_though_it_was_never_called() -> None:
+    events = drawn(4)
+    events.append(Event(AT, moves.score(evening(events), "W1.1", (3, 1))))
+    events.append(Event(AT, moves.change(evening(events), race=3)))
+    state = evening(events)
+    assert state.needed("W1.1", state.pair("W1.1")) == (5, 5)
+    assert state.needed("W1.2", state.pair("W1.2")) == (3, 3)
+
+
+def test_a_table_that_was_given_to_another_match_is_not_taken_back_by_a_correction() -> None:
+    events = played(drawn(8), W1_1=(5, 0), W1_2=(5, 0))
+    for match, table in (("W2.1", 1), ("W1.3", 1), ("W1.4", 2)):
+        events.append(Event(AT, moves.call(evening(events), match, table)))
+        if match == "W2.1":
+            events.append(Event(AT, moves.correct(evening(events), "W1.1", (0, 5))))
+    assert set(evening(events).on_tables) == {"W1.3", "W1.4"}
+    events.append(Event(AT, moves.correct(evening(events), "W1.1", (5, 0))))
+    state = evening(events)
+    assert "W2.1" in state.standing.to_play
+    assert set(state.on_tables) == {"W1.3", "W1.4"}
 
 
 def test_the_ties_of_a_round_robin_are_broken_by_games_and_then_by_lot() -> None:

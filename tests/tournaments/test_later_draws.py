@@ -9,6 +9,7 @@ import pytest
 
 from evenbreak.answers import tournament_night
 from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import (
     Drawn,
@@ -23,7 +24,12 @@ from evenbreak.tournaments.evening.events import (
     event_of,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
-from evenbreak.tournaments.evening.later_draws import can_draw, pairings, stage_to_draw
+from evenbreak.tournaments.evening.later_draws import (
+    can_draw,
+    pairings,
+    stage_to_draw,
+    swiss_of,
+)
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import break_ties, tied_groups
 
@@ -100,6 +106,32 @@ def test_a_correction_leaves_the_rounds_that_were_paired() -> None:
     ahead = Outlook(night.state, AT)
     assert ahead.finish().bands[0] > 0.0
     assert ahead.odds.title.sum() == pytest.approx(1.0)
+
+
+def test_players_who_went_home_are_not_paired_in_a_swiss() -> None:
+    pytest.importorskip("caissify_pairings", reason="needs the extra 'swiss'")
+    night = Night(Plan("swiss", 3, rounds=3), 8)
+    gone = [night.state.pair(f"R1.{k}")[0] for k in (1, 2)]
+    for name in gone:
+        night.add(moves.drop(night.state, name))
+    night.play_round()
+    night.draw()
+    seats = [name for name in night.state.later["R2"] if name is not None]
+    assert sorted([*seats, *gone]) == sorted(night.state.order)
+    ahead = Outlook(night.state, AT)
+    assert ahead.odds.title.sum() == pytest.approx(1.0)
+    assert ahead.finish().bands[0] > 0.0
+    night.play_round()
+    night.draw()
+    night.play_round()
+    assert not night.state.standing.to_play
+    standings = swiss_standings(
+        swiss_of(night.state.plan, night.state.order),
+        pairings(night.state.later, night.state.counted),
+    )
+    assert {row.player: row.score for row in standings if row.player in gone} == dict.fromkeys(
+        gone, 0
+    )
 
 
 def test_without_the_extra_a_swiss_is_refused(monkeypatch) -> None:

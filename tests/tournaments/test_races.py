@@ -13,7 +13,15 @@ from evenbreak.handicaps import chart, fair_races
 from evenbreak.matches import match_length, match_odds
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import scale_of
-from evenbreak.tournaments import Fairest, Races, chances_given, double_elimination, pair_odds
+from evenbreak.tournaments import (
+    Fairest,
+    Races,
+    chances_given,
+    double_elimination,
+    pair_odds,
+    single_elimination,
+    title_odds,
+)
 
 RATINGS = np.array([640.0, 570.0, 500.0, 415.0])
 BRACKET = double_elimination(4)
@@ -107,3 +115,10 @@ def test_with_form_lengths_are_those_of_single_matches() -> None:
         assert both[length.games] == pytest.approx(length.probability, abs=1e-9)
     plain, same = (pair_odds(BRACKET, RATINGS, 7, **how)["F"] for how in ({}, {"form": 0.0}))
     assert (plain.ends == same.ends).all()
+
+
+def test_one_sided_long_races_stay_chances() -> None:
+    ratings = [843.0, 250.0]
+    win = pair_odds(single_elimination(2), ratings, 13, scale="fargo")["F"].win
+    assert win[0, 1] == 1.0
+    assert title_odds(single_elimination(2), win).title.tolist() == pytest.approx([1.0, 0.0])

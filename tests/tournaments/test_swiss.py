@@ -40,6 +40,7 @@ def test_standings() -> None:
         ([FIRST[:2]], "round 1"),
         ([[*FIRST[:2], Pairing("Ann", None)]], "round 1"),
         ([[FIRST[0]._replace(winner="Bo"), *FIRST[1:]]], "'Bo'"),
+        ([FIRST, FIRST[:2], FIRST], "round 3"),
         ([FIRST] * 4, "4 rounds"),
     ],
 )

@@ -12,9 +12,8 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
 from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
-from evenbreak.answers.wording import chance, count_of, listed, percent
+from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
-from evenbreak.teams.night import TeamNight
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
 from evenbreak.teams.solve import SolvedNight, solved, steps_of
@@ -72,7 +71,7 @@ def lineup_answer(
         )
     named = point.named if point is not None else ()
     table = _table(found, sure)
-    tied = night.payoff(0) > 0.0 and _can_tie(night)
+    tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
         _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
         Quantities([Quantity("p_win", found.worth), Quantity("best", _name(found.best))]),
@@ -113,10 +112,10 @@ def names_words(names: Sequence[str]) -> str:
 
 def _heading(meeting: Meeting, found: Advice) -> str:
     ours, theirs = len(meeting.ours), len(meeting.theirs)
-    sets = count_of(len(meeting.sizes), "set")
     return (
-        f"Set {found.set_number} of {sets}: {ours} players against {theirs}, "
-        f"{race_words(meeting.race)}\n{scale_words(meeting.scale)}"
+        f"Set {found.set_number} of {len(meeting.sizes)}: {ours} players against {theirs}, "
+        f"{race_words(meeting.race)}\nRatings "
+        f"{scale_words(meeting.scale)}"
     )
 
 
@@ -185,15 +184,6 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
             row.append(sure.get(option.names, 0.0))
         rows.append(row)
     return Table("options", columns, rows)
-
-
-def _can_tie(night: TeamNight) -> bool:
-    """Return whether a tie is possible."""
-    leads = np.ones(1)
-    for law in night.laws:
-        own = law.any(axis=(0, 1, 2)).astype(float)
-        leads = np.convolve(leads, own)
-    return bool(leads[len(leads) // 2] > 0.0)
 
 
 def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | None, str]:

@@ -61,7 +61,8 @@ def sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
     table = Table("options", columns, rows)
     return Answer(
         f"Sealed line-ups of {count_of(len(meeting.sizes), 'set')}: {len(meeting.ours)} players "
-        f"against {len(meeting.theirs)}, {race_words(meeting.race)}\n{scale_words(meeting.scale)}",
+        f"against {len(meeting.theirs)}, {race_words(meeting.race)}\nRatings "
+        f"{scale_words(meeting.scale)}",
         [
             f"{words}: you win the night {percent(found.worth)} of the time, whatever they do.",
             Quantities([Quantity("p_win", found.worth), Quantity("best", _best(found.ours))]),

@@ -89,7 +89,7 @@ there are no ties.
     ]
     return Answer(
         f"{count_of(len(teams[0]), 'player')} against {len(teams[1])}, {played}\n"
-        f"ratings {scale_words(scale)}",
+        f"Ratings {scale_words(scale)}",
         [*parts, Quantities(data), Table("starts", columns, rows, title="What a head start does")],
         warnings=warnings,
     )

@@ -130,7 +130,7 @@ two teams of yours at most 0.9.
     parts += [_quantities(nights), table, _orders_table(rules, nights)]
     heading = (
         f"{count_of(len(teams), 'team')}{f' in {source}' if source else ''}, "
-        f"{count_of(rules.sets, 'set')} a night, {race_words(rules.race)}\n"
+        f"{count_of(rules.sets, 'set')} a night, {race_words(rules.race)}\nRatings "
         f"{scale_words(rules.scale)}"
     )
     return Answer(heading, parts, warnings=warnings, csv=table)

@@ -14,20 +14,15 @@ from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.tournament_stakes import Stake, stakes
+from evenbreak.answers.tournament_swiss import swiss_table
 from evenbreak.answers.wording import count_of, decimals, listed, percent
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.later_draws import (
-    can_draw,
-    pairings,
-    stage_to_draw,
-    swiss_of,
-)
+from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.moves import free_tables, score_words
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
@@ -120,8 +115,8 @@ def night_answer(
             if state.plan.form != "swiss":
                 words[-1] += " Break the ties with: evenbreak tournament tiebreak"
         parts.append(_places(state, odds.p_place, odds.bracket.places))
-    if state.plan.form == "swiss" and state.counted:
-        parts.append(_swiss_table(state))
+    if state.plan.form == "swiss":
+        parts += swiss_table(state)
     if under_way:
         parts.append(_title_table(night))
         if decides and state.standing.to_play and not decided:
@@ -177,23 +172,6 @@ def _draw_words(state: Evening) -> str:
     stage = str(stage_to_draw(state))
     what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
     return f"{what} can be drawn now, with: evenbreak tournament draw"
-
-
-def _swiss_table(state: Evening) -> Table:
-    """Return the standings of a Swiss, after the rounds that are over."""
-    over = [
-        pairs
-        for pairs in pairings(state.later, state.counted)
-        if all(p.winner or p.second is None for p in pairs)
-    ]
-    rows = swiss_standings(swiss_of(state.plan, state.order), over)
-    columns = [
-        Column("name", "player", left=True),
-        Column("won", "matches\nwon"),
-        Column("buchholz", "won by their\nopponents"),
-    ]
-    title = f"Standings after round {len(over)}"
-    return Table("standings", columns, [list(row) for row in rows], title=title)
 
 
 def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:

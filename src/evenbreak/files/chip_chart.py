@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
+
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.roster import LARGEST
@@ -50,7 +52,7 @@ def read_chip_chart(path: str | Path) -> ChipChart:
     )
     chips = whole_numbers(table, "chips", at_least=1, at_most=_MOST_CHIPS, remedy="write 1, 2, ...")
     table.problems.raise_any()
-    first = [start if there else -math.inf for start, there in zip(*starts[::2], strict=True)]
+    first = np.where(starts.stated, starts.values, -math.inf).tolist()
     rows = sorted(zip(first, chips.values.tolist(), strict=True))
     try:
         return ChipChart(Path(path).stem, [ChipRow(*row) for row in rows], str(path))

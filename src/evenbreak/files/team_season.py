@@ -123,9 +123,10 @@ def read_team_results(path: str | Path, teams: TeamNames) -> TeamMatches:
     ([[0, 1]], [[3, 2]])
     """
     table = read_table(path, {**PAIR, **SCORES}, ROUND, rows="matches")
-    scores = np.stack([whole_numbers(table, name).values for name in SCORES], axis=1)
-    none = np.flatnonzero(scores.sum(axis=1) == 0)
+    both = [whole_numbers(table, name) for name in SCORES]
+    scores = np.stack([one.values for one in both], axis=1)
     if all(name in table for name in SCORES):
+        none = np.flatnonzero((scores.sum(axis=1) == 0) & both[0].good & both[1].good)
         table.problems.add_rows(
             table.lines, none, lambda _: "the score is 0:0; leave out matches not played"
         )

@@ -209,23 +209,24 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     for used in (point.used_ours, point.used_theirs):
         if len(used) not in played:
             raise InputError(
-                f"{len(used)} players have been used, which is no whole number of sets"
+                f"{', '.join(used)} cannot be the players used so far: they do not fill whole sets"
             )
     k = played.index(len(point.used_ours))
     if len(point.used_theirs) != len(point.used_ours):
         raise InputError(
-            f"we have used {len(point.used_ours)} players and they {len(point.used_theirs)}; give "
-            "both sides of every set played"
+            f"players used: {len(point.used_ours)} of ours and {len(point.used_theirs)} of "
+            "theirs; give both sides of every set played"
         )
     if k == night.sets:
         raise InputError(f"all {k} sets have been named; there is nobody left to put up")
-    if len(point.in_play) > k:
+    over = k - len(point.in_play)
+    if over < 0:
         raise InputError(f"{len(point.in_play)} matches are in play, but {k} sets were named")
     whole(abs(point.lead), "lead")
-    if abs(point.lead) > (k - len(point.in_play)) * night.reach:
+    if point.lead not in night.leads_after(over):
         raise InputError(
-            f"the lead is {point.lead}, but by the players used only {k - len(point.in_play)} sets "
-            "are over"
+            f"a lead of {point.lead} is not possible with {over} set{'s' * (over != 1)} over, as "
+            "the players used say"
         )
     return (
         k,

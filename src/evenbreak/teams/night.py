@@ -116,6 +116,23 @@ class TeamNight:
         """By how much one set can change the lead at most."""
         return max(int(law.shape[3]) for law in self.laws) // 2
 
+    def leads_after(self, sets: int) -> set[int]:
+        """Return the leads that so many sets, whichever they are, can give.
+
+        >>> coin = np.zeros((1, 1, 2, 3))
+        >>> coin[:, :, 0, 2] = coin[:, :, 1, 0] = 0.5
+        >>> night = TeamNight(Squad(["Ann"], times=2), Squad(["Bo"], times=2), coin, sets=2)
+        >>> sorted(night.leads_after(2))
+        [-2, 0, 2]
+        """
+        each: set[int] = set()
+        for law in self.laws:
+            each.update((np.flatnonzero(law.any(axis=(0, 1, 2))) - law.shape[3] // 2).tolist())
+        found = {0}
+        for _ in range(sets):
+            found = {before + lead for before in found for lead in each}
+        return found
+
     def payoff(self, leads: ArrayLike) -> Floats:
         """Return what each final lead is worth: 1 won, 0 lost, `tie` tied."""
         lead = np.asarray(leads)

@@ -122,7 +122,7 @@ def set_laws(
         for who, ends in enumerate((won, lost)):
             for length, margin in _margins(m, n, who, count):
                 law[i, j, who, reach + margin] += ends[length]
-    return law
+    return np.minimum(law, 1.0)  # a sum may round to more
 
 
 def law_in_play(

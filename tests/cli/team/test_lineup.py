@@ -73,6 +73,11 @@ def test_sealed_and_blind_are_worth_the_same(ask):
         ("--race 5 --used Ines~Valbrecht", "--score"),
         ("--race 5 --playing Ines", "Ines"),
         ("--race 5 --score 1:0 --used Ines~Valbrecht", "both sides"),
+        ("--race 5 --score 0:0 --used Ines~Valbrecht,Pia~Rautavuori", "0:0"),
+        ("--race 5 --score 2:1 --used Ines~Valbrecht,Pia~Rautavuori", "2:1"),
+        ("--race 5 --count games --score 3:3 --used Ines~Valbrecht,Pia~Rautavuori", "3:3"),
+        ("--race 5 --last won", "--last"),
+        ("--race 5 --order sealed --score 1:0 --used Ines~Valbrecht,Pia~Rautavuori", "sealed"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(run, options, what):

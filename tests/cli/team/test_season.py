@@ -52,11 +52,12 @@ def test_what_cannot_be_is_refused_in_one_line(run, words, what):
 
 def test_every_problem_of_a_file_is_named_at_once(run, tmp_path):
     bad = tmp_path / "bad.csv"
-    bad.write_text("home,away,home_score,away_score\nA,A,3,2\nA,B,x,2\nA,,1,4\nB,A,0,0\n")
+    bad.write_text("home,away,home_score,away_score\nA,A,3,2\nA,B,x,2\nA,,1,4\nB,A,0,0\nA,B,x,0\n")
     result = run("season", str(bad), "--round-robin", "2")
     assert result.exit_code == 3
     for line in ("bad.csv:2", "bad.csv:3", "bad.csv:4", "bad.csv:5"):
         assert line in result.stderr
+    assert result.stderr.count("bad.csv:6") == 1  # no score of 0:0 where a cell was not read
 
 
 def test_teams_of_a_list_are_the_only_ones(run, tmp_path):

@@ -46,7 +46,8 @@ Examples:
     "--sets",
     type=Whole(1, MOST_SETS),
     metavar="K",
-    help="How many sets are played.  [default: as many as the smaller team has players]",
+    help="How many sets are played.  [default: as many as the smaller team has players, times K "
+    "with --times K]",
 )
 @click.option(
     "--order",
@@ -171,7 +172,7 @@ def command(
         order.strip().lower() if order.strip().lower() == SEALED else order,
         teams.Points() if count == "points" else count,  # type: ignore[arg-type]
     )
-    asked = any(value is not None and value != () for value in (used, score, playing, named))
+    asked = any(value is not None and value != () for value in (used, score, playing, named, last))
     point = point_of(meeting, used, score, playing, named, last) if asked else None
     warnings = doubts
     warnings += chart_doubts(meeting.race, points)

@@ -6,10 +6,12 @@ import re
 from typing import TYPE_CHECKING
 
 from evenbreak import ratings, teams
+from evenbreak.answers.team_meeting import SEALED
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.team.scores import check_score
 from evenbreak.files.known_names import KnownNames
+from evenbreak.teams.order import LOSER, WINNER, order_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.team_meeting import Meeting
@@ -27,6 +29,8 @@ def point_of(
     last: str | None,
 ) -> teams.Point:
     """Return the point in the night that the options describe, or refuse what cannot be."""
+    if meeting.order == SEALED:
+        refuse("--order sealed is asked before the night; leave out what has happened since")
     rosters = meeting.ours, meeting.theirs
     both: tuple[list[str], list[str]] = ([], [])
     for text in (used or "").split(","):
@@ -41,6 +45,8 @@ def point_of(
             both[side].extend(names[side])
     if score is None and len(both[0]) > len(laws):
         refuse("--used names players whose sets are over; give the score so far with --score")
+    if last is not None and not set(order_of(meeting.order, len(meeting.sizes))) & {WINNER, LOSER}:
+        refuse("--last is for an order in which the winner or loser of the last set names first")
     if score is not None:
         check_score(meeting, score, _sets_over(meeting, len(both[0]), len(laws)), last)
     lead = 0 if score is None else score[0] - score[1]

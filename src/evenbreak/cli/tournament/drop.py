@@ -17,7 +17,8 @@ from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_opt
 def command(*, player: str, file: str, at: str) -> Answer:
     """Let PLAYER go home: they forfeit all their matches to come.
 
-    In a chip tournament they are out, and the next in the line takes their place at the table.
+    In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
+    next in the line takes their place at the table.
     """
     from evenbreak.answers.tournament_moves import forfeited
     from evenbreak.tournaments.evening import moves

@@ -6,7 +6,7 @@ Pairings come from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Literal, NamedTuple, TypeAlias
@@ -92,7 +92,12 @@ def swiss(players: Sequence[str] | int, rounds: int, *, system: System = "dutch"
     return Swiss(checked_players(players), rounds, system)
 
 
-def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[Pairing]:
+def swiss_round(
+    event: Swiss,
+    played: Sequence[Sequence[Pairing]] = (),
+    *,
+    without: Collection[str] = (),
+) -> list[Pairing]:
     """Return the pairings of the next round.
 
     Parameters
@@ -101,15 +106,23 @@ def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[
         the tournament.
     played
         the rounds so far, complete with winners.
+    without
+        the players who have gone home and are no longer paired; in the first round all are.
 
     Raises
     ------
     InputError
-        if a round is not complete, all rounds are over, or the extra is not installed.
+        if a round is not complete, fewer than two players are left, all rounds are over, or the
+        extra is not installed.
     """
     check_rounds(event, played)
     if len(played) == event.rounds:
         raise InputError(f"all {event.rounds} rounds have been played")
+    rows = _histories(event, played)
+    if played:
+        rows = [row for row in rows if row["name"] not in without]
+    if len(rows) < 2:
+        raise InputError("fewer than two players are left, so no round can be paired")
     try:
         engine: Any = import_module("caissify_pairings")
     except ImportError:
@@ -122,9 +135,7 @@ def swiss_round(event: Swiss, played: Sequence[Sequence[Pairing]] = ()) -> list[
         for p in pairings
         if p.second is not None
     }
-    found = engine.generate_pairings(
-        event.system, _histories(event, played), met, len(played) + 1, event.rounds
-    )
+    found = engine.generate_pairings(event.system, rows, met, len(played) + 1, event.rounds)
     name = dict(enumerate(event.players, 1))
     return [Pairing(name[row["white_id"]], name.get(row["black_id"])) for row in found]
 
@@ -205,13 +216,17 @@ def swiss_bracket(
 
 
 def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
-    """Raise an error if a round is incomplete or has a player twice."""
+    """Raise an error if a round has a player twice, lacks one of a later round, or a winner."""
     if len(played) > event.rounds:
         raise InputError(f"played has {len(played)} rounds, the event has {event.rounds}")
+    before = set(event.players)
     for number, pairings in enumerate(played, 1):
         seats = [player for p in pairings for player in (p.first, p.second) if player is not None]
-        if sorted(seats) != sorted(event.players):
-            raise InputError(f"round {number} does not have every player once")
+        if number == 1 and sorted(seats) != sorted(event.players):
+            raise InputError("round 1 does not have every player once")
+        if len(set(seats)) < len(seats) or not set(seats) <= before:
+            raise InputError(f"round {number} has a player twice, or one who had gone home")
+        before = set(seats)
         for first, second, winner in pairings:
             if second is not None and winner not in (first, second):
                 raise InputError(

@@ -55,9 +55,15 @@ class ChipChart:
             raise InputError("rows is empty; give a rating and chips for each")
         for weaker, stronger in pairwise(rows):
             if not stronger.rating_from > weaker.rating_from:
-                raise InputError(f"row {stronger} does not begin above row {weaker}")
+                raise InputError(
+                    f"the row from {stronger.rating_from:g} does not begin above the one from "
+                    f"{weaker.rating_from:g}; give each rating once, the lowest first"
+                )
             if stronger.chips > weaker.chips:
-                raise InputError(f"row {stronger} has more chips than the weaker players' {weaker}")
+                raise InputError(
+                    f"players from {stronger.rating_from:g} on get {stronger.chips} chips, more "
+                    f"than weaker players, who get {weaker.chips}"
+                )
 
     def chips(self, ratings: ArrayLike) -> NDArray[np.int64]:
         """Return the chips of each rating.
@@ -71,7 +77,10 @@ class ChipChart:
         starts = [row.rating_from for row in self.rows]
         place = np.searchsorted(starts, rated, side="right") - 1
         if (place < 0).any():
-            raise InputError(f"ratings has one below {starts[0]:g}, where {self.name} begins")
+            lowest = float(rated.min())
+            raise InputError(
+                f"a rating of {lowest:g} is below {starts[0]:g}, where the chart {self.name} begins"
+            )
         return np.array([row.chips for row in self.rows])[place]
 
 

@@ -84,7 +84,7 @@ class Evening:
     dropped
         the players who have gone home.
     calls
-        the last call of each match.
+        the last call of each match, in the order in which they came.
     scores
         the last live score of each match.
     ties
@@ -189,16 +189,20 @@ class Evening:
 
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
-        """The matches that are being played."""
+        """The matches that are being played: a table is left when it is called for another."""
         if self.plan.form == "chips":
             return {
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
                 for one in self.chip_night.playing
             }
+        last = {one.call.table: name for name, one in self.calls.items()}
         return {
             name: one
             for name, one in self.calls.items()
-            if name in self.standing.to_play and set(self.pair(name)) == set(one.call.players)
+            if last[one.call.table] == name
+            and one.call.table <= self.plan.tables
+            and name in self.standing.to_play
+            and set(self.pair(name)) == set(one.call.players)
         }
 
     @cached_property
@@ -291,9 +295,10 @@ def evening(events: Iterable[Event]) -> Evening:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
+                calls.pop(call.match, None)  # so that the calls are in the order of time
                 calls[call.match] = OnTable(call, event.at)
             case Changed() as change:
-                begun = {*records, *calls}
+                begun = {*records, *calls, *scores}
                 drawn_up = tuple(order), None if lines is None else tuple(lines)
                 bracket = bracket_of(plan, *drawn_up) if order else None
                 plan = changed(plan, change, bracket, begun)

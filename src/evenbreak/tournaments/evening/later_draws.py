@@ -133,7 +133,8 @@ def draw_later(state: Evening, rng: np.random.Generator) -> LaterDraw:
         )
     if state.plan.form == "swiss":
         played = pairings(state.later, state.counted)
-        pairs = swiss_round(swiss_of(state.plan, state.order), played)
+        event = swiss_of(state.plan, state.order)
+        pairs = swiss_round(event, played, without=state.dropped)
         return LaterDraw(stage, tuple(name for p in pairs for name in (p.first, p.second)))
     sources = [slot.match for slot in losers_qualifiers(state.whole) if isinstance(slot, Source)]
     return LaterDraw(stage, tuple(sources[k] for k in rng.permutation(len(sources)).tolist()))

@@ -167,7 +167,8 @@ class Outlook:
                 chances[name][pair] for pair in ((one, other), (other, one))
             )
         event = swiss_of(state.plan, state.order)
-        return swiss_odds(event, win, played=pairings(state.later, state.counted), runs=_SWISSES)
+        rounds, gone = pairings(state.later, state.counted), state.dropped
+        return swiss_odds(event, win, played=rounds, without=gone, runs=_SWISSES)
 
     @cached_property
     def errors(self) -> Floats:

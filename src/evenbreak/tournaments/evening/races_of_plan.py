@@ -35,7 +35,7 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
     bracket
         the bracket; None before the draw.
     begun
-        the matches that have been called or played.
+        the matches that have been called, scored or played.
 
     >>> changed(Plan("double", 5, tables=4), Changed(race=4), None, ()).race
     4

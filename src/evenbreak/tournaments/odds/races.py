@@ -43,7 +43,7 @@ class PairOdds:
     @cached_property
     def win(self) -> Floats:
         """P(i beats j)."""
-        won: Floats = self.ends.sum(axis=2)
+        won: Floats = np.minimum(self.ends.sum(axis=2), 1.0)  # a sum may round to more
         np.fill_diagonal(won, 0.5)
         return won
 

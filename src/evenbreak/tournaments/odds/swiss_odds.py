@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -27,6 +27,7 @@ def swiss_odds(
     win: ArrayLike,
     *,
     played: Sequence[Sequence[Pairing]] = (),
+    without: Collection[str] = (),
     runs: int = 1000,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
@@ -44,6 +45,8 @@ def swiss_odds(
         for samples of the ratings, which take turns.
     played
         the rounds so far. In the last one, matches without a winner are still to be played.
+    without
+        as in `swiss_round`.
     runs
         how many tournaments are played out.
     rng
@@ -71,7 +74,7 @@ def swiss_odds(
         rounds = [list(pairings) for pairings in complete]
         while len(rounds) < event.rounds:
             at_begun = begun and len(rounds) == len(complete)
-            pairings = begun if at_begun else swiss_round(quick, rounds)
+            pairings = begun if at_begun else swiss_round(quick, rounds, without=without)
             luck = rng.random(len(pairings)).tolist()
             rounds.append([_won(p, chances, seat, u) for p, u in zip(pairings, luck, strict=True)])
         rows = swiss_standings(event, rounds)
