@@ -129,8 +129,8 @@ def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
         if group.apart == games and (group.stronger.value - group.taken) * way > 0.0
     )
     return (
-        f"A start of {count_of(games, 'game')} gives too {_little(way)}: the player who gave it won "
-        f"{one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
+        f"A start of {count_of(games, 'game')} gives too {_little(way)}: the player who gave it "
+        f"won {one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
     )
 
 
