@@ -57,7 +57,9 @@ def test_few_matches_are_too_few(play_season):
 
 
 def test_good_and_bad_days_make_chances_of_matches_unreliable(play_season):
-    assert said(play_season(7, days=1.0), prior_sd=0.5).startswith("Do not")
+    text = said(play_season(7, days=1.0), prior_sd=0.5)
+    assert text.startswith("Do not")
+    assert "single games are not corrected" in text
 
 
 def test_ratings_that_underrate_those_who_give_games_are_found(demo):
