@@ -104,6 +104,8 @@ ASKED = {
     "report": "report data/demo_league.csv --out OUT --top 6",
     "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
     "why": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --from data/demo_league.csv",
+    "why_begin": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --from data/demo_league.csv --begin "
+    "data/demo_league_roster.csv",
     "odds_named": "odds 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race 7:5",
     "fair_named": "fair 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race-to 7",
     "live_named": "live 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race 7:5 "

@@ -5,6 +5,8 @@ import pytest
 
 from evenbreak.answers.prior_words import evidence_rows, group_rows, level_words, levels_data
 from evenbreak.ratings import Levels, Results, best_prior, fit
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.prior import Evidence, PriorChoice
 from simulated_levels import league
 
 SEASON = Results.from_names(
@@ -35,3 +37,15 @@ def test_the_error_of_an_estimate_is_given_with_it():
     used = {row["of"]: row["used"] for row in evidence_rows(choice)}
     assert used["joined"]
     assert not used["team_sd"]
+
+
+@pytest.mark.parametrize(("share", "largest"), [(1.0, False), (2.0, True)])
+def test_a_share_of_the_races_at_the_end_of_those_tried_is_called_so(share, largest):
+    season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[6])
+    sizes = (0.5, 1.0, 2.0)
+    gains = tuple(Estimate(size / 100, 0.001, 0.03) for size in sizes)
+    found = Evidence("race", sizes, gains, True, share, 0.1)
+    choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
+    (text,) = level_words(fit(season, levels=Levels(race=share)), choice)
+    assert f"{share:.0%}" in text
+    assert ("No larger share was tried" in text) == largest

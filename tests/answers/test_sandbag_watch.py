@@ -1,9 +1,14 @@
 """Who is flagged and after which match, and what each match of a player weighs."""
 
+import math
+import re
+
 import numpy as np
 import pytest
+from scipy.special import expit
 
 from evenbreak.answers.sandbag_watch import (
+    day_sd_doubts,
     match_rows,
     sandbag_player_answer,
     sandbag_watch_answer,
@@ -14,6 +19,7 @@ from evenbreak.files.results import read_results
 from evenbreak.files.roster import read_roster
 from evenbreak.handicaps import Ladder, chart, system_of
 from evenbreak.league.sandbag_watch import watch
+from evenbreak.ratings import Results
 
 NPL, TEN = system_of("npl"), chart("npl_10")
 ROSTER = "player,rating\nAnn,80\nBo,80\n"
@@ -82,3 +88,18 @@ def test_a_season_without_matches_has_no_players(tmp_path):
     answer = sandbag_watch_answer([], empty, "season.csv")
     assert answer.to_dict()["players"] == []
     assert len(answer.parts) == 1
+
+
+def test_form_of_the_day_in_the_results_suggests_a_day_sd():
+    rng = np.random.default_rng(3)
+    strength = rng.normal(0.0, 0.5, 20)
+    a, b = np.array([rng.choice(20, 2, replace=False) for _ in range(1500)]).T
+    form = rng.normal(0.0, 0.6, 1500)
+    won = rng.binomial(15, expit(strength[a] - strength[b] + form))
+    names = [f"Player {k:02d}" for k in range(20)]
+    season = Results(names, a, b, won, 15 - won)
+    (doubt,) = day_sd_doubts(season, "npl")
+    points = int(re.search(r"--day-sd (\d+)", doubt).group(1))
+    assert points == pytest.approx(0.6 * 30.0 / math.log(2.0) / math.sqrt(2.0), abs=3.0)
+    steady = rng.binomial(15, expit(strength[a] - strength[b]))
+    assert day_sd_doubts(Results(names, a, b, steady, 15 - steady), "npl") == []

@@ -3,10 +3,13 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
 from evenbreak.answers.validate_verdict import verdict
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, scale_of, validate
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.day_form import DayForm
 
 
 def said(results, **options):
@@ -58,6 +61,16 @@ def test_few_matches_are_too_few(play_season):
 
 def test_good_and_bad_days_make_chances_of_matches_unreliable(play_season):
     assert said(play_season(7, days=1.0), prior_sd=0.5).startswith("Do not")
+
+
+@pytest.mark.parametrize("established", [True, False])
+def test_what_is_corrected_is_said_where_chances_of_matches_are_off(demo, established):
+    form = DayForm(Estimate(0.1, 0.05 if established else -0.1, 0.15), 300)
+    spread = demo.dispersion._replace(seen=2.0 * demo.dispersion.by_chance, p_value=0.0)
+    found = dataclasses.replace(demo, form=form, dispersion=spread)
+    text = verdict(found, scale_of("npl"))
+    assert text.startswith("Do not rely")
+    assert ("single games are not corrected" in text) == established
 
 
 def test_ratings_that_underrate_those_who_give_games_are_found(demo):

@@ -4,7 +4,7 @@ import pytest
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.why import why_answer
 from evenbreak.files.results import ResultsFile
-from evenbreak.ratings import Results, fit
+from evenbreak.ratings import Beginning, Levels, Results, fit
 from leagues import two_groups
 
 TO_SEVEN = OfferedRaces(race_to=7)
@@ -84,3 +84,15 @@ def test_a_match_known_by_its_winner_has_no_score():
     )
     rows = [row for row in why(season).to_dict()["matches"] if row["player"] == "Ann"]
     assert [(row["score"], row["result"]) for row in rows] == [("7-5", "won"), (None, "lost")]
+
+
+def test_a_rating_brought_along_is_one_of_the_sources():
+    begin = Levels(beginning=Beginning(["Ann"], [90.0], [8.0]))
+    sources = why(SEASON, levels=begin).to_dict()["sources"]
+    assert [(one["player"], one["source"]) for one in sources] == [
+        *(("Ann", source) for source in ("prior", "brought", "results")),
+        *(("Bo", source) for source in ("prior", "results")),
+    ]
+    brought = sources[1]
+    assert (brought["rating"], brought["standard_error"]) == pytest.approx((90.0, 8.0))
+    assert 0.0 < brought["weight"] < 1.0

@@ -67,3 +67,22 @@ def test_rows_left_out_are_counted(tmp_path):
     later.write_text(f"{HEAD},Ann,Bo,,4\n,Bo,Cy,2,7\n")
     assert read_results(typed, skip_bad=True).skipped == 1
     assert read_seasons([typed, later], skip_bad=True).skipped == 2
+
+
+def test_a_high_score_without_a_race_is_named_where_other_rows_have_races(tmp_path):
+    path = tmp_path / "mixed.csv"
+    rows = [*["Ann,Bo,7,5,7,7\n"] * 60, "Ann,Bo,67,45,,\n", "Ann,Bo,67,45,67,67\n"]
+    path.write_text("player_a,player_b,score_a,score_b,race_a,race_b\n" + "".join(rows))
+    doubts = [text for text in read_results(path).warnings if "67-45" in text]
+    assert [text.split(": ")[0] for text in doubts] == [f"{path}:62"]
+    assert read_results(path, skip_bad=True).skipped == 1
+
+
+def test_rows_with_too_many_or_too_few_cells_count_as_left_out(tmp_path):
+    path = tmp_path / "ragged.csv"
+    path.write_text(
+        "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\nAnn,Bo,7\nAnn,Bo,x,5\nAnn,Bo,7,5,9\n"
+    )
+    found = read_results(path, skip_bad=True)
+    assert (found.skipped, len(found.results)) == (3, 1)
+    assert "3 rows are left out" in found.warnings[0]

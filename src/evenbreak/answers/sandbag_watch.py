@@ -11,8 +11,11 @@ from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, race, some_of
 from evenbreak.league.nights import PlayedNight
 from evenbreak.league.sandbag_watch import Watched
+from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale, scale_of
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""
@@ -114,6 +117,25 @@ def sandbag_watch_answer(
         data={"alpha": alpha, "honest": honest, "tried_events": _events(watched[0])},
         csv=players,
     )
+
+
+def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
+    """Return a warning if form of the day is established in results, and what --day-sd fits it.
+
+    >>> day_sd_doubts(Results.from_names(["Ann"], ["Bo"], [7], [5]), "npl")
+    []
+    """
+    ratings = fit(results, scale=scale)
+    form = day_form(results, ratings) if ratings.matches else None
+    if form is None or not form.established:
+        return []
+    # Two players' forms, alike and independent, make up that of their difference.
+    points = scale_of(scale).points(form.sd) / math.sqrt(2.0)
+    return [
+        "honest players are taken to play at the same strength every day, but in these results "
+        f"their form varies by about {points:.0f} points from match to match; give --day-sd "
+        f"{points:.0f}, or players may be flagged for a good or bad day"
+    ]
 
 
 def unrated_doubts(roster: Roster, results: Results) -> list[str]:

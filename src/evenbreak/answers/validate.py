@@ -55,7 +55,13 @@ def validate_answer(
         parts,
         details=list(details(found, scale)),
         warnings=[*file.warnings, *file.ties],
-        data={"verdict": text, **_figures(found, scale), **_chart(chart), "seed": seed},
+        data={
+            "verdict": text,
+            "rows_left_out": file.skipped,
+            **_figures(found, scale),
+            **_chart(chart),
+            "seed": seed,
+        },
         csv=findings_table(found, chart),
     )
 
@@ -68,6 +74,7 @@ def _heading(file: ResultsFile, found: Validation) -> str:
         forfeits: forecasts.forfeits,
         f"{forecasts.empty:,} at 0-0": forecasts.empty,
         f"{forecasts.unscored:,} without scores": forecasts.unscored,
+        count_of(file.skipped, "bad row"): file.skipped,
     }
     out = ", ".join(words for words, count in left.items() if count)
     return (

@@ -1,6 +1,6 @@
 """Whether handicaps were fair, what a start is worth, and which chart the races come from."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.parts import Column, Table
@@ -19,8 +19,8 @@ from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.handicap_fairness import HandicapFairness
-from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.starts import Starts, even_start
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.starts import StartGroup, Starts, even_start
 from evenbreak.ratings.validate import Validation
 
 WIDE = 0.4
@@ -28,6 +28,9 @@ WIDE = 0.4
 
 SURE = 0.1
 """The share of the fair scale that its standard error must be below to confirm a chart."""
+
+MOST_SIZES = 4
+"""Sizes of starts that are listed."""
 
 MOST_CHANGED = 4
 """Places of a chart that are listed; the others are counted."""
@@ -38,10 +41,12 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
     if not found.spots:
         return
     way = starts_way(found, chart)
-    yield _fairness(found, way)
     fair, command = _fair_scale(chart)
-    if found.starts is not None:
-        yield from _worth(found.starts, way, scale, covered=bool(fair))
+    # Beside what a chart assumes, points are those of the chart.
+    own = scale if not fair or chart.scale is None else scale_of(chart.scale.assumed)
+    yield _fairness(found, way, own)
+    if found.starts is not None and found.starts.a_class is not None:
+        yield _class_worth(found.starts, found.starts.a_class, way, scale)
     if fair:
         yield fair
     if command:
@@ -50,7 +55,7 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
         yield _nearest(chart.nearest)
 
 
-def _fairness(found: Validation, by_games: int) -> str:
+def _fairness(found: Validation, by_games: int, scale: Scale) -> str:
     every = found.spots[-1]
     won = (
         f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
@@ -58,27 +63,31 @@ def _fairness(found: Validation, by_games: int) -> str:
     figures = (
         f"{won} ({percent(every.share)}; {percents((every.low, every.high))} allowing for luck)"
     )
+    by_size = _unfair_by_size(found, scale)
     off = clearly_off(share_of(every), 0.5)
-    if off:
-        return f"The handicaps give too {_little(off)}. {figures}; fair is 50%."
-    if by_games:
-        return (
-            f"The handicaps give too {_little(by_games)}, as the games within the matches show. "
-            f"{figures}; fair is 50%."
+    if off or by_games:
+        way = off or by_games
+        shown = "" if off else ", as the games within the matches show"
+        against = _against(found.starts, way, scale) or by_size
+        return " ".join(
+            [
+                f"The handicaps give too {_little(way)}{shown}. {figures}; fair is 50%.",
+                *([against] if against else []),
+            ]
         )
     if every.high - every.low > WIDE:
         unknown = "There are too few handicap matches to say whether the handicaps are fair"
-        by_size = _unfair_by_size(found.spots[:-1])
-        if by_size:
-            return f"{unknown} on average, but not all starts are fair. {by_size} {figures}."
-        return f"{unknown}. {figures}."
-    if not every.low <= 0.5 <= every.high:
         return (
+            f"{by_size} {unknown} on average. {figures}." if by_size else f"{unknown}. {figures}."
+        )
+    if not every.low <= 0.5 <= every.high:
+        doubt = (
             f"The handicaps may give too {_little(1 if every.low > 0.5 else -1)}. {figures}; fair "
             "is 50%, just outside that range."
         )
-    if by_size := _unfair_by_size(found.spots[:-1]):
-        return f"The handicaps look fair on average, but not one by one. {by_size} {figures}."
+        return f"{by_size} {doubt}" if by_size else doubt
+    if by_size:
+        return f"{by_size} All together the starts are fair: {figures[0].lower()}{figures[1:]}."
     way = clearly_off(share_of(every), every.expected)
     if way:
         under = "under" if way > 0 else "over"
@@ -90,17 +99,14 @@ def _fairness(found: Validation, by_games: int) -> str:
     return f"The handicaps look fair. {figures}."
 
 
-def _unfair_by_size(spots: Sequence[HandicapFairness]) -> str:
-    """Return which starts are unfair although they are fair on average; '' if none is."""
+def _unfair_by_size(found: Validation, scale: Scale) -> str:
+    """Return which starts are unfair by themselves; '' if none is."""
+    spots = found.spots[:-1]
     if wrong := unfair_starts(spots):
-        said = [
-            f"a start of {count_of(int(one.spot or 0), 'game')} gives too "
-            f"{_little(one.share - 0.5)} (the player who gave it won {one.won:,} of "
-            f"{one.matches:,}, {percent(one.share)})"
-            for one in wrong
-        ]
-        words = listed(said)
-        return f"{words[0].upper()}{words[1:]}."
+        text = " ".join(_unfair(one, found.starts, scale) for one in wrong)
+        if wrong[-1] is spots[-1] and wrong[-1].share > 0.5:
+            text += " No start is larger, so it also serves players who are farther apart."
+        return text
     way = starts_trend(spots)
     if not way:
         return ""
@@ -112,20 +118,50 @@ def _unfair_by_size(spots: Sequence[HandicapFairness]) -> str:
     )
 
 
+def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
+    """Return that a start of one size is unfair, and what it should take back if that is known."""
+    way = 1 if one.share > 0.5 else -1
+    games = int(one.spot or 0)
+    should = "".join(
+        f" It takes back {scale.points(group.taken):.0f} points and should take back "
+        f"{scale.points(group.stronger.value):z.0f}."
+        for group in _by_games(starts)
+        if group.apart == games and (group.stronger.value - group.taken) * way > 0.0
+    )
+    return (
+        f"A start of {count_of(games, 'game')} gives too {_little(way)}: the player who gave it "
+        f"won {one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
+    )
+
+
+def _by_games(starts: Starts | None) -> tuple[StartGroup, ...]:
+    """Return the starts by the games given, none where they are known by class."""
+    return () if starts is None or starts.classes else starts.groups
+
+
 def _little(way: float) -> str:
     return "little" if way > 0 else "much"
 
 
-def _worth(starts: Starts, way: int, scale: Scale, *, covered: bool) -> Iterator[str]:
-    """Yield what a class is worth, or else a start where it takes back too little or too much."""
-    if starts.a_class is not None:
-        yield _class_worth(starts, starts.a_class, way, scale)
-    elif way and not covered:
-        yield (
-            f"Players who give games are {_points(starts.stronger, scale)} stronger than their "
-            f"opponents on average, give or take {_error(starts.stronger, scale)}. The games that "
-            f"they give take back {scale.points(starts.taken):.0f} points."
-        )
+def _against(starts: Starts | None, way: int, scale: Scale) -> str:
+    """Return what starts take back against what they should; '' where the games do not show it."""
+    if starts is None or (starts.stronger.value - starts.taken) * way <= 0.0:
+        return ""
+    text = (
+        f"On average they take back {scale.points(starts.taken):.0f} points and should take back "
+        f"{scale.points(starts.stronger.value):.0f}, give or take {_error(starts.stronger, scale)}"
+    )
+    groups = _by_games(starts)
+    sizes = [
+        f"{count_of(group.apart, 'game')} {'takes' if group.apart == 1 else 'take'} back "
+        f"{scale.points(group.taken):.0f} points instead of "
+        f"{scale.points(group.stronger.value):z.0f}"
+        for group in groups
+        if clearly_off(group.stronger, group.taken, tests=len(groups)) == way
+    ]
+    more = len(sizes) - MOST_SIZES
+    shown = sizes[:MOST_SIZES] + ([f"{more} larger starts likewise"] if more > 0 else [])
+    return f"{text}; by size, {listed(shown)}." if shown else f"{text}."
 
 
 def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> str:

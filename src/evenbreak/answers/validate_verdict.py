@@ -41,7 +41,7 @@ def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
     if spread is not None and spread.p_value < UNLIKELY:
         times = spread.seen / spread.by_chance
         if times > TOO_SPREAD:
-            return _good_and_bad_days(times)
+            return f"{_good_and_bad_days(times)} {_corrected(found)}"
     default = _default_is_wrong(found, scale)
     if faults:
         held = f"You can trust the ratings for single games, but {listed(faults)}."
@@ -98,7 +98,19 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
     even = "even with the best prior"
     if not found.choice.learnt:
         even = "and there are too few results to choose a better prior"
-    return f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
+    text = f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
+    return f"{text} {_corrected(found)}"
+
+
+def _corrected(found: Validation) -> str:
+    """Return what the other commands correct where chances are off, and what they do not."""
+    if found.form is None or not found.form.established:
+        return "No command corrects this."
+    return (
+        "In the chances of matches and in fair races, report allows for good and bad days, and so "
+        "do odds, fair, live and matchups with the ratings that rate writes. The chances of single "
+        "games are not corrected."
+    )
 
 
 def _good_and_bad_days(times: float) -> str:

@@ -16,7 +16,15 @@ from evenbreak.answers.wording import chance, percent, race
 from evenbreak.files.results import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.rating_sources import rating_sources
 from evenbreak.ratings.scale import Scale
+
+SOURCES = {
+    "prior": "assumed before",
+    "brought": "rating brought along",
+    "results": "these results",
+}
+"""What a person reads for each source of a rating."""
 
 MOST_LISTED = 10
 """Matches of each player that a person is shown; CSV and JSON have all."""
@@ -57,17 +65,19 @@ def why_answer(
     matches = matches_behind(file.results, ratings, pair, refit)
     scale = ratings.scale
     names = ratings.players[pair[0]], ratings.players[pair[1]]
+    brought, sources = ratings.levels.beginning is not None, [_sources_table(ratings, pair)]
     return Answer(
         f"{names[0]} and {names[1]} in {file.source}\nRatings on {like_scale_words(scale)}",
         [
             " ".join([_now_in_words(now, names, scale), _more_in_words(more, now)]).rstrip(),
             _players_table(ratings, pair),
+            *(sources if brought else []),
             *([_more_table(more, now, names, scale)] if more else []),
             *(_matches_table(matches, name, scale) for name in names),
             "Worth: how much lower (or, with a minus, higher) the rating would be if this match "
             "had not been played and all others had.",
         ],
-        details=list(prior_details(ratings, choice)),
+        details=[*prior_details(ratings, choice), *([] if brought else sources)],
         warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
         data={
             "player_a": names[0],
@@ -143,6 +153,29 @@ def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
         for k in pair
     ]
     return Table("players", columns, rows)
+
+
+def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
+    """Return what each rating is made of."""
+    decimals = decimals_of(ratings.scale)
+
+    def points(value: float | None) -> str:
+        return "" if value is None else f"{value:.{decimals}f}"
+
+    columns = [
+        Column("player", "player", left=True),
+        Column("source", "source", SOURCES.__getitem__, left=True),
+        Column("rating", "rating\nby it alone", points),
+        Column("standard_error", "give or take", points),
+        Column("weight", "weight", percent),
+    ]
+    rows = [
+        (ratings.players[player], *source)
+        for player in pair
+        for source in rating_sources(ratings, player)
+    ]
+    title = "What the ratings are made of: each is the average of its sources, by weight."
+    return Table("sources", columns, rows, title)
 
 
 def _more_table(

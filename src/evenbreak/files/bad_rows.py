@@ -32,17 +32,18 @@ TIMES = 2.5
 def doubtful_scores(results: Results) -> Bools:
     """Return which scores are so much higher than the others that they can hardly be games won.
 
-    Where a race is stated, its score is not doubted.
+    A score is compared with all others, but where its race is stated, it is not doubted.
 
     >>> season = Results.from_names(["Ann"] * 30, ["Bo"] * 30, [7] * 29 + [67], [5] * 29 + [45])
     >>> np.flatnonzero(doubtful_scores(season))
     array([29])
     """
     score = np.maximum(results.score_a, results.score_b)
-    judged = (results.races[0] == 0) & (score > 0) & ~results.given_away
-    if judged.sum() < FEWEST_MATCHES:
+    played = (score > 0) & ~results.given_away
+    if played.sum() < FEWEST_MATCHES:
         return np.zeros(len(results), dtype=bool)
-    return np.asarray(judged & (score >= HIGH) & (score > TIMES * _usual(score[judged])))
+    judged = played & (results.races[0] == 0) & (score >= HIGH)
+    return np.asarray(judged & (score > TIMES * _usual(score[played])))
 
 
 def _usual(score: Ints) -> float:
@@ -74,8 +75,10 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
 
 def without_bad_rows(
     table: TextTable, read: Callable[[TextTable], Results]
-) -> tuple[TextTable, list[str]]:
+) -> tuple[TextTable, list[str], int]:
     """Return a table without rows that cannot be read or hold no games, and what was left out.
+
+    What was left out is listed and counted, with the rows that were not cut into cells.
 
     Parameters
     ----------
@@ -103,7 +106,7 @@ def without_bad_rows(
     doubtful = doubtful_scores(results)
     found += _score_doubts(results, kept.lines, table.source)
     left_out = {*unread, *kept.lines[doubtful].tolist()}
-    return kept.without(left_out), _counted(found, len(left_out), table.source)
+    return kept.without(left_out), _counted(found, len(left_out), table.source), len(left_out)
 
 
 def _counted(found: Sequence[str], rows: int, source: str) -> list[str]:

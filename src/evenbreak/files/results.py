@@ -138,9 +138,9 @@ def read_results(
         return names, results_rows(rows, names, results_columns(rows, names, dates))
 
     skipped: list[str] = []
-    many = len(table)
+    left_out = 0
     if skip_bad:
-        table, skipped = without_bad_rows(table, lambda rows: read(rows)[1])
+        table, skipped, left_out = without_bad_rows(table, lambda rows: read(rows)[1])
     names, results = read(table)
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, met_pairs(results)))
@@ -166,7 +166,7 @@ def read_results(
         sha256,
         table.lines,
         ties,
-        skipped=many - len(table),
+        skipped=left_out,
     )
 
 

@@ -63,24 +63,19 @@ class Ratings:
         the scale, the mean of the prior in points, and its standard deviation in
         natural log-odds.
     iterations, gradient
-        Newton steps, and the largest entry of the log-posterior's gradient after them,
-        in games.
-    matches, forfeits, empty
-        rows used, rows left out as forfeits, and rows left out as 0-0.
-    races_won, races_lost
-        matches of each player that are known by race and winner alone.
+        Newton steps, and the log-posterior's largest slope after them, in games.
+    matches, forfeits, empty, races_won, races_lost
+        rows used, left out as forfeits, and left out as 0-0; and each player's matches won and
+        lost that are known by race and winner alone.
     named
-        the players whose ratings anchor their components, and these ratings.
+        players whose ratings anchor their components, and these.
     half_life, as_of, later
-        days after which a match counts half, or None; the day that is rated for, or None;
-        rows left out because they are later than that.
+        days after which a match counts half, or None; the day rated for, or None; rows after it.
     break_advantage
-        by how many points the breaker of a rack plays better, estimated or given; None
-        where the break does not matter.
-    break_games
-        the games, by weight, whose breaker is known, if the break matters.
-    levels
-        how much newcomers, teams and divisions differ beforehand.
+        by how many points the breaker of a rack plays better; None where it does not matter.
+    break_games, levels
+        the games, by weight, whose breaker is known, if the break matters; how much newcomers,
+        teams and divisions differ beforehand.
     form
         how much players vary from match to match, if that was estimated (see `day_form`).
     """
@@ -222,7 +217,7 @@ class Ratings:
         >>> ratings.quasi_error.round(1), float(np.hypot(*ratings.quasi_error).round(1))
         (array([18.5, 18.5]), 26.2)
         """
-        if self._means is not None and self._means.known is not None:
+        if self.prior_means.known is not None:
             return self._around_components()
         size = np.bincount(self.component)[self.component]
         alone = size == 1
@@ -254,10 +249,15 @@ class Ratings:
         return np.asarray(np.sqrt(variance) * self.scale.points_per_log_odds)
 
     @property
+    def prior_means(self) -> PriorMeans:
+        """The means of the players' priors, and what earlier results say, in log-odds."""
+        return self._means or PriorMeans.none(len(self.players))
+
+    @property
     def expected(self) -> Floats:
         """What each player was expected to be before any result, in points."""
-        means = self._means or PriorMeans.none(len(self.players))
-        return self.anchor + self.scale.points_per_log_odds * means.expected(self._level)
+        mean = self.prior_means.expected(self._level)
+        return self.anchor + self.scale.points_per_log_odds * mean
 
     @property
     def newcomer_share(self) -> float:
@@ -276,9 +276,9 @@ class Ratings:
 
         Within a kind of group the strongest comes first.
         """
-        if self._means is None or not self._means.names:
+        if not self.prior_means.names:
             return ()
-        kinds = np.array([kind for kind, _ in self._means.names])
+        kinds = np.array([kind for kind, _ in self.prior_means.names])
         same = (kinds[:, None] == kinds).astype(float)
         contrast = np.eye(len(kinds)) - same / same.sum(1)
         covariance = contrast @ self._curvature.level_covariance @ contrast.T
@@ -286,7 +286,7 @@ class Ratings:
         error = self.scale.points_per_log_odds * np.sqrt(np.diagonal(covariance))
         found = [
             Group(kind, name, float(points), float(sd))
-            for (kind, name), points, sd in zip(self._means.names, above, error, strict=True)
+            for (kind, name), points, sd in zip(self.prior_means.names, above, error, strict=True)
         ]
         return tuple(sorted(found, key=lambda one: (one.kind, -one.above, one.name)))
 

@@ -41,7 +41,7 @@ FEWEST = 100
 
 TRIED = {
     "brought_sd": (0.1, 0.2, 0.4, 0.8),
-    "race": (0.25, 0.5, 0.75, 1.0, 1.25),
+    "race": (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0),
     "division_sd": (0.1, 0.2, 0.4, 0.8),
     "team_sd": (0.1, 0.2, 0.4, 0.8),
     "joined": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
@@ -80,6 +80,11 @@ class Evidence(NamedTuple):
     used: bool
     value: float
     standard_error: float | None = None
+
+    @property
+    def at_most(self) -> bool:
+        """Whether the size that predicts best is the largest that could be found."""
+        return self.used and self.value >= max(self.tried)
 
     @property
     def gain(self) -> Estimate:

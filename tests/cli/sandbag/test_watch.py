@@ -124,3 +124,11 @@ def test_established_is_doubted_where_players_have_no_ratings_of_their_own(run, 
     assert "3 of 3 players" in run("sandbag", "watch", *plain, "--honest", "established").stderr
     assert "3 of 3 players" not in run("sandbag", "watch", *plain).stderr
     assert "established" not in run("sandbag", "watch", *SEASON, "--honest", "established").stderr
+
+
+def test_a_player_is_found_in_any_case_and_spacing(watch, run):
+    asked = json.loads(watch("--json", "--player", " gus  LINDAHL "))
+    assert asked["player"] == "Gus Lindahl"
+    result = run("sandbag", "watch", *SEASON, "--player", "Gus Lindhal")
+    assert result.exit_code == 2
+    assert "did you mean 'Gus Lindahl'" in result.stderr

@@ -14,6 +14,7 @@ from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.systems import refuse_for_system, system_option
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
+from evenbreak.files.known_names import KnownNames
 
 EXAMPLES = """\b
 Examples:
@@ -70,6 +71,7 @@ def command(
     It is evidence, not a verdict.
     """
     from evenbreak.answers.sandbag_watch import (
+        day_sd_doubts,
         sandbag_player_answer,
         sandbag_watch_answer,
         unrated_doubts,
@@ -91,6 +93,8 @@ def command(
     warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
     if honest == "established":
         warnings += unrated_doubts(first.roster, season.results)
+    if not day_sd:
+        warnings += day_sd_doubts(season.results, system.scale)
     if chart is None:
         season, assumed = with_even_races(season)
         warnings += assumed
@@ -107,9 +111,12 @@ def command(
         day_sd=day_sd,
     )
     if player is not None:
-        found = [one for one in found if one.player == player]
-        if not found:
-            refuse(f"--player: {player!r} has no match in {season.source}")
+        known = KnownNames([one.player for one in found])
+        place = known.place(player)
+        if place is None:
+            hint = known.hint(player)
+            refuse(f"--player: {player!r} has no match in {season.source}{hint}")
+        found = [found[place]]
     if plot is not None:
         from evenbreak.plots.sandbagging import watch_figure
 
