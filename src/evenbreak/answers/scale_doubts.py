@@ -79,14 +79,37 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
             f"{NAMES.get(scale.name, scale.name)} ratings average about {scale.centre:g}, but "
             f"these average about {middle:.0f}; {remedy}"
         )
+    return doubts + far_doubts(scale, known)
+
+
+def far_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
+    """Return a warning if some ratings are very far from the others, as after a slip.
+
+    Parameters
+    ----------
+    scale
+        of the ratings.
+    ratings
+        NaN is no rating.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> far_doubts(SCALES["fargo"], [580, 5800, 612])
+    ['1 of 3 ratings is more than 600 points from the median of 612; are they all on the same
+    scale?']
+    """
+    import numpy as np
+
+    known = np.asarray(ratings, dtype=float)
+    known = known[~np.isnan(known)]
     edge = APART * scale.points_per_doubling
+    middle = float(np.median(known)) if len(known) else 0.0
     apart = int((np.abs(known - middle) > edge).sum())
-    if apart:
-        doubts.append(
-            f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
-            f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
-        )
-    return doubts
+    if not apart:
+        return []
+    return [
+        f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
+        f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
+    ]
 
 
 def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:

@@ -30,6 +30,9 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
 
     In a chip tournament they get chips by the chart and go to the end of the line.
     """
+    from dataclasses import replace
+
+    from evenbreak.answers.scale_doubts import far_doubts
     from evenbreak.answers.tournament_moves import entry_words
     from evenbreak.files.player_names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
@@ -45,5 +48,9 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
             return [moves.late(state, Entrant(name, plan.starter, plan.starter_error))]
         return [moves.late(state, Entrant(name, rating))]
 
-    _, state = add(file, at, decide)
-    return answer_of(file, state, at, [entry_words(state, name)])
+    before, state = add(file, at, decide)
+    answer = answer_of(file, state, at, [entry_words(state, name)])
+    known = [entrant.rating for entrant in before.entrants.values()]
+    if rating is None or far_doubts(state.scale, known):
+        return answer
+    return replace(answer, warnings=[*far_doubts(state.scale, [*known, rating]), *answer.warnings])

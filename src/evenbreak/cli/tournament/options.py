@@ -333,7 +333,7 @@ def _scale(
     file: files.RosterFile, stated: Scale | None, starter: float | None, usual: str
 ) -> tuple[Scale, list[str]]:
     """Return the scale of the ratings, and what is doubtful about it."""
-    from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
+    from evenbreak.answers.scale_doubts import far_doubts, league_doubts, starter_doubts
 
     if stated is not None:
         refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
@@ -344,6 +344,8 @@ def _scale(
     if file.scale is None:
         remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(scale, file.roster.rating, remedy)
+    else:
+        warnings += far_doubts(scale, file.roster.rating)
     if starter is None:
         warnings += starter_doubts(scale, file.roster.rating)
     return scale, warnings
