@@ -10,7 +10,7 @@ for library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 # A slow machine is no failure, and a failure must come again on the next machine.
-settings.register_profile("evenbreak", deadline=None, derandomize=True, max_examples=30)
+settings.register_profile("evenbreak", deadline=None, derandomize=True, max_examples=20)
 settings.load_profile("evenbreak")
 
 # A shell's background jobs ignore Ctrl-C, and so would every program that a test starts.

@@ -106,7 +106,7 @@ def test_the_national_pool_leagues_ladders(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "points", "widest"),
-    [*((name, 30, 60) for name in CHARTS), ("npl_8", 120, 960), ("npl_20", 120, 960)],
+    [*((name, 30, 60) for name in CHARTS), ("npl_20", 120, 960)],
 )
 def test_chart_ladders_in_extended_precision(name: str, points: int, widest: int) -> None:
     """Residuals r of n orthonormal vectors put each value within r of an eigenvalue of S."""

@@ -17,7 +17,7 @@ from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, 
 from evenbreak.web.site import Site
 from web.phones import Phone
 
-KILLS = int(os.environ.get("EVENBREAK_KILLS", "2"))
+KILLS = int(os.environ.get("EVENBREAK_KILLS", "1"))
 """How often the server is killed; 200 takes minutes."""
 
 
