@@ -16,9 +16,12 @@ from evenbreak.tournaments.evening.events import Event
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+sync_api = pytest.importorskip(
+    "playwright.sync_api", reason="no playwright; pip install -e '.[browser]'"
+)
 axe_api = pytest.importorskip(
-    "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    "axe_playwright_python.sync_playwright",
+    reason="no axe-playwright-python; pip install -e '.[browser]'",
 )
 CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
 pytestmark = pytest.mark.skipif(
