@@ -15,16 +15,10 @@ from evenbreak.files.tournament_desk import kept_secrets
 from evenbreak.files.tournament_store import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
-from web.phones import Phone
+from web.phones import Phone, free_port
 
 KILLS = int(os.environ.get("EVENBREAK_KILLS", "1"))
 """How often the server is killed; 200 takes minutes."""
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def begun(path: Path, players: int) -> None:
