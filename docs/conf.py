@@ -1,8 +1,11 @@
 """Sphinx settings: MyST pages and notebooks, autodoc for the interface, furo."""
 
 import ast
+import json
 import logging
+import os
 import re
+import tempfile
 from pathlib import Path
 
 import evenbreak
@@ -27,6 +30,14 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 logging.getLogger("traitlets").setLevel(logging.WARNING)
+# They run without the reader's own IPython settings, without history, and quietly.
+_ipython = tempfile.TemporaryDirectory()
+_profile = Path(_ipython.name, "profile_default")
+_profile.mkdir()
+(_profile / "ipython_kernel_config.json").write_text(
+    json.dumps({"IPKernelApp": {"log_level": 40}, "HistoryManager": {"enabled": False}})
+)
+os.environ["IPYTHONDIR"] = _ipython.name
 
 autodoc_member_order = "bysource"
 # matplotlib writes this method into each of its subclasses.
