@@ -188,7 +188,8 @@ def title_odds(
         the tournament.
     win
         P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
-        a function of two names; or a mapping with one of these for each match, by match name.
+        a function of two names; or a mapping with one of these for each match, by match name,
+        such as `pair_odds` returns.
     results
         the winner of each decided match. The result of a match whose players are not known
         yet is a what-if: the odds are conditional on it.
