@@ -25,7 +25,7 @@ from evenbreak.files.tournament_store import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
 
-WATCH, REPORT = 100, 20
+WATCH, REPORT, RACE = 100, 20, 9
 
 
 class Line:
@@ -80,7 +80,7 @@ async def report(port: int, until: float, times: list[float], token: str, pair: 
     while time.perf_counter() < until:
         await asyncio.sleep(luck.uniform(0.5, 1.5))
         a, b = (a + 1, b) if luck.random() < 0.5 else (a, b + 1)
-        if max(a, b) > 49:
+        if max(a, b) == RACE:
             a = b = 0
         fields = {"csrf": csrf, "player_a": pair[0], "player_b": pair[1], "a": a, "b": b}
         took, got = await line.ask(f"/m/{token}/score", fields)
@@ -109,7 +109,7 @@ def main(players: int = 64, seconds: float = 20.0) -> None:
         probe.close()
         path = Path(folder, "tonight.db")
         entrants = tuple(Entrant(f"Player {k}", 700.0 - 3 * k, 20.0) for k in range(players))
-        plan = Plan("double", 50, scale="fargo", tables=16)
+        plan = Plan("double", RACE, scale="fargo", tables=16)
         drawn = Drawn(tuple(one.name for one in entrants), tuple(range(players)))
         new_tournament(
             path, [Event("2025-03-01T19:30:00", one) for one in (Opened(plan, entrants), drawn)]

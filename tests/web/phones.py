@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 import socket
 import threading
@@ -9,7 +10,7 @@ import urllib.error
 import urllib.parse
 import urllib.request
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from html import unescape
 from http.cookiejar import CookieJar
 from pathlib import Path
@@ -78,13 +79,23 @@ class Phone:
             return Shown(error.code, text, error.url or "", error.headers)
 
 
+def free_port() -> int:
+    """Return a port that nobody uses, below those that connections are given for themselves.
+
+    A connection tried to one of those may be made from the same one, and keep a server out of it.
+    """
+    for _ in range(100):
+        with socket.socket() as probe, suppress(OSError):
+            port = random.randrange(12000, 30000)
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("no port is free")
+
+
 @contextmanager
 def running(path: Path, *, port: int = 0) -> Iterator[Site]:
     """Serve a file while the block runs."""
-    if not port:
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = probe.getsockname()[1]
+    port = port or free_port()
     site = Site(path, address=f"http://127.0.0.1:{port}")
     server = server_of(site, port=port)
     thread = threading.Thread(target=server.run, daemon=True)

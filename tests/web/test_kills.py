@@ -9,22 +9,17 @@ import subprocess
 import sys
 import threading
 import time
+from datetime import datetime
 from pathlib import Path
 
-from evenbreak.files.tournament_desk import kept_secrets
+from evenbreak.files.tournament_desk import back_up, kept_secrets
 from evenbreak.files.tournament_store import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
-from web.phones import Phone
+from web.phones import Phone, free_port
 
 KILLS = int(os.environ.get("EVENBREAK_KILLS", "1"))
 """How often the server is killed; 200 takes minutes."""
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def begun(path: Path, players: int) -> None:
@@ -38,7 +33,7 @@ def begun(path: Path, players: int) -> None:
 def started(path: Path, port: int) -> subprocess.Popen[bytes]:
     """Start the server, and wait until it answers."""
     words = [sys.executable, "-m", "evenbreak", "serve", str(path), "--port", str(port)]
-    server = subprocess.Popen(words, stderr=subprocess.DEVNULL, cwd=path.parent)
+    server = subprocess.Popen(words, cwd=path.parent)
     for _ in range(600):
         with socket.socket() as probe:
             if probe.connect_ex(("127.0.0.1", port)) == 0:
@@ -82,6 +77,15 @@ def test_a_killed_server_has_lost_nothing(tmp_path: Path) -> None:
     finally:
         server.kill()
         server.wait()
+
+
+def test_copies_of_one_second_are_all_kept(tmp_path: Path) -> None:
+    path, now = tmp_path / "tonight.db", datetime(2025, 3, 1, 19, 30)
+    begun(path, 4)
+    copies = [back_up(path, now) for _ in range(3)]
+    assert len({*copies}) == 3
+    assert {read_tournament(copy).drawn for copy in copies} == {True}
+    assert {one.name for one in tmp_path.glob("*20250301*")} == {one.name for one in copies}
 
 
 def test_secrets_are_kept_and_each_start_leaves_a_copy(tmp_path: Path) -> None:

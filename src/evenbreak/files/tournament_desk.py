@@ -6,8 +6,10 @@ import json
 import secrets
 import sqlite3
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import count
 from pathlib import Path
 
 from evenbreak.files.tournament_store import opened
@@ -103,11 +105,25 @@ def authors(path: str | Path) -> dict[int, str]:
 
 
 def back_up(path: str | Path, now: datetime) -> Path:
-    """Write a copy of the file beside it, and return its name."""
+    """Write a copy of the file beside it, and return its name.
+
+    What bears that name is a whole copy, even if the program ends while it is written.
+    """
     place = Path(path)
-    copy = place.with_name(f"{place.stem}-{now:%Y%m%d-%H%M%S}.backup.db")
+    part = place.with_name(f".{place.stem}-{secrets.token_hex(4)}.part")
     with opened(place) as base:
-        base.execute("VACUUM INTO ?", (str(copy),))
+        base.execute("VACUUM INTO ?", (str(part),))
+    return part.replace(_new_name(place, f"{now:%Y%m%d-%H%M%S}"))
+
+
+def _new_name(place: Path, at: str) -> Path:
+    """Reserve a name for a copy made at some time; others may have been made in that second."""
+    for k in count(1):
+        again = f"-{k}" if k > 1 else ""
+        copy = place.with_name(f"{place.stem}-{at}{again}.backup.db")
+        with suppress(FileExistsError):
+            copy.touch(exist_ok=False)
+            break
     return copy
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.chains.passage_times import PassageTime
 from evenbreak.checks import number_probability
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.own_games import Ends, ends_of_game
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     import networkx as nx
     import pandas as pd
 
+    from evenbreak.chains.passage_times import PassageTime
     from evenbreak.game import Game
 
 _LONGEST = 100_000

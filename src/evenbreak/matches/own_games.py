@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from evenbreak.chains.explore import chain_of
-from evenbreak.chains.passage_times import PassageTime, first_passage
 from evenbreak.checks import whole
 from evenbreak.errors import GameError, InputError
 from evenbreak.game import Game
@@ -16,6 +14,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from evenbreak.chains.chain import Chain
+    from evenbreak.chains.passage_times import PassageTime
 
 _CERTAIN = 1e-9
 """How far from 1 the chance may be that player 1 or 2 wins a rack."""
@@ -29,6 +28,8 @@ class Ends(NamedTuple):
 
     def reached(self, states: list[Hashable]) -> PassageTime | None:
         """Return how many moves it takes to reach any of these states; None if there are none."""
+        from evenbreak.chains.passage_times import first_passage
+
         return first_passage(self.chain, None, states) if states else None
 
     def p_win(self, player: int) -> float:
@@ -62,6 +63,8 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
     >>> ends_of_game(OneBall(0.5, 0.5)).by_winner
     {1: ['W'], 2: ['L']}
     """
+    from evenbreak.chains.explore import chain_of
+
     if isinstance(game, Game):
         chain = chain_of(game, start=start)
         final = [state for state in _absorbing(chain) if not game.moves(state)]

@@ -18,8 +18,6 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.antidiagonals import race_endings
-from evenbreak.matches.by_limit import odds_by_limit
-from evenbreak.matches.exact_win import exact_win, exact_win_of_game
 from evenbreak.matches.outcomes import outcomes_of
 from evenbreak.matches.own_games import ends_of_game
 from evenbreak.matches.parameters import at_score, in_shape, rack_in
@@ -119,6 +117,10 @@ def win_probability(
     (0.8, 0.896)
     """
     way = way_of_limit(via, exact=exact)
+    if way is not None:  # these bring all chains along, which the kernels do without
+        from evenbreak.matches.by_limit import odds_by_limit
+    if exact:
+        from evenbreak.matches.exact_win import exact_win, exact_win_of_game
     if not isinstance(match, Match) and isinstance(match, Game):
         whole(player, "player", at_least=1)
         if way is not None:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-import networkx as nx
+from graphlib import CycleError, TopologicalSorter
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Source
@@ -42,8 +41,7 @@ def laid_out(form: str, players: tuple[str, ...], drafts: Sequence[Draft]) -> Br
 def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
     """Return the matches so that each comes after those that feed it, the final last."""
     by_name = {draft.name: draft for draft in drafts}
-    graph: nx.DiGraph[str] = nx.DiGraph()
-    graph.add_nodes_from(by_name)
+    feeds: dict[str, set[str]] = {name: set() for name in by_name}
     taken: set[Source] = set()
     for draft in drafts:
         for slot in draft.slots:
@@ -55,12 +53,14 @@ def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
                     "who does not come there"
                 )
             taken.add(slot)
-            graph.add_edge(slot.match, draft.name)
-    if not nx.is_directed_acyclic_graph(graph):
-        raise InputError("a match leads to itself")
+            feeds[draft.name].add(slot.match)
+    try:
+        order = list(TopologicalSorter(feeds).static_order())
+    except CycleError:
+        raise InputError("a match leads to itself") from None
     depth: dict[str, int] = {}
-    for name in nx.topological_sort(graph):
-        depth[name] = 1 + max((depth[one] for one in graph.predecessors(name)), default=0)
+    for name in order:
+        depth[name] = 1 + max((depth[one] for one in feeds[name]), default=0)
     place = {draft.name: k for k, draft in enumerate(drafts)}
     last = {"third place": 0, "final": 1, "second final": 2}
     return sorted(

@@ -17,8 +17,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
-from evenbreak.chains.absorption import expected_visits
-from evenbreak.chains.explore import chain_of
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
@@ -134,6 +132,9 @@ def last_players(
     >>> last_players([2, 1, 1], np.full((3, 3), 0.5)).title
     array([0.625, 0.125, 0.25 ])
     """
+    from evenbreak.chains.absorption import expected_visits
+    from evenbreak.chains.explore import chain_of
+
     counts = tuple(whole(count, "chips", at_least=1) for count in chips)
     table = checked_racks(racks, len(counts))
     order = tuple(range(len(counts))) if line is None else tuple(int(k) for k in line)

@@ -186,6 +186,17 @@ class Outlook:
 
         def chances(skills: Floats) -> dict[str, Floats]:
             played = tables = usual(skills)
+            # The matches that have begun share a table, in which each has a pair of its own.
+            shared: dict[int, Floats] = {}
+
+            def settle(name: str, one: int, other: int, won: float) -> None:
+                table = tables[name]
+                if id(table) not in shared:
+                    mine = shared[id(table)] = table.copy()
+                    shared[id(mine)] = mine
+                tables[name] = shared[id(table)]
+                tables[name][one, other], tables[name][other, one] = won, 1.0 - won
+
             if self.walkovers:
                 either = 0.5 * self.walkovers
                 made = {id(t): either + (1.0 - self.walkovers) * t for t in played.values()}
@@ -198,14 +209,11 @@ class Outlook:
                 tables = {name: made[id(table)] for name, table in tables.items()}
             if self.walkovers:
                 for name, one, other in begun:
-                    won = float(played[name][one, other])
-                    tables[name] = tables[name].copy()
-                    tables[name][one, other], tables[name][other, one] = won, 1.0 - won
+                    settle(name, one, other, float(played[name][one, other]))
             for name, (one, other), needs, score in self._in_score:
                 p = state.scale.win_probability(skills[one] - skills[other])
-                won = float(betainc(needs[0] - score[0], needs[1] - score[1], p))
-                tables[name] = tables[name].copy()
-                tables[name][one, other], tables[name][other, one] = won, 1.0 - won
+                left = needs[0] - score[0], needs[1] - score[1]
+                settle(name, one, other, float(betainc(*left, p)))
             return tables
 
         return chances

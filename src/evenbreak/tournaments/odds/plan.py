@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Source
 
 Players: TypeAlias = NDArray[np.int16]
@@ -128,10 +129,30 @@ class Plan:
         """The number of states of all steps together."""
         return sum(step.size for step in self.steps)
 
+    @property
+    def numbers(self) -> int:
+        """How many numbers it holds, about; they are most of its memory."""
+        held = [one.size * len(one.slots) for one in self.steps]
+        for one in self.steps:
+            if isinstance(one, MatchStep):
+                held += [2 * len(branch.to) for branch in one.branches]
+                held += [] if one.pair is None else [2 * len(one.pair)]
+        return sum(held)
+
 
 def adding_up(index: Index, size: int) -> csc_array:
     """Return the sparse matrix that sums rows with the same index."""
-    count = len(index)
-    return csc_array(
-        (np.ones(count), index, np.arange(count + 1, dtype=np.int32)), shape=(size, count)
-    )
+    ones, starts = _ones_and_starts(len(index))
+    return csc_array((ones, index, starts), shape=(size, len(index)))
+
+
+_SHARED = [(np.ones(0), np.arange(1, dtype=np.int32))]
+"""Ones, and 0, 1, 2, ...: of these all such matrices have the beginning."""
+
+
+def _ones_and_starts(count: int) -> tuple[Floats, Index]:
+    if len(_SHARED[0][0]) < count:
+        many = 2 * count
+        _SHARED[0] = np.ones(many), np.arange(many + 1, dtype=np.int32)
+    ones, starts = _SHARED[0]
+    return ones[:count], starts[: count + 1]

@@ -32,7 +32,7 @@ MOST_STATES = 1e7
 """The largest number of joint states of one match; takes some hundred megabytes."""
 
 _PESSIMISM = 30.0  # the estimate can be this many times too high
-_MOST_KEPT = 2_000_000  # states of all plans that are kept for later
+_MOST_KEPT = 4_000_000  # numbers of all plans that are kept for later
 _SPARE = 8  # keys are looked up in a table if it is not this many times longer than the keys
 
 
@@ -88,14 +88,14 @@ def exact_plan(
     question = bracket, assumed, most_states
     if question not in _KEPT:
         _KEPT[question] = _built(bracket, assumed, most_states)
-        while len(_KEPT) > 1 and (len(_KEPT) > 64 or _kept_states() > _MOST_KEPT):
+        while len(_KEPT) > 1 and (len(_KEPT) > 64 or _kept_numbers() > _MOST_KEPT):
             _KEPT.popitem(last=False)
     _KEPT.move_to_end(question)
     return _KEPT[question]
 
 
-def _kept_states() -> int:
-    return sum(plan.states for plan in _KEPT.values() if plan)
+def _kept_numbers() -> int:
+    return sum(plan.numbers for plan in _KEPT.values() if plan)
 
 
 def _built(

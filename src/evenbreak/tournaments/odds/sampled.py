@@ -34,7 +34,7 @@ _STATES_PER_SAMPLE = 1e5
 BATCHES = 40
 """The number of batches of samples."""
 
-_CELLS = 4_000_000
+_CELLS = 200_000
 """The largest number of states times samples that are processed at once."""
 
 
@@ -125,7 +125,7 @@ def places_of_samples(
     """
     bracket = now.remaining
     cut = cut_before(bracket, _STATES_PER_SAMPLE)
-    sampler = _Sampler(now, bracket, tables, cut, at_once=samples)
+    sampler = _Sampler(now, bracket, tables, cut)
     total: Floats | float = 0.0
     for _ in range(rounds):
         played = play_out(bracket, tables, rng, samples, only=cut.early)
@@ -143,7 +143,6 @@ class _Sampler:
         bracket: Bracket,
         chances: Chances,
         cut: Cut,
-        at_once: int | None = None,
     ) -> None:
         self.bracket, self.chances, self.cut = bracket, chances, cut
         self.column = {place: k for k, place in enumerate(now.bracket.places)}
@@ -152,7 +151,7 @@ class _Sampler:
         self.first, self.second = who_can_sit(bracket)
         self.nobody = len(bracket.players)
         largest = max((step.size for step in self.plan.steps), default=1)
-        self.at_once = at_once or max(1, _CELLS // largest)
+        self.at_once = max(1, _CELLS // largest)
 
     def batch(self, played: PlayedOut, size: int) -> _Batch:
         """Return a batch, given the results of its first rounds."""
@@ -197,7 +196,7 @@ class _Sampler:
         who = np.full((len(self.cut.entrants) + 1, many), self.nobody)
         for k, slot in enumerate(self.cut.entrants):
             who[k] = played.sent[slot][rows] if isinstance(slot, Source) else slot
-        through: ForwardPass = forward_pass(self.plan, self._tables(who))
+        through: ForwardPass = forward_pass(self.plan, self._tables(who, rows))
         shares = np.zeros((len(who), len(self.column), many))
         for step in self.plan.steps:
             if isinstance(step, MatchStep):
@@ -212,14 +211,16 @@ class _Sampler:
         for k, players in enumerate(who[:-1]):
             batch.places[samples, players] += shares[k].T
 
-    def _tables(self, who: NDArray[np.int64]) -> Chances:
-        """Return the chances of the entrants of each sample."""
+    def _tables(self, who: NDArray[np.int64], rows: slice) -> Chances:
+        """Return the chances of the entrants of each of these samples."""
         made: dict[int, Floats] = {}
         tables: dict[str, Floats] = {}
         for match in self.cut.rest.matches:
             table = self.chances.of(match.name)
             if id(table) not in made:
-                made[id(table)] = of_samples(table, who[:, None, :], who[None, :, :])
+                made[id(table)] = of_samples(
+                    table[..., rows] if table.ndim == 3 else table, who[:, None, :], who[None, :, :]
+                )
             tables[match.name] = made[id(table)]
         return Chances(tables)
 
