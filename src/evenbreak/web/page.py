@@ -15,6 +15,7 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
 from evenbreak.web.words import LANGUAGES, language_of, say
+from evenbreak.web.words.sentences import in_language
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -88,24 +89,34 @@ def page(
     def t(key: str, **held: object) -> str:
         return say(code, key, **held)
 
+    def tr(text: str) -> str:
+        return in_language(code, text)
+
     shown = (
         _templates()
         .get_template(template)
         .render(
             t=t,
+            tr=tr,
+            capital=_capital,
             language=code,
             languages=LANGUAGES,
             here=request.url.path,
             site=site_of(request),
             director=is_director(request),
             csrf=form_token(request),
-            said=request.session.pop(_SAID, []),
+            said=[tr(line) for line in request.session.pop(_SAID, [])],
             live=live,
             script=own_file("live.js"),
             **values,
         )
     )
     return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+
+
+def _capital(text: str) -> str:
+    """Return a text with a capital letter in front."""
+    return text[:1].upper() + text[1:]
 
 
 def done(request: Request, to: str, *said: str) -> Response:

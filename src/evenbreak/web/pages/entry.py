@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 import tempfile
 from pathlib import Path
 
@@ -93,7 +94,13 @@ def _read(content: bytes) -> RosterFile:
         try:
             return read_entrants(place)
         except DataError as error:
-            raise DataError([p.replace(str(place), "list") for p in error.problems]) from None
+            raise DataError([_of_list(problem, place) for problem in error.problems]) from None
+
+
+def _of_list(problem: str, place: Path) -> str:
+    """Return a problem of the list without the name of the file that it was read from."""
+    with_line = re.sub(rf"^{re.escape(str(place))}:(\d+): ", r"line \1: ", problem)
+    return with_line.replace(f"{place}: ", "").replace(str(place), "the list")
 
 
 def _entrants(file: RosterFile, scale: Scale) -> tuple[Entrant, ...]:
