@@ -67,7 +67,13 @@ def choose_language(request: Request, code: str) -> None:
 
 
 def page(
-    request: Request, template: str, *, live: bool = False, status: int = 200, **values: Any
+    request: Request,
+    template: str,
+    *,
+    live: bool = False,
+    quick: bool = False,
+    status: int = 200,
+    **values: Any,
 ) -> Response:
     """Return a page.
 
@@ -79,6 +85,8 @@ def page(
         its name in the folder `templates`.
     live
         whether the page follows what happens in the tournament.
+    quick
+        whether it asks again after a second or two, for what is being worked out.
     status
         of HTTP.
     values
@@ -107,6 +115,7 @@ def page(
             csrf=form_token(request),
             said=[tr(line) for line in request.session.pop(_SAID, [])],
             live=live,
+            quick=quick,
             script=own_file("live.js"),
             **values,
         )
