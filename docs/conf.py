@@ -38,7 +38,8 @@ suppress_warnings = ["ref.python"]
 
 html_theme = "furo"
 html_title = f"evenbreak {release}"
-html_static_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["cards.css"]
 
 
 ROOM = re.compile(r"^```\{room\} (\w+)\n```$", re.MULTILINE)

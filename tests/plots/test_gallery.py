@@ -1,0 +1,64 @@
+import ast
+import re
+from collections.abc import Iterator
+from importlib import import_module
+from types import ModuleType
+
+import click
+import pytest
+
+from evenbreak.cli.program import program
+from places import DOCS, SRC
+
+
+@pytest.fixture
+def shown(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    monkeypatch.syspath_prepend(DOCS / "images")
+    return import_module("shown")
+
+
+def figures() -> set[str]:
+    """Return the public functions of the room that return a picture of their own."""
+    return {
+        node.name
+        for module in (SRC / "plots").glob("*.py")
+        for node in ast.parse(module.read_text("utf-8")).body
+        if isinstance(node, ast.FunctionDef)
+        and not node.name.startswith("_")
+        and node.returns is not None
+        and ast.unparse(node.returns).split(" | ")[0] == "Picture"
+    }
+
+
+def commands(
+    group: click.Group, words: tuple[str, ...] = ()
+) -> Iterator[tuple[str, click.Command]]:
+    ctx = click.Context(group)
+    for name in group.list_commands(ctx):
+        one = group.get_command(ctx, name)
+        assert one is not None
+        if isinstance(one, click.Group):
+            yield from commands(one, (*words, name))
+        else:
+            yield " ".join((*words, name)), one
+
+
+def test_every_figure_has_its_picture_in_the_gallery(shown: ModuleType) -> None:
+    drawn = {name for group in shown.SHOWN.values() for one in group for name in one.draws.split()}
+    assert figures() == drawn
+
+
+def test_every_command_that_plots_is_in_the_gallery(shown: ModuleType) -> None:
+    asked = [one.command for group in shown.SHOWN.values() for one in group]
+    for words, command in commands(program):
+        if any("--plot" in option.opts for option in command.params):
+            assert any(line.startswith(f"{words} ") for line in asked), words
+
+
+def test_the_gallery_shows_them_all(shown: ModuleType) -> None:
+    page = (DOCS / "gallery.md").read_text("utf-8")
+    for one in (one for group in shown.SHOWN.values() for one in group):
+        name = re.split("/", one.name)[-1]
+        assert f"(images/{name})" in page
+        assert (DOCS / "images" / name).stat().st_size > 0
+        assert (DOCS / one.page).exists()
