@@ -6,7 +6,6 @@ python docs/images/make_images.py
 from __future__ import annotations
 
 import contextlib
-import io
 import re
 import sys
 from collections.abc import Iterator
