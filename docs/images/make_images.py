@@ -13,7 +13,7 @@ from importlib import import_module
 from pathlib import Path, PurePath
 from unittest import mock
 
-from evenbreak.plots.picture import image_bytes
+from evenbreak.plots.picture import image_bytes, our_look
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -72,7 +72,8 @@ def make(one: Shown, place: Path) -> bytes:
             run(line)
         if one.python:
             names: dict[str, object] = {}
-            exec(one.python, names)  # noqa: S102
+            with our_look():
+                exec(one.python, names)  # noqa: S102
             kind = "png" if file.suffix == ".png" else "svg"
             file.write_bytes(image_bytes(names["picture"], kind))  # type: ignore[arg-type]
         else:

@@ -69,6 +69,32 @@ sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10))
 (picture,) = sheet_pages(sheet)
 """,
         ),
+        Shown(
+            "second_chance.svg",
+            "What a second chance is worth",
+            "A favourite's title odds in single and in double elimination.",
+            "explanation/exact-brackets.md",
+            python="""\
+import numpy as np
+from evenbreak.plots.style import LINES, new_axes
+from evenbreak.tournaments import double_elimination, single_elimination, title_odds
+
+picture, axes = new_axes(
+    "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
+)
+chances = np.linspace(0.5, 1.0, 26)
+for players, line in ((8, LINES[0]), (16, LINES[1])):
+    win = np.full((players, players), 0.5)
+    for make, dashes in ((double_elimination, "-"), (single_elimination, "--")):
+        title = []
+        for p in chances:
+            win[0, 1:], win[1:, 0] = p, 1.0 - p
+            title.append(title_odds(make(players), win).title[0])
+        name = f"{make.__name__.replace('_', ' ')} of {players}"
+        axes.plot(chances, title, dashes, color=line.color, label=name)
+axes.legend(fontsize=9)
+""",
+        ),
     ),
     "Matches": (
         Shown(

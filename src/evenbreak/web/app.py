@@ -18,7 +18,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
 from evenbreak.web.page import language, own_file, page, script_hash
-from evenbreak.web.pages import bracket, desk, entry, fair, home, match, players, screen
+from evenbreak.web.pages import bracket, desk, entry, fair, home, league, match, players, screen
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.site import Site
 from evenbreak.web.words import say
@@ -45,6 +45,7 @@ def make_app(site: Site) -> Starlette:
             *fair.ROUTES,
             *bracket.ROUTES,
             *players.ROUTES,
+            *league.ROUTES,
             *screen.ROUTES,
             *match.ROUTES,
             *desk.ROUTES,

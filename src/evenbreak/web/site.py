@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from evenbreak.files.tournament_desk import kept_secrets, new_pin
+from evenbreak.web.league import League
 from evenbreak.web.night import Night, now
 from evenbreak.web.sessions import Tries
 
@@ -42,6 +43,7 @@ class Site:
 
     def __post_init__(self) -> None:
         self.night = Night(self.path, clock=self.clock)
+        self.league = League(self.path)
         self._secrets = {
             "pin": new_pin(),
             **{name: secrets.token_urlsafe(24) for name in ("cookie", "director", "match")},
