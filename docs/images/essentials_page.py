@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from typing import NamedTuple
 
@@ -46,7 +47,7 @@ PAGES = (
             ("A late player takes a bye", 'tournament late "Wanda Late" --rating 60'),
             ("Somebody goes home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
-            ("Odds of every place; prizes", "tournament odds; tournament prizes"),
+            ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
             ("Score cards, bracket or draw on paper", "tournament print cards"),
             ("All of this on phones, and a screen for the wall", "serve tonight.db --lan"),
         ),
@@ -99,7 +100,10 @@ PAGES = (
             ("A match is still on", 'lineup … --playing "Dario Pellengrino v Winston Peake 3:4"'),
             ("Both write a name unseen", "lineup … --order blind"),
             ("A cap on the sum of the levels", "lineup … --cap 23"),
-            ("The head start that makes a round even", "round ours.csv theirs.csv --games 2"),
+            (
+                "A head start to make a round even",
+                "round ours.csv theirs.csv --games 1 --everybody",
+            ),
             ("How the season may end", "season results.csv schedule.csv --up 2 --down 1"),
         ),
     ),
@@ -133,6 +137,7 @@ code, pre { font-family: ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: #f4f4f4; border-radius: 4px; font-size: 8.2pt; line-height: 1.25; margin: .2rem 0;
   overflow-x: auto; padding: .4rem .6rem; }
 pre b { white-space: pre-wrap; }
+pre span, td span { white-space: nowrap; }
 table { border-collapse: collapse; margin-top: 1rem; width: 100%; }
 td { border-top: 1px solid #ccc; padding: .25rem .6rem .25rem 0; vertical-align: top; }
 td code { font-size: 8.5pt; font-weight: bold; }
@@ -147,17 +152,22 @@ h2 { break-after: avoid; }
 """
 
 
+def _command(text: str) -> str:
+    """Return a command whose options are not broken at their hyphens."""
+    return re.sub(r"--[a-z-]+", r"<span>\g<0></span>", escape(text))
+
+
 def _step(step: Step) -> str:
     paragraphs = run(step.command).strip("\n").split("\n\n")
     output = "\n\n".join(paragraphs[i] for i in step.shown)
     return (
         f"<h2>{escape(step.wanted)}</h2>\n"
-        f"<pre><b>evenbreak {escape(step.command)}</b>\n{escape(output)}</pre>\n"
+        f"<pre><b>evenbreak {_command(step.command)}</b>\n{escape(output)}</pre>\n"
     )
 
 
 def _row(wanted: str, command: str) -> str:
-    several = "<br>".join(f"evenbreak {escape(one)}" for one in command.split("; "))
+    several = "<br>".join(f"evenbreak {_command(one)}" for one in command.split("; "))
     return f"<tr><td>{escape(wanted)}</td><td><code>{several}</code></td></tr>\n"
 
 

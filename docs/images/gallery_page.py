@@ -10,6 +10,8 @@ from shown import SHOWN, Shown
 
 HERE = Path(__file__).resolve().parent
 REPORTS = HERE.parents[1] / "reports"
+WIDTH = 42
+"""Characters of a line of code on a card."""
 FIGURE = re.compile(r"!\[([^\]]*)\]\((figure_\w+)\.png\)")
 
 HEAD = """\
@@ -47,12 +49,23 @@ evenbreak reproduce --out reports
 """
 
 
+def _command(text: str) -> str:
+    """Return a command in lines that fit a card, broken before options."""
+    lines = ["evenbreak"]
+    for part in re.split(" (?=--)", text):
+        if len(lines[-1]) + 1 + len(part) <= WIDTH or lines == ["evenbreak"]:
+            lines[-1] += f" {part}"
+        else:
+            lines.append(f"  {part}")
+    return " \\\n".join(lines)
+
+
 def _made(one: Shown) -> str:
     if one.python:
         return f"```{{code-block}} python\n{one.python}```\n"
-    lines = [f"evenbreak {line}" for line in one.first.splitlines()]
     command = one.command.replace("FILE", PurePath(one.name).name)
-    return "```{code-block} sh\n" + "\n".join([*lines, f"evenbreak {command}"]) + "\n```\n"
+    lines = "\n".join(map(_command, [*one.first.splitlines(), command]))
+    return f"```{{code-block}} sh\n{lines}\n```\n"
 
 
 def _card(one: Shown) -> str:

@@ -17,6 +17,15 @@ def shown(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return import_module("shown")
 
 
+@pytest.fixture(scope="module")
+def options() -> dict[str, set[str]]:
+    """Return the options of every command."""
+    return {
+        words: {option for param in command.params for option in param.opts}
+        for words, command in commands(program)
+    }
+
+
 def figures() -> set[str]:
     """Return the public functions of the room that return a picture of their own."""
     return {
@@ -48,11 +57,27 @@ def test_every_figure_has_its_picture_in_the_gallery(shown: ModuleType) -> None:
     assert figures() == drawn
 
 
-def test_every_command_that_plots_is_in_the_gallery(shown: ModuleType) -> None:
+def test_every_command_that_plots_is_in_the_gallery(
+    shown: ModuleType, options: dict[str, set[str]]
+) -> None:
     asked = [one.command for group in shown.SHOWN.values() for one in group]
-    for words, command in commands(program):
-        if any("--plot" in option.opts for option in command.params):
+    for words, known in options.items():
+        if "--plot" in known:
             assert any(line.startswith(f"{words} ") for line in asked), words
+
+
+def test_the_essentials_name_commands_and_options_that_there_are(
+    options: dict[str, set[str]],
+) -> None:
+    page = (DOCS / "_static" / "essentials.html").read_text("utf-8")
+    asked = [
+        re.sub("<.*?>", "", line)
+        for line in re.findall(r"<(?:b|code|br)>(evenbreak .*?)(?:</b>|</code>|<br>)", page)
+    ]
+    assert len(asked) > 30
+    for line in asked:
+        (words,) = (one for one in options if f"{line} ".startswith(f"evenbreak {one} "))
+        assert set(re.findall(r"--[a-z-]+", line)) <= {*options[words], "--help", "--html"}, line
 
 
 def test_the_gallery_shows_them_all(shown: ModuleType) -> None:
