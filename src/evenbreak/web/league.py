@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from evenbreak.answers.answer import Answer
@@ -134,7 +134,7 @@ class League:
             return told
 
         at("league_reading")
-        file = read_results(path)
+        file = replace(read_results(path), source=path.name)
         ratings, choice = usual_ratings(file.results, scale=scale, progress=at("league_rating"))
         at("league_pairing")
         offered = OfferedRaces(race_to=race)

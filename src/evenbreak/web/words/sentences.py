@@ -13,9 +13,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
+from typing import Any, TypeVar
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Part, Table
+from evenbreak.answers.parts import Column, Part, Quantity, Table
+
+Named = TypeVar("Named", Column, Quantity)
 
 _SENTENCE_ENDS = re.compile(r"(?<=[.!?]) (?=[A-Z0-9])")
 _LIST_ENDS = re.compile(r"(, | and |; )")
@@ -57,12 +60,16 @@ def in_language(language: str, text: str) -> str:
 
 
 def _line(language: str, line: str) -> str:
+    sentences = _SENTENCE_ENDS.split(line)
+    if len(sentences) > 1:
+        each = [_said(language, sentence) for sentence in sentences]
+        if None not in each:
+            return " ".join(filter(None, each))
     whole = _said(language, line)
     if whole is not None:
         return whole
-    said = _SENTENCE_ENDS.split(line)
-    if len(said) > 1:
-        return " ".join(_line(language, sentence) for sentence in said)
+    if len(sentences) > 1:
+        return " ".join(_line(language, sentence) for sentence in sentences)
     listed = _LIST_ENDS.split(line)
     if len(listed) > 1:
         between = patterns(language)
@@ -80,22 +87,27 @@ def _said(language: str, text: str) -> str | None:
 
 
 def answer_in_language(language: str, answer: Answer) -> Answer:
-    """Return an answer with its sentences, titles and headings of columns as the pages say them."""
+    """Return an answer with its texts as the pages say them, without details and warnings."""
     parts = [_part(language, part) for part in answer.parts]
-    return replace(answer, heading=in_language(language, answer.heading), parts=parts)
+    heading = in_language(language, answer.heading)
+    return replace(answer, heading=heading, parts=parts, details=(), warnings=())
+
+
+def _named(language: str, one: Named) -> Named:
+    """Return a column or a quantity whose heading and values are said as the pages say them."""
+
+    def show(value: Any) -> str:
+        return in_language(language, one.show(value))
+
+    words = None if one.words is None else in_language(language, one.words)
+    return replace(one, words=words, show=show)
 
 
 def _part(language: str, part: Part) -> Part:
     if isinstance(part, str):
         return in_language(language, part)
     if isinstance(part, Table):
-        columns = [
-            replace(one, words=None if one.words is None else in_language(language, one.words))
-            for one in part.columns
-        ]
+        columns = [_named(language, one) for one in part.columns]
         return replace(part, columns=columns, title=in_language(language, part.title))
-    of = [
-        replace(one, words=None if one.words is None else in_language(language, one.words))
-        for one in part.of
-    ]
+    of = [_named(language, one) for one in part.of]
     return replace(part, of=of, title=in_language(language, part.title))
