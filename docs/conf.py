@@ -64,7 +64,8 @@ suppress_warnings = ["ref.python"]
 html_theme = "furo"
 html_title = f"evenbreak {release}"
 html_static_path = ["_static"]
-html_css_files = ["notebooks.css"]
+html_static_path = ["_static"]
+html_css_files = ["cards.css", "notebooks.css"]
 
 
 API = Path(__file__).parent / "reference" / "api"
