@@ -56,6 +56,7 @@ napoleon_use_ivar = True
 napoleon_attr_annotations = False
 # A docstring's words in single backquotes are code.
 default_role = "literal"
+add_module_names = False
 toc_object_entries = False
 nitpicky = False
 # Many classes have a field `games`; a class that names its own means no other.

@@ -87,6 +87,11 @@ def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratin
     ----------
     ratings, results
         the ratings, and the matches that they come from.
+
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> again = rated_alike(fit(season, prior_sd=0.4), season)
+    >>> again(season.select([0])).prior_sd
+    0.4
     """
     day = ratings.as_of
     if day is None and ratings.half_life is not None and results.date is not None:
