@@ -19,6 +19,8 @@ from pathlib import Path
 from typing import NamedTuple
 from unittest.mock import patch
 
+import click
+import jsonschema
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -38,6 +40,7 @@ from evenbreak.tournaments.evening.fold import Evening, evening
 from places import ROOT
 
 GOLDEN = ROOT / "tests" / "golden"
+SCHEMAS = json.loads((ROOT / "docs" / "reference" / "answers.schema.json").read_text("utf-8"))
 
 ASKED = {
     "odds": "odds 612 521 --scale fargo --race 7:5",
@@ -271,6 +274,13 @@ def faces_of(name: str) -> Faces:
     return Faces(name, answer, text, details, as_json, as_csv, html)
 
 
+def command_of(name: str) -> str:
+    """Return the command of a question: one word, or two of a group."""
+    words = ASKED[name].split()
+    command = program.get_command(click.Context(program), words[0])
+    return " ".join(words[: 2 if isinstance(command, click.Group) else 1])
+
+
 @pytest.fixture(scope="module", params=ASKED)
 def faces(request):
     """The answer to one question, asked once."""
@@ -287,6 +297,13 @@ def test_every_face_has_the_same_sentences(faces):
         assert squeezed(sentence) in squeezed(text)
         for line in sentence.split("\n"):  # a page has a list where a text has dashes
             assert squeezed(line.removeprefix("- ")) in on_page
+
+
+def test_json_is_as_the_schema_says(faces):
+    """To take over new keys: python docs/reference/make_schemas.py, then read the difference."""
+    shape = SCHEMAS["$defs"][command_of(faces.name)]
+    jsonschema.Draft202012Validator(shape).validate(json.loads(faces.json))
+    assert set(json.loads(faces.json)) <= set(shape["properties"])
 
 
 def test_a_page_has_the_numbers_of_the_text(faces):
