@@ -11,9 +11,10 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
-from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
+from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
+from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
 from evenbreak.teams.solve import SolvedNight, solved, steps_of

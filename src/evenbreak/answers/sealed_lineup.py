@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
-from evenbreak.answers.team_meeting import Meeting, cost_words, race_words
+from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.wording import chance, count_of, listed, percent
+from evenbreak.teams.meeting import Meeting
 from evenbreak.teams.sealed import SealedLineUp, sealed
 
 _LISTED = 10

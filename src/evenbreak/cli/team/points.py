@@ -6,15 +6,15 @@ import re
 from typing import TYPE_CHECKING
 
 from evenbreak import ratings, teams
-from evenbreak.answers.team_meeting import SEALED
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.team.scores import check_score
 from evenbreak.files.known_names import KnownNames
+from evenbreak.teams.meeting import SEALED
 from evenbreak.teams.order import LOSER, WINNER, order_of
 
 if TYPE_CHECKING:
-    from evenbreak.answers.team_meeting import Meeting
+    from evenbreak.teams.meeting import Meeting
 
 _PLAYING = re.compile(r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", re.ASCII)
 _SIDES = ("ours", "theirs")

@@ -8,7 +8,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.handicaps.charts.race_of_pair import games_needed
 
 if TYPE_CHECKING:
-    from evenbreak.answers.team_meeting import Meeting
+    from evenbreak.teams.meeting import Meeting
 
 Score = tuple[int, int]
 
