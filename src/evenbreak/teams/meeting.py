@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.handicaps.charts.race_of_pair import Race
+from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.teams.night import TeamNight
 from evenbreak.teams.order import mirrored, order_of
-from evenbreak.teams.set_laws import Count, set_laws
+from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws
 from evenbreak.teams.squad import Squad
 
 SEALED = "sealed"
@@ -76,6 +77,20 @@ class Meeting:
         }
         return [made[size] for size in self.sizes]
 
+    def needs(self, ours: Sequence[str], theirs: Sequence[str]) -> tuple[int, int]:
+        """Return the games that our pick and theirs need in a set against each other."""
+        mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
+        points, _ = rating_differences(mine, others, len(mine))
+        first, second = games_needed(points, self.race, self.scale)
+        return int(first[0, 0]), int(second[0, 0])
+
+    def law_in_play(
+        self, ours: Sequence[str], theirs: Sequence[str], score: tuple[int, int] = (0, 0)
+    ) -> Floats:
+        """Return what a set between two picks can bring from a score on; see `law_in_play`."""
+        mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
+        return law_in_play(mine, others, self.race, score, scale=self.scale, count=self.count)
+
     def mirrored(self) -> Meeting:
         """Return the same meeting as the other team sees it.
 
@@ -97,3 +112,8 @@ class Meeting:
     def uncertain(self) -> bool:
         """Whether a rating has a standard error."""
         return any(np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs))
+
+
+def _some(roster: Roster, names: Sequence[str]) -> Roster:
+    places = [roster.position(name) for name in names]
+    return Roster(names, roster.rating[places], roster.standard_error[places])

@@ -67,7 +67,7 @@ def solved(night: TeamNight) -> SolvedNight:
     >>> solved(night).value
     0.6
     """
-    _refuse_large(night)
+    refuse_large(night)
     reach, sets = night.reach, night.sets
     leads = np.arange(-sets * reach, sets * reach + 1)
     shape = len(night.our_line_ups.used[sets]), len(night.their_line_ups.used[sets])
@@ -186,7 +186,14 @@ def steps_of(night: TeamNight) -> float:
     )
 
 
-def _refuse_large(night: TeamNight) -> None:
+def refuse_large(night: TeamNight) -> None:
+    """Refuse a night that has too many points.
+
+    Raises
+    ------
+    InputError
+        if it has.
+    """
     if steps_of(night) > MOST_STEPS:
         sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
         raise InputError(

@@ -125,17 +125,5 @@ def _in_play(meeting: Meeting, text: str) -> tuple[list[list[str]], Floats]:
         ]
         for side in (0, 1)
     ]
-    law = teams.law_in_play(
-        _some(meeting.ours, names[0]),
-        _some(meeting.theirs, names[1]),
-        meeting.race,
-        (int(match[3]), int(match[4])),
-        scale=meeting.scale,
-        count=meeting.count,
-    )
+    law = meeting.law_in_play(names[0], names[1], (int(match[3]), int(match[4])))
     return names, law
-
-
-def _some(roster: ratings.Roster, names: list[str]) -> ratings.Roster:
-    places = [roster.position(name) for name in names]
-    return ratings.Roster(names, roster.rating[places], roster.standard_error[places])
