@@ -31,6 +31,7 @@ def lineup_answer(
     *,
     seed: int = 0,
     warnings: Sequence[str] = (),
+    solution: SolvedNight | None = None,
 ) -> Answer:
     """Return whom to put up now.
 
@@ -44,6 +45,8 @@ def lineup_answer(
         of the ratings that are drawn, where they have standard errors.
     warnings
         about the question.
+    solution
+        of the night, if it is known; then the ratings are not drawn again.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -55,12 +58,13 @@ def lineup_answer(
     """
     if meeting.order == SEALED:
         return sealed_answer(meeting, warnings)
-    night = meeting.night()
-    solution = solved(night)
+    night = meeting.night() if solution is None else solution.night
+    redrawn = solution is None and meeting.uncertain
+    solution = solution or solved(night)
     found = advice(solution, point)
     sure: dict[tuple[str, ...], float] = {}
     draws = int(min(MOST_DRAWS, _WORK / steps_of(night)))
-    if meeting.uncertain and not found.blind and draws >= _FEWEST_DRAWS:
+    if redrawn and not found.blind and draws >= _FEWEST_DRAWS:
         sure = best_by_skills(
             night,
             meeting.laws,

@@ -7,6 +7,7 @@ import secrets
 import time
 from collections import deque
 from collections.abc import Callable
+from typing import NoReturn
 
 from starlette.requests import Request
 
@@ -77,6 +78,21 @@ def check_director(request: Request) -> None:
     """Refuse whoever has not entered the director's PIN."""
     if not is_director(request):
         raise RefusalError("refused_director", status=403)
+
+
+def check_tries(request: Request) -> None:
+    """Refuse another PIN where too many wrong ones have come in."""
+    site = request.app.state.site
+    if site.tries.full(address_of(request)) or site.all_tries.full(""):
+        raise RefusalError("refused_tries", status=429)
+
+
+def refuse_pin(request: Request) -> NoReturn:
+    """Refuse a wrong PIN, and count it."""
+    site = request.app.state.site
+    site.tries.count(address_of(request))
+    site.all_tries.count("")
+    raise RefusalError("refused_pin", status=403)
 
 
 def address_of(request: Request) -> str:
