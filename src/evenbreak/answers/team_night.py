@@ -109,20 +109,22 @@ def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
         the state after them.
     """
     lines = []
-    plan = state.plan
+    plan, seen = state.plan, _open(state)
     for number, event in enumerate(events, 1):
         if isinstance(event.what, Begun):
             plan = event.what.plan
-        open_sets = {line.number for line in state.sets if state.open(line.number)}
-        shown = open_sets if number >= state.began else set(range(1, plan.sets + 1))
+        shown = seen if number >= state.began else set(range(1, plan.sets + 1))
         lines.append(event_words(event, plan, shown))
     return lines
 
 
 def last_words(state: TeamEvening) -> str:
     """Return what happened last, without a pick that is still unseen."""
-    shown = {line.number for line in state.sets if state.open(line.number)}
-    return event_words(state.last, state.plan, shown)
+    return event_words(state.last, state.plan, _open(state))
+
+
+def _open(state: TeamEvening) -> set[int]:
+    return {line.number for line in state.sets if state.open(line.number)}
 
 
 def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:

@@ -18,7 +18,18 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
 from evenbreak.web.page import language, own_file, page, script_hash
-from evenbreak.web.pages import bracket, desk, entry, fair, home, match, players, screen
+from evenbreak.web.pages import (
+    bracket,
+    desk,
+    entry,
+    fair,
+    home,
+    match,
+    players,
+    screen,
+    team,
+    team_new,
+)
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.site import Site
 from evenbreak.web.words import say
@@ -49,6 +60,8 @@ def make_app(site: Site) -> Starlette:
             *match.ROUTES,
             *desk.ROUTES,
             *entry.ROUTES,
+            *team.ROUTES,
+            *team_new.ROUTES,
         ],
         middleware=[
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import tempfile
-from pathlib import Path
 
 import numpy as np
-from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.errors import DataError
 from evenbreak.files.entrants import read_entrants
 from evenbreak.files.roster import RosterFile
 from evenbreak.files.tournament_store import add_events, new_tournament
@@ -25,12 +21,12 @@ from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
+from evenbreak.web.uploads import list_of, read_list, warnings_of
 from evenbreak.web.words import say
 
 FORMATS = ("double", "single", "round-robin", "groups", "consolation", "king-of-the-hill")
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
-_LONGEST_LIST = 200_000
 
 
 async def ask(request: Request) -> Response:
@@ -50,16 +46,13 @@ async def begin(request: Request) -> Response:
     """Begin a tournament."""
     async with request.form(max_files=1, max_fields=40) as fields:
         form = Form(fields)
-        content = form.text("entrants", longest=_LONGEST_LIST).encode()
-        upload = fields.get("file")
-        if isinstance(upload, UploadFile) and upload.size:
-            content = await upload.read()
+        content = await list_of(form, "entrants", "file")
         await form_of(request)
     check_director(request)
     site = site_of(request)
     if not content.strip():
         raise RefusalError("refused_nobody")
-    file = await asyncio.to_thread(_read, content)
+    file = await asyncio.to_thread(read_list, content, read_entrants)
     scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
     handicapped = bool(form.text("handicapped"))
     losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
@@ -82,18 +75,7 @@ async def begin(request: Request) -> Response:
     event = Event(site.clock(), opened)
     await asyncio.to_thread(new_tournament, site.path, [event])
     site.keep_secrets()
-    return done(request, "/desk", *file.warnings)
-
-
-def _read(content: bytes) -> RosterFile:
-    """Read a list of entrants; its problems name it as the list."""
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder, "list.csv")
-        place.write_bytes(content)
-        try:
-            return read_entrants(place)
-        except DataError as error:
-            raise DataError([p.replace(str(place), "list") for p in error.problems]) from None
+    return done(request, "/desk", *warnings_of(file))
 
 
 def _entrants(file: RosterFile, scale: Scale) -> tuple[Entrant, ...]:

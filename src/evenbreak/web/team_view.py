@@ -1,0 +1,105 @@
+"""A team night as its page shows it; plain values, and only what the reader may see."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from evenbreak.answers.lineup import names_words
+from evenbreak.teams.advice import Advice
+from evenbreak.teams.evening.choices import choices
+from evenbreak.teams.evening.events import Pick, Score
+from evenbreak.teams.evening.fold import TeamEvening
+
+
+class SetView(NamedTuple):
+    """A set.
+
+    Parameters
+    ----------
+    number
+        counted from 1.
+    names
+        who plays, for each team; '' if not known.
+    hidden
+        which team's pick is in but not shown yet.
+    needs
+        the games that each side needs; None: not known yet.
+    score
+        how it ended; None: it has not.
+    said
+        how each team says that it ended.
+    """
+
+    number: int
+    names: tuple[str, str]
+    hidden: tuple[bool, bool]
+    needs: Score | None
+    score: Score | None
+    said: tuple[Score | None, Score | None]
+
+
+class OptionView(NamedTuple):
+    """A pick that a captain can make.
+
+    Parameters
+    ----------
+    value
+        the places of its players in the squad, as the form sends them.
+    name
+        of the player, or both of them.
+    worth
+        the chance of winning the night with it; None: not known.
+    reply
+        the other side's best reply; '' if there is none to come.
+    mix
+        how often to pick it, where both teams pick unseen.
+    """
+
+    value: str
+    name: str
+    worth: float | None = None
+    reply: str = ""
+    mix: float | None = None
+
+
+def set_views(seen: TeamEvening) -> list[SetView]:
+    """Return all sets, of a state as the reader sees it."""
+    return [
+        SetView(
+            line.number,
+            (names_words(line.picks[0]), names_words(line.picks[1])),
+            line.hidden,
+            seen.needs(line) if line.named else None,
+            line.score,
+            line.said,
+        )
+        for line in seen.sets
+    ]
+
+
+def pick_value(state: TeamEvening, team: int, pick: Pick) -> str:
+    """Return a pick as a form sends it."""
+    squad = state.meeting.squads[team]
+    return ",".join(str(squad.place(name)) for name in pick)
+
+
+def advised_options(state: TeamEvening, team: int, found: Advice) -> list[OptionView]:
+    """Return what a captain can pick, the best first."""
+    return [
+        OptionView(
+            pick_value(state, team, option.names),
+            names_words(option.names),
+            option.worth,
+            names_words(option.answer) if not found.blind else "",
+            option.mix if found.blind else None,
+        )
+        for option in found.options
+    ]
+
+
+def plain_options(state: TeamEvening, team: int) -> list[OptionView]:
+    """Return what a team can pick, in the order of its list."""
+    return [
+        OptionView(pick_value(state, team, pick), names_words(pick))
+        for pick in choices(state, team).picks
+    ]
