@@ -31,10 +31,11 @@ Examples:
     help="Where the page is found on this computer.",
 )
 def command(*, file: str, lan: bool, port: int) -> None:
-    """Open tonight's tournament or team night as a page: for phones, the director and the screen on the wall.
+    """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
     FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
-    night; if it is not there, the page begins one. The commands of evenbreak tournament can be used on it at the same time.
+    night; if it is not there, the page begins one. The commands of evenbreak tournament can be used
+    on it at the same time.
     """
     import segno
 

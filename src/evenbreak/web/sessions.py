@@ -7,7 +7,6 @@ import secrets
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import NoReturn
 
 from starlette.requests import Request
 
@@ -87,12 +86,12 @@ def check_tries(request: Request) -> None:
         raise RefusalError("refused_tries", status=429)
 
 
-def refuse_pin(request: Request) -> NoReturn:
-    """Refuse a wrong PIN, and count it."""
+def wrong_pin(request: Request) -> RefusalError:
+    """Count a wrong PIN, and return why it is refused."""
     site = request.app.state.site
     site.tries.count(address_of(request))
     site.all_tries.count("")
-    raise RefusalError("refused_pin", status=403)
+    return RefusalError("refused_pin", status=403)
 
 
 def address_of(request: Request) -> str:

@@ -67,7 +67,7 @@ def set_views(seen: TeamEvening) -> list[SetView]:
     return [
         SetView(
             line.number,
-            (names_words(line.picks[0]), names_words(line.picks[1])),
+            (_names(line.picks[0]), _names(line.picks[1])),
             line.hidden,
             seen.needs(line) if line.named else None,
             line.score,
@@ -75,6 +75,10 @@ def set_views(seen: TeamEvening) -> list[SetView]:
         )
         for line in seen.sets
     ]
+
+
+def _names(pick: Pick) -> str:
+    return names_words(pick) if pick else ""
 
 
 def pick_value(state: TeamEvening, team: int, pick: Pick) -> str:
@@ -90,7 +94,7 @@ def advised_options(state: TeamEvening, team: int, found: Advice) -> list[Option
             pick_value(state, team, option.names),
             names_words(option.names),
             option.worth,
-            names_words(option.answer) if not found.blind else "",
+            "" if found.blind else _names(option.answer),
             option.mix if found.blind else None,
         )
         for option in found.options

@@ -11,7 +11,7 @@ from starlette.routing import Route
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import choose_language, done, page, site_of
-from evenbreak.web.sessions import DIRECTOR, check_tries, refuse_pin
+from evenbreak.web.sessions import DIRECTOR, check_tries, wrong_pin
 
 
 async def tonight(request: Request) -> Response:
@@ -37,7 +37,7 @@ async def enter_pin(request: Request) -> Response:
     site = site_of(request)
     check_tries(request)
     if not site.is_pin(form.text("pin")):
-        refuse_pin(request)
+        raise wrong_pin(request)
     request.session[DIRECTOR] = site.director_mark
     return done(request, "/")
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import hmac
-import secrets
 from collections.abc import Callable, Sequence
 from datetime import datetime
-from functools import partial
 from typing import Any
 
 from markupsafe import Markup
@@ -33,7 +31,7 @@ from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import check_director, check_tries, is_director, refuse_pin
+from evenbreak.web.sessions import check_director, check_tries, is_director, phone_of, wrong_pin
 from evenbreak.web.team_night import TeamNow
 from evenbreak.web.team_view import advised_options, pick_value, plain_options, set_views
 from evenbreak.web.words import say
@@ -57,7 +55,7 @@ async def team(request: Request) -> Response:
         "captain": captain,
         "mine": None if captain is None else await _for_captain(request, now, captain),
         "desk": _for_director(request, now) if is_director(request) else None,
-        "once": partial(secrets.token_urlsafe, 9),
+        "once": f"{phone_of(request)}.{len(now.events)}",
     }
     return page(request, "team.html", live=True, **shown)
 
@@ -84,7 +82,8 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
     line = state.to_name
     found = await site_of(request).teams.advised(now, captain) if line else None
     own = line.picks[captain] if line else ()
-    may_pick = line is not None and (captain in now.state.due or bool(own))
+    handed_in = bool(own) and line is not None and state.unseen(line.number)
+    may_pick = line is not None and (captain in now.state.due or handed_in)
     options = []
     if line and may_pick and not state.sealed:
         advised = found and found.found
@@ -94,7 +93,8 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
     return {
         "line": line,
         "may_pick": may_pick,
-        "handed_in": own,
+        "handed_in": handed_in,
+        "named": bool(own),
         "chosen": pick_value(state, captain, own),
         "options": options,
         "words": found.answer.sentences[0] if found else "",
@@ -139,7 +139,7 @@ async def enter_pin(request: Request) -> Response:
         if hmac.compare_digest(given, site.captain_pin(now.state.began, side).encode()):
             request.session[_CAPTAIN] = site.captain_mark(now.state.began, side)
             return done(request, "/team")
-    refuse_pin(request)
+    raise wrong_pin(request)
 
 
 async def leave(request: Request) -> Response:
@@ -156,9 +156,13 @@ async def put(request: Request) -> Response:
     by, side = _author(request, now.state, form)
     number = form.whole("number", 1, len(now.state.sets))
     pick = _pick(form, "pick", now.state, side)
-    state, added = await _add(
-        request, form, by, lambda state: moves.put_up(state, side, number, pick)
-    )
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == BY:
+            _refuse_unseen(state, side, number)
+        return moves.put_up(state, side, number, pick)
+
+    _, added = await _add(request, form, by, decide)
     return _taken(request, added, "team_put", name=" + ".join(pick), n=number)
 
 
@@ -168,7 +172,13 @@ async def hand(request: Request) -> Response:
     now = await _now(request)
     by, side = _author(request, now.state, form)
     picks = tuple(_pick(form, f"pick{line.number}", now.state, side) for line in now.state.sets)
-    _, added = await _add(request, form, by, lambda state: moves.hand_in(state, side, picks))
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == BY:
+            _refuse_unseen(state, side, 1)
+        return moves.hand_in(state, side, picks)
+
+    _, added = await _add(request, form, by, decide)
     return _taken(request, added, "team_handed")
 
 
@@ -239,6 +249,12 @@ def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]
     return f"captain of {state.teams[side]}", side
 
 
+def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
+    """Refuse to let the director find out by guessing what a captain has handed in unseen."""
+    if not state.open(number) and state.sets[number - 1].picks[side]:
+        raise RefusalError("refused_handed_in", status=409, name=state.teams[side])
+
+
 def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
     """Return the players that a field names by their places in the squad."""
     squad = state.plan.teams[side].players
@@ -266,14 +282,15 @@ async def _add(request: Request, form: Form, by: str, decide: Decide) -> tuple[T
 
 def _write(request: Request, decide: Any, form: Form, by: str) -> tuple[TeamEvening | None, bool]:
     site = site_of(request)
-    once = form.text("once", longest=40) or None
-    return add_team_events(site.path, decide, at=site.clock(), by=by, form=once)
+    return add_team_events(
+        site.path, decide, at=site.clock(), by=by, form=form.key(request.url.path)
+    )
 
 
 def _taken(request: Request, added: bool, key: str, **values: object) -> Response:
     """Return to the night, and say what was taken, or that it was there already."""
     code = language(request)
-    return done(request, "/team", say(code, key if added else "there_already", **values))
+    return done(request, "/team", say(code, key if added else "team_there", **values))
 
 
 ROUTES = [

@@ -54,9 +54,8 @@ async def begin(request: Request) -> Response:
     def decide(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
         return moves.begin(state, plan)
 
-    once = form.text("once", longest=40) or None
-    at = site.clock()
-    await asyncio.to_thread(add_team_events, site.path, decide, at=at, by=BY, form=once)
+    at, key = site.clock(), form.key("/team/new", repr(plan))
+    await asyncio.to_thread(add_team_events, site.path, decide, at=at, by=BY, form=key)
     site.keep_secrets()
     return done(request, "/team", *warnings)
 

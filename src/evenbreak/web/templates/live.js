@@ -1,9 +1,16 @@
 "use strict";
 (() => {
   let seen = null, waiting = false;
+  // A form that somebody has begun to fill in is left alone, and so is what they have opened.
+  const begun = () =>
+    document.querySelector("#main details[open]") ||
+    [...document.querySelectorAll("#main input")].some((one) =>
+      one.checked !== one.defaultChecked || (one.type !== "radio" && one.value !== one.defaultValue)) ||
+    [...document.querySelectorAll("#main select")].some((one) =>
+      one.selectedIndex !== Math.max(0, [...one.options].findIndex((each) => each.defaultSelected)));
   const busy = () => {
     const at = document.activeElement;
-    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName);
+    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName) || begun();
   };
   const renew = async () => {
     if (waiting || busy()) return;
