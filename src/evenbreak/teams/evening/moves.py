@@ -107,7 +107,7 @@ def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[Wh
         if that cannot be, or another result counts already.
     """
     line = _checked(state, number, score)
-    if line.score == score or line.said[team] == score:
+    if line.score == score or (line.score is None and line.said[team] == score):
         return []
     if line.score is not None:
         raise InputError(
