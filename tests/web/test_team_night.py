@@ -167,12 +167,12 @@ def test_nobody_else_sees_a_captains_advice(night: Night) -> None:
         chances = [dict(offered(phone.open("/team"))) for phone in night.captains]
         assert sum(map(bool, chances)) == 1
         due = 0 if chances[0] else 1
-        secret = "Best to put up now"
-        assert secret in night.captains[due].open("/team").words
+        advised = "Best to put up now"
+        assert advised in night.captains[due].open("/team").words
         for phone in (night.captains[1 - due], night.director, night.guest):
             for page in PAGES:
                 shown = phone.open(page)
-                assert secret not in shown.words
+                assert advised not in shown.words
                 assert not [one for one in chances[due].values() if one in shown.words]
 
 
@@ -239,10 +239,10 @@ def test_a_form_that_comes_in_twice_does_nothing_twice(night: Night) -> None:
     assert night.state.sets[0].picks[0] == ()
     assert len(read_team_events(night.site.path)) == len(events) + 1
     assert night.direct("undo", seen=1).status == 409
-    shown = night.director.send("/team/new", **fields(once="n"))
+    shown = night.director.send("/team/new", **fields(once="n", race=5))
     began = night.state.began
     night.put(0, "Bo")
-    assert night.director.send("/team/new", **fields(once="n")).status == shown.status
+    assert night.director.send("/team/new", **fields(once="n", race=5)).status == shown.status
     assert night.state.began == began
 
 
@@ -424,7 +424,7 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
         "races": "fair",
         "count": "games",
         "pattern": "BA",
-        "cap": "16",
+        "cap": "20",
         "at_most": "2:6",
         "times": "2",
         "sets": "4",
@@ -433,7 +433,7 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", **more) as night:
         plan = night.state.plan
         assert (plan.handicapped, plan.count, plan.order, plan.times) == (True, "games", "BA", 2)
-        assert (plan.cap, plan.at_most, plan.sets, plan.scale) == (16.0, (2, 6.0), 4, "1.5")
+        assert (plan.cap, plan.at_most, plan.sets, plan.scale) == (20.0, (2, 6.0), 4, "1.5")
         assert plan.teams[0].weights == (6.5, 5.5, 5.0, 4.0)
         assert night.state.due == (1,)
 
