@@ -1,7 +1,11 @@
-"""Sphinx settings: MyST pages, autodoc for the interface, furo."""
+"""Sphinx settings: MyST pages and notebooks, autodoc for the interface, furo."""
 
 import ast
+import json
+import logging
+import os
 import re
+import tempfile
 from pathlib import Path
 
 import evenbreak
@@ -12,14 +16,28 @@ project_copyright = author
 version = release = evenbreak.__version__
 
 extensions = [
-    "myst_parser",
+    "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
 ]
 exclude_patterns = ["_build", "images"]
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+
+# The notebooks run at each build, in their own folder; an error in one is an error of the build.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+logging.getLogger("traitlets").setLevel(logging.WARNING)
+# They run without the reader's own IPython settings, without history, and quietly.
+_ipython = tempfile.TemporaryDirectory()
+_profile = Path(_ipython.name, "profile_default")
+_profile.mkdir()
+(_profile / "ipython_kernel_config.json").write_text(
+    json.dumps({"IPKernelApp": {"log_level": 40}, "HistoryManager": {"enabled": False}})
+)
+os.environ["IPYTHONDIR"] = _ipython.name
 
 autodoc_member_order = "bysource"
 # matplotlib writes this method into each of its subclasses.
@@ -38,7 +56,8 @@ suppress_warnings = ["ref.python"]
 
 html_theme = "furo"
 html_title = f"evenbreak {release}"
-html_static_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["notebooks.css"]
 
 
 ROOM = re.compile(r"^```\{room\} (\w+)\n```$", re.MULTILINE)

@@ -6,6 +6,7 @@ python docs/images/make_images.py
 from pathlib import Path
 
 import networkx as nx
+import numpy as np
 from matplotlib.figure import Figure
 
 from evenbreak.answers import OfferedRaces, Sheet, most_active
@@ -16,10 +17,12 @@ from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
 from evenbreak.physics.units import INCH
 from evenbreak.plots.diagram import draw
 from evenbreak.plots.ladders import ladder_figure
-from evenbreak.plots.picture import image_bytes
+from evenbreak.plots.picture import image_bytes, in_our_look
+from evenbreak.plots.style import LINES, new_axes
 from evenbreak.plots.traced_shot import shot_on_table
 from evenbreak.ratings import fit
 from evenbreak.sheets import sheet_pages
+from evenbreak.tournaments import double_elimination, single_elimination, title_odds
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
@@ -61,6 +64,26 @@ def ladder() -> Figure:
     )
 
 
+@in_our_look
+def second_chance() -> Figure:
+    """Draw a favourite's chance of the title in single and in double elimination."""
+    chances = np.linspace(0.5, 1.0, 26)
+    figure, axes = new_axes(
+        "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
+    )
+    for players, line in ((8, LINES[0]), (16, LINES[1])):
+        win = np.full((players, players), 0.5)
+        for make, dashes in ((double_elimination, "-"), (single_elimination, "--")):
+            title = []
+            for p in chances:
+                win[0, 1:], win[1:, 0] = p, 1.0 - p
+                title.append(title_odds(make(players), win).title[0])
+            name = f"{make.__name__.replace('_', ' ')} of {players}"
+            axes.plot(chances, title, dashes, color=line.color, label=name)
+    axes.legend(fontsize=9)
+    return figure
+
+
 def main() -> None:
     """Write every picture beside this file."""
     diagrams = {
@@ -70,6 +93,7 @@ def main() -> None:
         "race": draw(Race(3, 2, Rack(0.6)), title="Race 3:2"),
         "shot": cut_shot(),
         "ladder": ladder(),
+        "second_chance": second_chance(),
     }
     for name, figure in diagrams.items():
         (HERE / f"{name}.svg").write_bytes(image_bytes(figure, "svg"))

@@ -38,6 +38,11 @@ def test_the_prior_is_about_the_spread_of_the_skills(found):
     assert {row.prior_sd for row in found.scored} == {found.prior_sd}
 
 
+def test_a_notebook_shows_it_in_a_line(found):
+    assert len(repr(found)) < 80
+    assert f"{len(found.forecasts):,}" in repr(found)
+
+
 def test_undated_and_unscored_matches_count_as_they_do_for_the_best_prior():
     results = season(0.6, matches=300)
     dates = results.date.copy()

@@ -417,6 +417,14 @@ def test_prizes() -> None:
         prizes(bracket, [1] * 9)
 
 
+def test_odds_as_a_table() -> None:
+    odds = title_odds(double_elimination(8), by_seed(8))
+    table = odds.to_frame()
+    assert list(table.columns) == ["1", "2", "3", "4", "5-6", "7-8"]
+    assert table.to_numpy().tolist() == odds.p_place.tolist()
+    assert tuple(table.index) == odds.bracket.players
+
+
 def test_a_function_of_names() -> None:
     bracket = single_elimination(["Ann", "Bo", "Cy"])
     odds = title_odds(bracket, lambda i, j: 0.75 if i < j else 0.25)

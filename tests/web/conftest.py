@@ -9,6 +9,7 @@ import pytest
 from evenbreak.files.tournament_store import read_tournament
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
+from web.chromium import browser as browser
 from web.phones import Phone, running
 
 PLAYERS = [f"Player {k}" for k in range(1, 17)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,35 +11,19 @@ import pytest
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
+from web.chromium import opened
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
-sync_api = pytest.importorskip(
-    "playwright.sync_api", reason="no playwright; pip install -e '.[browser]'"
-)
 axe_api = pytest.importorskip(
     "axe_playwright_python.sync_playwright",
     reason="no axe-playwright-python; pip install -e '.[browser]'",
-)
-CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
-pytestmark = pytest.mark.skipif(
-    CHROMIUM is None,
-    reason="no Chromium; install it by the system's package manager (apt install chromium), or "
-    "name it in EVENBREAK_CHROMIUM",
 )
 
 PAGES = ("/", "/bracket", "/fair?a=Player+1&b=560&race=7", "/screen", "/pin", "/desk", "/new")
 MORE_PAGES = ("/players", "/prizes?fee=10")
 DESK_PAGES = ("/desk/codes", "/desk/history", "/nowhere")
 AT = "2025-03-01T20:00:00"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with sync_api.sync_playwright() as play:
-        started = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="module")
@@ -55,17 +37,6 @@ def event(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
             director.send("/desk/call", match=name, table=table)
         add_events(site.path, lambda state: [Event(AT, moves.score(state, "W1.3", (2, 2)))])
         yield Hall(site, director, Phone(site))
-
-
-def opened(browser: Any, hall: Hall, *, width: int = 390, **asked: Any) -> Any:
-    """Return a page of a browser in which the director's PIN has been entered."""
-    context = browser.new_context(viewport={"width": width, "height": 844}, **asked)
-    page = context.new_page()
-    page.goto(f"{hall.site.address}/pin")
-    page.fill("input[name=pin]", hall.site.pin)
-    page.keyboard.press("Enter")
-    page.wait_for_url(f"{hall.site.address}/")
-    return page
 
 
 def objections(page: Any) -> list[str]:
@@ -89,7 +60,7 @@ def objections(page: Any) -> list[str]:
 def test_axe_objects_to_nothing(
     browser: Any, event: Hall, width: int, scheme: str, paths: tuple[str, ...]
 ) -> None:
-    page = opened(browser, event, width=width, color_scheme=scheme)
+    page = opened(browser, event.site, width=width, color_scheme=scheme)
     token = event.site.match_token("W1.3")
     for path in (*paths, f"/m/{token}"):
         page.goto(event.site.address + path, wait_until="domcontentloaded")
@@ -98,7 +69,7 @@ def test_axe_objects_to_nothing(
 
 
 def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hall) -> None:
-    page = opened(browser, event, width=320)
+    page = opened(browser, event.site, width=320)
     for path in (*PAGES, *MORE_PAGES, *DESK_PAGES, f"/m/{event.site.match_token('W1.3')}"):
         page.goto(event.site.address + path)
         assert page.evaluate("document.documentElement.scrollWidth") <= 320, path
@@ -122,7 +93,7 @@ def test_a_page_asks_at_most_twice_and_shows_changes_by_itself(browser: Any, hal
 
 def test_the_keyboard_alone_enters_a_result(browser: Any, hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
-    page = opened(browser, hall)
+    page = opened(browser, hall.site)
     page.goto(f"{hall.site.address}/desk")
     for _ in range(60):
         page.keyboard.press("Tab")
@@ -146,7 +117,7 @@ def test_without_scripts_a_phone_scores_and_the_director_confirms(browser: Any, 
     for _ in range(3):
         players.click(f"text=Game for {one}")
     assert "counts once" in players.inner_text("main")
-    page = opened(browser, hall, java_script_enabled=False)
+    page = opened(browser, hall.site, java_script_enabled=False)
     page.goto(f"{hall.site.address}/desk")
     page.click("text=Confirm")
     assert hall.state.counted["W1.1"].score == (3, 0)
@@ -158,7 +129,7 @@ def test_phones_go_on_after_a_restart(browser: Any, tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     with running(path) as site:
         begun(Phone(site, director=True), PLAYERS)
-        page = opened(browser, Hall(site, Phone(site), Phone(site)))
+        page = opened(browser, site)
         address = site.address
     with running(path, port=int(address.rpartition(":")[2])):
         page.goto(f"{address}/desk")

@@ -385,7 +385,7 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
         ({"team_b": " "}, "has no name"),
         ({"team_b": "racks"}, "both teams are called"),
         ({"players_b": ""}, "Nobody is named"),
-        ({"players_b": "player,rating\nUli,high"}, "Cues:2: rating 'high'"),
+        ({"players_b": "player,rating\nUli,high"}, "Cues: line 2: rating 'high'"),
         ({"cap": "5"}, "no line-up"),
         ({"cap": "-1"}, "number above 0"),
         ({"sets": "9"}, "cannot fill 9 sets"),

@@ -1,11 +1,15 @@
 """The catalogues: complete, with the same fields, and every word in use."""
 
+import ast
 import re
+from collections.abc import Iterator
+from pathlib import Path
 from string import Formatter
 
 import pytest
 
 from evenbreak.web.words import LANGUAGES, catalogue
+from evenbreak.web.words.sentences import in_language, patterns
 from places import SRC
 
 PAGES = "\n".join(
@@ -40,3 +44,43 @@ def test_every_word_used_is_there() -> None:
     asked = set(re.findall(r"""\bt\(["']([a-z_]+)["']""", PAGES))
     asked |= set(re.findall(r"""RefusalError\(\s*["']([a-z_]+)["']""", PAGES))
     assert asked - {"format_", "seeding_"} - set(catalogue("en")) == set()
+
+
+ASKED_BY_COMMANDS_ONLY = re.compile(
+    r"--tables|--race|only the tables|no race|cannot stand|so it cannot|settle .* first"
+    r"|does not open a tournament|is not an event|is not a rack|is not a score|^x goes to x"
+)
+
+
+def skeletons_of(path: Path) -> Iterator[str]:
+    """Yield each refusal of a module, with x in place of what it is about."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) and node.exc.args:
+            text = node.exc.args[0]
+            parts = text.values if isinstance(text, ast.JoinedStr) else [text]
+            yield "".join(str(p.value) if isinstance(p, ast.Constant) else "x" for p in parts)
+
+
+REFUSALS = sorted(
+    {text for path in (SRC / "tournaments" / "evening").glob("*.py") for text in skeletons_of(path)}
+)
+
+
+@pytest.mark.parametrize("text", [t for t in REFUSALS if not ASKED_BY_COMMANDS_ONLY.search(t)])
+def test_every_refusal_of_the_evening_is_said_in_german(text: str) -> None:
+    assert in_language("de", text) != text
+
+
+def test_no_refusal_on_the_page_names_a_command() -> None:
+    said = {text: in_language("en", text) for text in REFUSALS}
+    assert len(said) > 30
+    for text, shown in said.items():
+        if not ASKED_BY_COMMANDS_ONLY.search(text):
+            assert not re.search(r"evenbreak |--|with (correct|result)", shown), text
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_patterns_have_the_places_of_what_is_said_for_them(language: str) -> None:
+    for pattern, other in patterns(language).items():
+        places = {int(name) for name in fields(other)}
+        assert places <= set(range(pattern.count("{}"))), pattern

@@ -19,6 +19,7 @@ from evenbreak.tournaments.evening.events import (
     Ranked,
     Result,
     Scored,
+    Undone,
     What,
 )
 from evenbreak.tournaments.evening.fold import Evening
@@ -180,30 +181,40 @@ def undone_words(what: What) -> str:
     >>> undone_words(Result("W1.1", ("Ann", "Bo"), (7, 5), "Ann"))
     'Taken back: Ann beat Bo 7:5 in W1.1.'
     """
+    return f"Taken back: {event_words(what)}."
+
+
+def event_words(what: What) -> str:
+    """Return what happened, in a few words.
+
+    >>> event_words(Called("W1.1", 3, ("Ann", "Bo")))
+    'the call of W1.1 to table 3'
+    """
     match what:
         case Result(corrects=corrects, stands=stands):
             kind = "the correction " if corrects and not stands else ""
-            words = f"{kind}{score_words(what)} in {what.match}"
+            return f"{kind}{score_words(what)} in {what.match}"
         case Scored(match=match, score=score):
-            words = f"the score {score[0]}:{score[1]} of {match}"
+            return f"the score {score[0]}:{score[1]} of {match}"
         case Ranked():
-            words = "the breaking of the ties"
+            return "the breaking of the ties"
         case Called():
-            words = f"the call of {what.match} to table {what.table}"
+            return f"the call of {what.match} to table {what.table}"
         case Drawn():
-            words = "the draw"
+            return "the draw"
         case LaterDraw(stage=stage):
             round_of = stage != KNOCK_OUT
-            words = f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
+            return f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
         case Changed():
-            words = "the change of tables or races"
+            return "the change of tables or races"
         case Late():
-            words = f"the entry of {what.entrant.name}"
+            return f"the entry of {what.entrant.name}"
         case Dropped():
-            words = f"{what.name} dropping out"
+            return f"{what.name} dropping out"
+        case Undone():
+            return "the last entry taken back"
         case _:
-            words = "nothing"
-    return f"Taken back: {words}."
+            return "the beginning"
 
 
 def tie_words(found: TieBreak) -> list[str]:

@@ -115,6 +115,9 @@ class Validation:
     experience: tuple[ByExperience, ...]
     drawn: Literal["dates", "matches"]
 
+    def __repr__(self) -> str:
+        return f"<Validation of {len(self.forecasts):,} matches by ratings from earlier dates>"
+
 
 def validate(
     results: Results,

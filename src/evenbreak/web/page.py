@@ -15,6 +15,7 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
 from evenbreak.web.words import LANGUAGES, language_of, say
+from evenbreak.web.words.sentences import in_language
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -66,7 +67,13 @@ def choose_language(request: Request, code: str) -> None:
 
 
 def page(
-    request: Request, template: str, *, live: bool = False, status: int = 200, **values: Any
+    request: Request,
+    template: str,
+    *,
+    live: bool = False,
+    quick: bool = False,
+    status: int = 200,
+    **values: Any,
 ) -> Response:
     """Return a page.
 
@@ -78,6 +85,8 @@ def page(
         its name in the folder `templates`.
     live
         whether the page follows what happens in the tournament.
+    quick
+        whether it asks again after a second or two, for what is being worked out.
     status
         of HTTP.
     values
@@ -88,24 +97,35 @@ def page(
     def t(key: str, **held: object) -> str:
         return say(code, key, **held)
 
+    def tr(text: str) -> str:
+        return in_language(code, text)
+
     shown = (
         _templates()
         .get_template(template)
         .render(
             t=t,
+            tr=tr,
+            capital=_capital,
             language=code,
             languages=LANGUAGES,
             here=request.url.path,
             site=site_of(request),
             director=is_director(request),
             csrf=form_token(request),
-            said=request.session.pop(_SAID, []),
+            said=[tr(line) for line in request.session.pop(_SAID, [])],
             live=live,
+            quick=quick,
             script=own_file("live.js"),
             **values,
         )
     )
     return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+
+
+def _capital(text: str) -> str:
+    """Return a text with a capital letter in front."""
+    return text[:1].upper() + text[1:]
 
 
 def done(request: Request, to: str, *said: str) -> Response:

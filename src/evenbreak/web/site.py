@@ -12,6 +12,7 @@ from pathlib import Path
 
 from evenbreak.files.evening_file import is_there
 from evenbreak.files.tournament_desk import kept_secrets, new_pin
+from evenbreak.web.league import League
 from evenbreak.web.night import Night, now
 from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
@@ -46,6 +47,7 @@ class Site:
     def __post_init__(self) -> None:
         self.night = Night(self.path, clock=self.clock)
         self.teams = TeamNights(self.path, self.night.beside)
+        self.league = League(self.path)
         self._secrets = {
             "pin": new_pin(),
             **{name: secrets.token_urlsafe(24) for name in ("cookie", "director", "match")},

@@ -8,6 +8,7 @@ from codecs import BOM_UTF8
 import numpy as np
 
 from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak.errors import DataError
 from evenbreak.files.player_names import clean_name
 from evenbreak.files.team_list import TeamList, read_team
 from evenbreak.handicaps.charts.chart import CHARTS
@@ -15,7 +16,7 @@ from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
 from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.uploads import list_of, read_list, warnings_of
+from evenbreak.web.uploads import list_of, read_upload, warnings_of
 
 ORDERS = {
     "alternate": "order_alternate",
@@ -50,7 +51,7 @@ async def plan_of(form: Form) -> tuple[NightPlan, list[str]]:
         content = await list_of(form, f"players_{side}", f"file_{side}")
         if not content.strip():
             raise RefusalError("refused_nobody")
-        lists.append(read_list(with_header(content), read_team, name))
+        lists.append(_read(content, name))
     scale = _scale(form, lists)
     sheets = [_sheet(name, one, scale, form) for name, one in zip(names, lists, strict=True)]
     times = form.whole("times", 1, MOST_SETS, default=1)
@@ -75,6 +76,14 @@ async def plan_of(form: Form) -> tuple[NightPlan, list[str]]:
     ]
     rated = np.concatenate([one.file.roster.rating for one in lists])
     return plan, [*dict.fromkeys(warnings), *league_doubts(scale, rated, "is it the right scale?")]
+
+
+def _read(content: bytes, name: str) -> TeamList:
+    """Read the players of a team; the problems of the list name the team."""
+    try:
+        return read_upload(with_header(content), read_team)
+    except DataError as error:
+        raise DataError([f"{name}: {problem}" for problem in error.problems]) from None
 
 
 def with_header(content: bytes) -> bytes:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.parts import Quantities, Table
+from evenbreak.answers.parts import Column, Quantities, Table
 from evenbreak.answers.remarks import Remark, Remarks
 from evenbreak.files.problems import printable
 
@@ -58,10 +58,7 @@ def part_lines(part: Part) -> Iterator[str]:
         case Table():
             shown = part.shown(verbose=True)
             yield "<table>" + _caption(part.title)
-            heads = "".join(
-                f'<th scope="col"{_look(column.left)}>{_text(column.words or "")}</th>'
-                for _, column in shown
-            )
+            heads = "".join(_head(column) for _, column in shown)
             yield f"<thead><tr>{heads}</tr></thead><tbody>"
             for row in part.rows:
                 cells = "".join(
@@ -82,6 +79,13 @@ def _remark(item: Remark) -> str:
         more = f" and {item.more_names:,} more" if item.more_names else ""
         what = f"{what} ({names}{more})"
     return f"<strong>{what}</strong>: {_text(item.why)}."
+
+
+def _head(column: Column) -> str:
+    """Return the heading of a column; an empty one is none to a screen reader."""
+    if not column.words:
+        return f"<td{_look(column.left)}></td>"
+    return f'<th scope="col"{_look(column.left)}>{_text(column.words)}</th>'
 
 
 def _caption(title: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -120,7 +119,7 @@ def rated(
     file: ResultsFile,
     scale: Scale,
     *,
-    prior: float | str | None,
+    prior: float | Literal["best"] | None,
     half_life: float | str | None,
     as_of: str | None,
     begin: str | None = None,
@@ -136,37 +135,29 @@ def rated(
     DataError
         if no match counts.
     """
+    from evenbreak.cli.kit.progress import Progress
     from evenbreak.errors import DataError
-    from evenbreak.ratings.day_form import day_form
-    from evenbreak.ratings.fit import PRIOR_SD, fit
-    from evenbreak.ratings.levels import begun
+    from evenbreak.ratings.usual import usual_ratings
 
-    days = None if half_life == "none" or half_life is None else float(half_life)
-    choice = None
     beginning = None if begin is None else begin_from(begin, file, scale)
-    how: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": days, "levels": begun(beginning)}
-    if isinstance(prior, float):
-        how["prior_sd"] = prior_in_log_odds(prior, scale)
-    else:
-        choice = _best_prior(
-            file, scale, half_life, as_of, break_advantage, beginning, asked=prior == "best"
+    with Progress("steps") as progress:
+        ratings, choice = usual_ratings(
+            file.results,
+            scale=scale,
+            prior=prior_in_log_odds(prior, scale) if isinstance(prior, float) else prior,
+            half_life=half_life_to_choose(half_life),
+            as_of=as_of,
+            beginning=beginning,
+            anchor=anchor,
+            break_advantage=break_advantage,
+            progress=progress,
         )
-    if choice is not None:
-        how = {"prior_sd": choice.prior_sd, "half_life": choice.half_life, "levels": choice.levels}
-    ratings = fit(
-        file.results,
-        scale=scale,
-        anchor=anchor,
-        as_of=as_of,
-        break_advantage=break_advantage,
-        **how,
-    )
     if not ratings.matches:
         why = "was played; add matches with games"
         if ratings.later:
             why = f"was played by {as_of}; give a later day to --as-of"
         raise DataError([f"{file.source}: no match in it {why}"])
-    return replace(ratings, form=day_form(file.results, ratings)), choice
+    return ratings, choice
 
 
 def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
@@ -202,39 +193,6 @@ def prior_in_log_odds(points: float, scale: Scale) -> float:
         least, most = scale.points(NARROWEST), scale.points(WIDEST)
         refuse(f"--prior is {points:g} points; on this scale give {least:.2g} to {most:.4g}")
     return width
-
-
-def _best_prior(
-    file: ResultsFile,
-    scale: Scale,
-    half_life: float | str | None,
-    as_of: str | None,
-    break_advantage: float | str | None,
-    beginning: Beginning | None,
-    *,
-    asked: bool,
-) -> PriorChoice | None:
-    """Return the prior that predicts best; None where the dates cannot show it and nobody asked."""
-    from evenbreak.cli.kit.progress import Progress
-    from evenbreak.ratings.decay import day_of, until
-    from evenbreak.ratings.prior import best_prior
-    from evenbreak.ratings.stretches import can_be_predicted
-
-    results = file.results
-    if as_of is not None:
-        results = results.select(until(results, day_of(as_of)))
-    if not asked and not can_be_predicted(results):
-        return None
-    with Progress("steps") as progress:
-        choice = best_prior(
-            results,
-            half_life=half_life_to_choose(half_life),
-            beginning=beginning,
-            break_advantage=break_advantage,
-            scale=scale,
-            progress=progress,
-        )
-    return choice if asked or choice.learnt else None
 
 
 def half_life_to_choose(given: float | str | None) -> float | Literal["best"] | None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -96,7 +96,7 @@ def command(
     results: tuple[str, ...],
     out: str,
     scale: Scale,
-    prior: float | str | None,
+    prior: float | Literal["best"] | None,
     half_life: float | str | None,
     as_of: str | None,
     begin: str | None,

@@ -14,7 +14,6 @@ from evenbreak.cli.kit.options import race_limit_options, results_options, scale
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
-from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale
 
 MANY = 2_000_000
@@ -59,7 +58,7 @@ def command(
     the two is left out in turn, to see what it is worth to the rating; and one more match between
     them is added, won by either.
     """
-    from evenbreak.ratings.fit import fit
+    from evenbreak.ratings.usual import rated_alike
 
     offered = offered_races(games, race_to)
     file = files.read_seasons(results, **reading)
@@ -67,22 +66,9 @@ def command(
     if len(pair) < 2:
         refuse(f"{player_a!r} and {player_b!r} are one player; name two")
     ratings, choice = rated(file, scale, **how)
-    day = ratings.as_of
-    if day is None and ratings.half_life is not None and file.results.date is not None:
-        # The day from which ages were counted: a match left out must not make the others younger.
-        day = file.results.date[file.results.counted].max()
-
-    def again(other: Results) -> Any:
-        return fit(
-            other.select(other.counted),  # forfeits may lack a date
-            prior_sd=ratings.prior_sd,
-            scale=scale,
-            half_life=ratings.half_life,
-            levels=ratings.levels,
-            as_of=day,
-        )
-
     played = int(ratings.games[pair].sum())
     if played * len(file.results) > MANY:
         say("Rating the league again without each of their matches")
-    return answers.why_answer(file, ratings, (pair[0], pair[1]), offered, again, choice)
+    return answers.why_answer(
+        file, ratings, (pair[0], pair[1]), offered, rated_alike(ratings, file.results), choice
+    )

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Source
 
 Players: TypeAlias = NDArray[np.int16]

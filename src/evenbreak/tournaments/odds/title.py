@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,6 +32,9 @@ from evenbreak.tournaments.odds.meetings import (
 )
 from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
 from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SAMPLES = 10_000
 """The number of samples of the first rounds, where they are sampled."""
@@ -73,6 +77,25 @@ class PlaceOdds:
     def place(self, place: Place) -> Floats:
         """Return P(each player has this place), one of `bracket.places`."""
         return self.p_place[:, self.bracket.places.index(place)]
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return P(each place) as a DataFrame: a row for each player, a column for each place.
+
+        >>> from evenbreak.tournaments import single_elimination
+        >>> title_odds(single_elimination(["Ann", "Bo", "Cy"]), np.full((3, 3), 0.5)).to_frame()
+        place      1     2    3
+        player
+        Ann     0.50  0.50  0.0
+        Bo      0.25  0.25  0.5
+        Cy      0.25  0.25  0.5
+        """
+        import pandas as pd
+
+        return pd.DataFrame(
+            self.p_place,
+            index=pd.Index(self.bracket.players, name="player"),
+            columns=pd.Index([str(place) for place in self.bracket.places], name="place"),
+        )
 
     def expected_prize(self, payouts: Sequence[float]) -> Floats:
         """Return each player's expected prize.
@@ -165,7 +188,8 @@ def title_odds(
         the tournament.
     win
         P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
-        a function of two names; or a mapping with one of these for each match, by match name.
+        a function of two names; or a mapping with one of these for each match, by match name,
+        such as `pair_odds` returns.
     results
         the winner of each decided match. The result of a match whose players are not known
         yet is a what-if: the odds are conditional on it.

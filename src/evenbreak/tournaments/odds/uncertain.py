@@ -7,8 +7,9 @@ each draw is solved, and the odds are averaged.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, islice
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -112,17 +113,18 @@ def over_ratings(
     pairs = -(-whole(samples, "samples", at_least=4) // 2)
     rng = rng or np.random.default_rng(0)
     drawn = mean + _errors(spread, len(mean), pairs, rng)
-    tables = [
-        chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in (mean, *drawn)
-    ]
-    sure = odds_now(now, tables[0], rng=rng)
+
+    def of_skills(rows: Iterable[Floats]) -> Iterator[Chances]:
+        return (chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in rows)
+
+    sure = odds_now(now, next(of_skills([mean])), rng=rng)
     if plan is None:
         certain = place_odds(bracket, meetings_so_far(now), settled_ranks(now))
-        every = _stacked(tables[1:])
+        every = _stacked(of_skills(drawn), 2 * pairs)
         laws = certain[:, :, None] + places_of_samples(now, every, 2 * pairs, _SAMPLES_EACH, rng)
         meetings = sure.meetings
     else:
-        laws, meetings = _exactly(now, plan, tables[1:])
+        laws, meetings = _exactly(now, plan, of_skills(drawn), 2 * pairs)
     of_pair = laws.reshape(*laws.shape[:2], 2, pairs).mean(axis=2)
     error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
@@ -158,7 +160,8 @@ def drawn_chances(
     now = standing(bracket)
     mean = column(ratings, "ratings", len(bracket.players), "players")
     drawn = mean + _errors(spread, len(mean), samples // 2, rng)
-    every = _stacked([chances_of(now, win_of(row), walkovers=walkovers) for row in drawn])
+    each = (chances_of(now, win_of(row), walkovers=walkovers) for row in drawn)
+    every = _stacked(each, len(drawn))
     inner: dict[int, Floats] = {}
     for table in every.tables.values():
         inner.setdefault(id(table), table[:-1, :-1])
@@ -194,22 +197,24 @@ def _errors(spread: ArrayLike, players: int, pairs: int, rng: np.random.Generato
     return np.concatenate([errors, -errors])
 
 
-def _exactly(now: Standing, plan: Plan, tables: list[Chances]) -> tuple[Floats, dict[str, Meeting]]:
+def _exactly(
+    now: Standing, plan: Plan, draws: Iterator[Chances], many: int
+) -> tuple[Floats, dict[str, Meeting]]:
     """Return the places for each draw, and the meetings averaged over them."""
     at_once = max(1, _CELLS // max((step.size for step in plan.steps), default=1))
     laws: list[Floats] = []
     sums: dict[str, Meeting] = {}
-    for start in range(0, len(tables), at_once):
-        part = tables[start : start + at_once]
-        chances = _stacked(part)
+    for start in range(0, many, at_once):
+        part = min(at_once, many - start)
+        chances = _stacked(draws, part)
         through = forward_pass(plan, chances)
         meetings = plan_meetings(plan, through) | group_meetings(plan.bracket, chances)
         certain = meetings_so_far(now)
         ranks = {**settled_ranks(now), **through.ranks}
         law = place_odds(now.bracket, {**certain, **meetings}, ranks)
-        shape = (*law.shape[:2], len(part))
+        shape = (*law.shape[:2], part)
         laws.append(np.broadcast_to(law.reshape(*law.shape[:2], -1), shape))
-        _add(sums, averaged(meetings), len(part) / len(tables))
+        _add(sums, averaged(meetings), part / many)
     found = meetings_so_far(now) | {
         name: part._replace(
             first_wins=np.divide(
@@ -234,12 +239,15 @@ def _add(sums: dict[str, Meeting], part: dict[str, Meeting], weight: float) -> N
         )
 
 
-def _stacked(tables: list[Chances]) -> Chances:
-    """Return the chances of many samples as one, the samples as last axis."""
+def _stacked(draws: Iterator[Chances], many: int) -> Chances:
+    """Return the chances of the next samples as one, the samples as last axis."""
+    first = next(draws)
     made: dict[int, Floats] = {}
-    found: dict[str, Floats] = {}
-    for name, table in tables[0].tables.items():
+    names: dict[int, str] = {}
+    for name, table in first.tables.items():
         if id(table) not in made:
-            made[id(table)] = np.stack([part.of(name) for part in tables], axis=-1)
-        found[name] = made[id(table)]
-    return Chances(found)
+            made[id(table)], names[id(table)] = np.empty((*table.shape, many)), name
+    for k, part in enumerate(chain([first], islice(draws, many - 1))):
+        for key, name in names.items():
+            made[key][..., k] = part.of(name)
+    return Chances({name: made[id(table)] for name, table in first.tables.items()})

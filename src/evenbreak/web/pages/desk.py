@@ -15,6 +15,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.tournament_moves import (
     draw_words,
+    event_words,
     forfeited,
     happened,
     reopened,
@@ -24,7 +25,7 @@ from evenbreak.answers.tournament_night import bracket_table
 from evenbreak.files.tournament_desk import authors, back_up, proposals
 from evenbreak.files.tournament_store import add_events, read_events
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Event, What, as_dict
+from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
@@ -208,25 +209,15 @@ async def history(request: Request) -> Response:
     found = await asyncio.to_thread(read_events, path)
     by = await asyncio.to_thread(authors, path)
     rows = [
-        (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", _words(one), by.get(number, ""))
+        (
+            number,
+            f"{datetime.fromisoformat(one.at):%H:%M:%S}",
+            event_words(one.what),
+            by.get(number, ""),
+        )
         for number, one in enumerate(found, 1)
     ]
     return page(request, "history.html", rows=rows[::-1])
-
-
-def _words(event: Event) -> str:
-    """Return an event in short: its kind, and what it is about."""
-    values = as_dict(event.what)
-    shown = [
-        " – ".join(map(str, v))
-        if isinstance(v, tuple) and all(isinstance(x, str | int) for x in v)
-        else str(v)
-        for k, v in values.items()
-        if k in ("match", "players", "score", "winner", "table", "name", "group", "stage")
-    ]
-    if isinstance(entrant := values.get("entrant"), dict):
-        shown.append(str(entrant["name"]))
-    return " ".join([type(event.what).__name__.lower(), *shown])
 
 
 async def codes(request: Request) -> Response:

@@ -17,11 +17,12 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import Form, form_of
+from evenbreak.web.league import League
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
-from evenbreak.web.uploads import list_of, read_list, warnings_of
+from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.web.words import say
 
 FORMATS = ("double", "single", "round-robin", "groups", "consolation", "king-of-the-hill")
@@ -39,6 +40,7 @@ async def ask(request: Request) -> Response:
         seedings=SEEDINGS,
         disciplines=DISCIPLINES,
         scales=list(SCALES),
+        league=site_of(request).league.sheet,
     )
 
 
@@ -52,8 +54,11 @@ async def begin(request: Request) -> Response:
     site = site_of(request)
     if not content.strip():
         raise RefusalError("refused_nobody")
-    file = await asyncio.to_thread(read_list, content, read_entrants)
+    file = await asyncio.to_thread(read_upload, content, read_entrants)
     scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
+    league = site.league if form.text("league") else None
+    if league is not None and league.sheet is not None:
+        scale = league.sheet.ratings.scale
     handicapped = bool(form.text("handicapped"))
     losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
     plan = Plan(
@@ -69,7 +74,7 @@ async def begin(request: Request) -> Response:
         tables=form.whole("tables", 1, 1000),
         discipline=form.one_of("discipline", DISCIPLINES),
     )
-    opened = Opened(plan, _entrants(file, scale))
+    opened = Opened(plan, _entrants(file, scale, league))
     if not 2 <= len(opened.entrants) <= moves.MOST_PLAYERS:
         raise RefusalError("refused_players", players=len(opened.entrants))
     event = Event(site.clock(), opened)
@@ -78,14 +83,17 @@ async def begin(request: Request) -> Response:
     return done(request, "/desk", *warnings_of(file))
 
 
-def _entrants(file: RosterFile, scale: Scale) -> tuple[Entrant, ...]:
-    """Return the entrants; new players have the rating in the middle, and are very uncertain."""
+def _entrants(file: RosterFile, scale: Scale, league: League | None) -> tuple[Entrant, ...]:
+    """Return the entrants, those of the league with its ratings.
+
+    New players have the rating in the middle, and are very uncertain.
+    """
     read = file.roster
     new = np.isnan(read.rating)
     rating = np.where(new, scale.centre, read.rating)
     error = np.where(new, scale.points_per_doubling, np.nan_to_num(read.standard_error))
     rows = zip(read.players, rating.tolist(), error.tolist(), strict=True)
-    return tuple(Entrant(*one) for one in rows)
+    return tuple(Entrant(*((league.known(one[0]) if league else None) or one)) for one in rows)
 
 
 async def late(request: Request) -> Response:

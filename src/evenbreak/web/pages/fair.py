@@ -16,6 +16,7 @@ from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ra
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
+from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
 from evenbreak.web.refusals import RefusalError
 
@@ -35,7 +36,9 @@ async def fair(request: Request) -> Response:
     asked = {name: request.query_params.get(name, "").strip()[:80] for name in ("a", "b")}
     night = site_of(request).night
     state = (await asyncio.to_thread(night.state))[1] if night.exists else None
-    scale = _scale(request, state)
+    league = site_of(request).league
+    in_league = league.sheet.ratings.players if league.sheet else ()
+    scale = _scale(request, state, league)
     length = request.query_params.get("race", "7")
     if not length.isdigit() or not 1 <= int(length[:4]) <= 100:
         raise RefusalError("refused_whole", name="race", value=length[:20], low=1, high=100)
@@ -45,17 +48,17 @@ async def fair(request: Request) -> Response:
         "lengths": LENGTHS,
         "scale": scale.text,
         "scales": list(SCALES),
-        "names": list(state.entrants) if state else [],
+        "names": list(dict.fromkeys([*(state.entrants if state else ()), *in_league])),
         "races": [],
         "sides": None,
     }
     if asked["a"] and asked["b"]:
-        sides = tuple(_side(asked[name], state) for name in ("a", "b"))
+        sides = tuple(_side(asked[name], state, league) for name in ("a", "b"))
         shown |= {"sides": sides, "races": _races(sides, scale, int(length))}
     return page(request, "fair.html", **shown)
 
 
-def _scale(request: Request, state: Evening | None) -> Scale:
+def _scale(request: Request, state: Evening | None, league: League) -> Scale:
     given = request.query_params.get("scale", "")
     if given:
         try:
@@ -64,14 +67,21 @@ def _scale(request: Request, state: Evening | None) -> Scale:
             raise RefusalError(
                 "refused_scale", value=given[:20], allowed=", ".join(SCALES)
             ) from None
-    return state.scale if state else SCALES["fargo"]
+    if state:
+        return state.scale
+    return league.sheet.ratings.scale if league.sheet else SCALES["fargo"]
 
 
-def _side(text: str, state: Evening | None) -> Side:
+def _side(text: str, state: Evening | None, league: League) -> Side:
+    """Return a side by its rating, or by a name: of tonight's players first, then the league's."""
     try:
         return Side(text, float(text.replace(",", ".")), 0.0)
     except ValueError:
         pass
+    known = league.known(text)
+    tonight = state is not None and any(one.casefold() == text.casefold() for one in state.entrants)
+    if known is not None and not tonight:
+        return Side(*known)
     if state is None:
         raise RefusalError("refused_rating", value=text)
     entrant = state.entrants[known_player(state, text)]

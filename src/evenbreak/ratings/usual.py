@@ -1,0 +1,133 @@
+"""Ratings as a league is rated unless somebody wants it otherwise, with the prior that fits it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Literal
+
+from evenbreak.ratings.beginning import Beginning
+from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.decay import day_of, until
+from evenbreak.ratings.fit import PRIOR_SD, fit
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.levels import begun
+from evenbreak.ratings.prior import PriorChoice, Progress, best_prior
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.stretches import can_be_predicted
+
+
+def usual_ratings(
+    results: Results,
+    *,
+    scale: Scale,
+    prior: float | Literal["best"] | None = None,
+    half_life: float | Literal["best"] | None = "best",
+    as_of: str | None = None,
+    beginning: Beginning | None = None,
+    anchor: float | Mapping[str, float] | None = None,
+    break_advantage: float | str | None = None,
+    progress: Progress = lambda _done, _all: None,
+) -> tuple[Ratings, PriorChoice | None]:
+    """Return ratings with form of the day, and how their prior was chosen, if it was.
+
+    Parameters
+    ----------
+    results
+        the matches.
+    scale, as_of, anchor, break_advantage
+        as for `fit`.
+    prior
+        the standard deviation of skills before any result, in log-odds; 'best': the one that
+        predicts best; None: the same where the dates can show it, else the usual one.
+    half_life
+        in days, or 'best', or None for no decay; 'best' needs a prior that is chosen.
+    beginning
+        ratings that players bring along.
+    progress
+        called with how much of the search is done, and of how much.
+
+    >>> from evenbreak.ratings.scale import scale_of
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> ratings, choice = usual_ratings(season, scale=scale_of("fargo"))
+    >>> ratings.players, choice
+    (('Ann', 'Bo', 'Cy'), None)
+    """
+    choice = None
+    if not isinstance(prior, float):
+        choice = _choice(
+            results,
+            scale,
+            half_life,
+            as_of,
+            break_advantage,
+            beginning,
+            progress,
+            asked=prior == "best",
+        )
+    days = half_life if isinstance(half_life, float) else None
+    ratings = fit(
+        results,
+        scale=scale,
+        anchor=anchor,
+        as_of=as_of,
+        break_advantage=break_advantage,
+        prior_sd=choice.prior_sd if choice else prior if isinstance(prior, float) else PRIOR_SD,
+        half_life=choice.half_life if choice else days,
+        levels=choice.levels if choice else begun(beginning),
+    )
+    return replace(ratings, form=day_form(results, ratings)), choice
+
+
+def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratings]:
+    """Return what rates other results of the same players in the same way.
+
+    Parameters
+    ----------
+    ratings, results
+        the ratings, and the matches that they come from.
+    """
+    day = ratings.as_of
+    if day is None and ratings.half_life is not None and results.date is not None:
+        # The day from which ages were counted: a match left out must not make the others younger.
+        day = results.date[results.counted].max()
+
+    def again(other: Results) -> Ratings:
+        return fit(
+            other.select(other.counted),  # forfeits may lack a date
+            prior_sd=ratings.prior_sd,
+            scale=ratings.scale,
+            half_life=ratings.half_life,
+            levels=ratings.levels,
+            as_of=day,
+        )
+
+    return again
+
+
+def _choice(
+    results: Results,
+    scale: Scale,
+    half_life: float | Literal["best"] | None,
+    as_of: str | None,
+    break_advantage: float | str | None,
+    beginning: Beginning | None,
+    progress: Progress,
+    *,
+    asked: bool,
+) -> PriorChoice | None:
+    """Return the prior that predicts best; None where the dates cannot show it and nobody asked."""
+    if as_of is not None:
+        results = results.select(until(results, day_of(as_of)))
+    if not asked and not can_be_predicted(results):
+        return None
+    choice = best_prior(
+        results,
+        half_life=half_life,
+        beginning=beginning,
+        break_advantage=break_advantage,
+        scale=scale,
+        progress=progress,
+    )
+    return choice if asked or choice.learnt else None

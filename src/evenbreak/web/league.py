@@ -1,0 +1,156 @@
+"""The league's results beside the tournament's file: kept there, rated in a thread, shown.
+
+The results are a plain file, such as tonight.league.csv beside tonight.db, so that commands read
+it too. Whoever puts it there by hand has it read at the next start.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.chosen_players import most_active
+from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
+from evenbreak.errors import DataError, EvenbreakError
+from evenbreak.files.folder import write_files
+from evenbreak.files.results import read_results
+from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.ratings.usual import usual_ratings
+from evenbreak.web.beside import Beside
+from evenbreak.web.uploads import ending_of, read_upload
+
+
+@dataclass
+class Progress:
+    """How far the work is: a key of the catalogue, and how much is done of how much."""
+
+    step: str = "league_reading"
+    done: int = 0
+    of: int = 0
+
+
+@dataclass(eq=False)
+class League:
+    """A league: its results, and what is made of them.
+
+    Parameters
+    ----------
+    beside
+        the file of the tournament; those of the league have names beginning like it.
+    """
+
+    beside: Path
+    sheet: Sheet | None = None
+    problem: str = ""
+    progress: Progress | None = None
+    _thread: Beside = field(default_factory=Beside)
+    _asked: int = 0
+    _whys: dict[tuple[int, int], asyncio.Future[Answer]] = field(default_factory=dict)
+
+    @property
+    def path(self) -> Path | None:
+        """The file of results; None if there is none."""
+        named = (self._named(ending) for ending in ("csv", "xlsx"))
+        return next((path for path in named if path.exists()), None)
+
+    def keep(self, content: bytes, scale: str, race: int) -> None:
+        """Keep results, and how they are shown, in place of earlier ones; refuse unreadable ones.
+
+        Raises
+        ------
+        DataError
+            with every problem of the results; earlier ones are then kept.
+        """
+        read_upload(content, read_results)
+        ending = ending_of(content)
+        shown = json.dumps({"scale": scale, "race": race}).encode()
+        written = {self._named(ending).name: content, self._named("json").name: shown}
+        write_files(self.beside.parent, written)
+        for other in {"csv", "xlsx"} - {ending}:
+            self._named(other).unlink(missing_ok=True)
+
+    def known(self, name: str) -> tuple[str, float, float] | None:
+        """Return a player's name, rating and standard error; None: not in the league."""
+        if self.sheet is None:
+            return None
+        ratings, wanted = self.sheet.ratings, " ".join(name.split()).casefold()
+        for seat, player in enumerate(ratings.players):
+            if player.casefold() == wanted:
+                return player, float(ratings.rating[seat]), float(ratings.standard_error[seat])
+        return None
+
+    async def why(
+        self, pair: tuple[int, int], work: Callable[[Sheet, tuple[int, int]], Answer], wait: float
+    ) -> Answer | None:
+        """Return what is worked out about two players of the sheet; None: not ready yet."""
+        sheet = self.sheet
+        assert sheet is not None  # noqa: S101 - asked of a sheet that is shown
+        if pair not in self._whys:
+            if len(self._whys) >= _MOST_WHYS:
+                self._whys.clear()
+            self._whys[pair] = asyncio.ensure_future(self._thread.run(lambda: work(sheet, pair)))
+        await asyncio.wait({self._whys[pair]}, timeout=wait)
+        return self._whys[pair].result() if self._whys[pair].done() else None
+
+    def begin(self) -> None:
+        """Read and rate the results, beside the pages; an earlier run no longer counts."""
+        self._asked += 1
+        self.problem, self.progress = "", Progress()
+        task = asyncio.create_task(self._run(self._asked))
+        _TASKS.add(task)
+        task.add_done_callback(_TASKS.discard)
+
+    async def _run(self, asked: int) -> None:
+        try:
+            sheet = await self._thread.run(lambda: self._rated(asked))
+        except EvenbreakError as error:
+            problem = str(error)
+        else:
+            if asked == self._asked:
+                self.sheet, self.progress = sheet, None
+                self._whys.clear()
+            return
+        if asked == self._asked:
+            self.problem, self.progress = problem, None
+
+    def _rated(self, asked: int) -> Sheet:
+        """Return the sheet; the steps are told to whoever looks meanwhile."""
+        path = self.path
+        if path is None:
+            raise DataError(["there are no results"])
+        scale, race = self._shown()
+
+        def at(step: str) -> Callable[[int, int], None]:
+            def told(done: int, of: int) -> None:
+                if asked == self._asked:
+                    self.progress = Progress(step, done, of)
+
+            told(0, 0)
+            return told
+
+        at("league_reading")
+        file = replace(read_results(path), source=path.name)
+        ratings, choice = usual_ratings(file.results, scale=scale, progress=at("league_rating"))
+        at("league_pairing")
+        offered = OfferedRaces(race_to=race)
+        return Sheet.of(file, ratings, offered, most_active(ratings, MOST_ON_SHEET), choice)
+
+    def _shown(self) -> tuple[Scale, int]:
+        """Return the scale of the ratings, and to what the stronger player races."""
+        try:
+            shown = json.loads(self._named("json").read_text(encoding="utf-8"))
+            return scale_of(shown["scale"]), int(shown["race"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return SCALES["fargo"], 7
+
+    def _named(self, ending: str) -> Path:
+        return self.beside.with_name(f"{self.beside.stem}.league.{ending}")
+
+
+_MOST_WHYS = 50
+_TASKS: set[asyncio.Task[None]] = set()

@@ -1,0 +1,191 @@
+"""The league: its ratings, each player's matches and races, the sheet; a new file of results."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+from starlette.datastructures import UploadFile
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.chosen_players import find_players
+from evenbreak.answers.faces.to_html import to_html
+from evenbreak.answers.sheet import Sheet
+from evenbreak.answers.why import why_answer
+from evenbreak.files.csv_writer import to_csv
+from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.usual import rated_alike
+from evenbreak.web.forms import Form, form_of
+from evenbreak.web.league import League
+from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.refusals import RefusalError
+from evenbreak.web.sessions import check_director
+from evenbreak.web.words import say
+from evenbreak.web.words.sentences import answer_in_language
+
+_LONGEST = 2 << 20
+_PATIENCE = 0.5  # seconds that a page waits for what is worked out
+_MOST_LISTED = 1000
+_TYPES = {
+    "csv": "text/csv; charset=utf-8",
+    "pdf": "application/pdf",
+    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    "html": "text/html; charset=utf-8",
+}
+
+
+class Row(NamedTuple):
+    """A player: place, name, rating and its uncertainty, games."""
+
+    place: int
+    name: str
+    rating: float
+    error: float
+    games: int
+
+
+class Played(NamedTuple):
+    """A match from one player's side."""
+
+    date: str
+    other: str
+    score: str
+    won: bool
+
+
+async def league(request: Request) -> Response:
+    """Show the ratings, how far they are, or why they cannot be made."""
+    found = _league(request)
+    if found.path is not None and not (found.sheet or found.problem or found.progress):
+        found.begin()
+    rows = await asyncio.to_thread(_rows, found.sheet) if found.sheet else []
+    return page(
+        request,
+        "league.html",
+        live=found.progress is not None,
+        league=found,
+        rows=rows[:_MOST_LISTED],
+        scales=list(SCALES),
+        quick=found.progress is not None,
+    )
+
+
+async def give(request: Request) -> Response:
+    """Take the league's results, from a file or pasted."""
+    async with request.form(max_files=1, max_fields=10) as fields:
+        form = Form(fields)
+        content = form.text("results", longest=_LONGEST).encode()
+        upload = fields.get("file")
+        if isinstance(upload, UploadFile) and upload.size:
+            content = await upload.read()
+        await form_of(request)
+    check_director(request)
+    if not content.strip():
+        raise RefusalError("refused_nothing")
+    found = _league(request)
+    scale = form.one_of("scale", tuple(SCALES))
+    race = form.whole("race", 1, 100, default=7)
+    await asyncio.to_thread(found.keep, content, scale, race)
+    found.begin()
+    return done(request, "/league", say(language(request), "league_taken"))
+
+
+async def player(request: Request) -> Response:
+    """Show a player's rating and matches and, against another, the fairest race and why."""
+    sheet = _sheet(request)
+    name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
+    names = [name, other] if other.strip() else [name]
+    pair = find_players(sheet.ratings, names, said="name", where=sheet.file.source)
+    shown: dict[str, Any] = {"working": False, "answer": "", "other": None}
+    rows = await asyncio.to_thread(_rows, sheet)
+    if len(pair) == 2:
+        answer = await _league(request).why((pair[0], pair[1]), _why, _PATIENCE)
+        shown["working"] = answer is None
+        shown["other"] = sheet.ratings.players[pair[1]]
+        if answer is not None:
+            said = answer_in_language(language(request), answer)
+            shown["answer"] = Markup(to_html(said))  # noqa: S704 (every text in it is escaped there)
+    return page(
+        request,
+        "league_player.html",
+        live=shown["working"],
+        quick=shown["working"],
+        one=next(row for row in rows if row.name == sheet.ratings.players[pair[0]]),
+        names=[row.name for row in rows[:_MOST_LISTED]],
+        matches=_matches(sheet, pair[0]),
+        **shown,
+    )
+
+
+def _why(sheet: Sheet, pair: tuple[int, int]) -> Any:
+    again = rated_alike(sheet.ratings, sheet.file.results)
+    return why_answer(sheet.file, sheet.ratings, pair, sheet.offered, again, sheet.choice)
+
+
+def _rows(sheet: Sheet) -> list[Row]:
+    table = sheet.rated
+    columns = (table[name] for name in ("player", "rating", "standard_error", "games"))
+    return [Row(k, *one) for k, one in enumerate(zip(*columns, strict=True), 1)]
+
+
+def _matches(sheet: Sheet, seat: int) -> list[Played]:
+    """Return a player's matches, the last ones first."""
+    results = sheet.file.results
+    found = []
+    for row in reversed(range(len(results))):
+        sides = int(results.player_a[row]), int(results.player_b[row])
+        if seat not in sides or not results.counted[row]:
+            continue
+        scores = int(results.score_a[row]), int(results.score_b[row])
+        own, theirs = scores if seat == sides[0] else scores[::-1]
+        date = "" if results.date is None else str(results.date[row])
+        other = results.players[sides[sides[0] == seat]]
+        found.append(Played("" if date == "NaT" else date, other, f"{own}:{theirs}", own > theirs))
+    return sorted(found, key=lambda one: one.date, reverse=True)[:60]
+
+
+def _made(name: str) -> Callable[[Sheet], bytes]:
+    """Return what makes a file of the sheet."""
+    from evenbreak import sheets
+
+    makers: dict[str, Callable[[Sheet], bytes]] = {
+        "ratings.csv": lambda sheet: to_csv(sheet.rated),
+        "matchups.csv": lambda sheet: to_csv(sheet.paired),
+        "sheet.pdf": sheets.sheet_pdf,
+        "sheet.html": sheets.sheet_html,
+        "sheet.xlsx": lambda sheet: sheets.workbook_bytes(sheets.report_tables(sheet)),
+    }
+    return makers[name]
+
+
+async def download(request: Request, name: str) -> Response:
+    """Return the sheet, or its tables, as a file."""
+    content = await asyncio.to_thread(_made(name), _sheet(request))
+    saved = {"content-disposition": f'attachment; filename="{name}"', "cache-control": "no-store"}
+    return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=saved)
+
+
+def _league(request: Request) -> League:
+    return site_of(request).league
+
+
+def _sheet(request: Request) -> Sheet:
+    found = _league(request).sheet
+    if found is None:
+        raise RefusalError("refused_no_league", status=404)
+    return found
+
+
+FILES = ("ratings.csv", "matchups.csv", "sheet.pdf", "sheet.html", "sheet.xlsx")
+
+ROUTES = [
+    Route("/league", league, methods=["GET"]),
+    Route("/league", give, methods=["POST"]),
+    Route("/league/player", player),
+    *(Route(f"/league/{name}", partial(download, name=name)) for name in FILES),
+]

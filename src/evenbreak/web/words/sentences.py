@@ -1,0 +1,113 @@
+"""The sentences of answers and refusals, as the pages say them.
+
+They are made elsewhere, in English and for all faces. Here each is known by its pattern, such as
+`{} goes to {} and meets {}.`, and said anew: in another language, or, where it names a command, in
+the words of the page. What stands in the places of a pattern may be such a pattern itself.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+from typing import Any, TypeVar
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.parts import Column, Part, Quantity, Table
+
+Named = TypeVar("Named", Column, Quantity)
+
+_SENTENCE_ENDS = re.compile(r"(?<=[.!?]) (?=[A-Z0-9])")
+_LIST_ENDS = re.compile(r"(, | and |; )")
+
+
+@cache
+def patterns(language: str) -> Mapping[str, str]:
+    """Return what is said in place of each pattern.
+
+    >>> patterns("de")["{} players are drawn."]
+    '{0} Spieler sind ausgelost.'
+    """
+    text = files(__package__).joinpath(f"sentences_{language}.json").read_text(encoding="utf-8")
+    found: Mapping[str, str] = json.loads(text)
+    return found
+
+
+@cache
+def _compiled(language: str) -> list[tuple[re.Pattern[str], str]]:
+    """Return the patterns as regular expressions, those with the most words first."""
+    by_words = sorted(patterns(language).items(), key=lambda one: -len(one[0].replace("{}", "")))
+    return [
+        (re.compile("(.+?)".join(map(re.escape, pattern.split("{}")))), other)
+        for pattern, other in by_words
+    ]
+
+
+def in_language(language: str, text: str) -> str:
+    """Return sentences as the pages say them; what has no pattern stays as it is.
+
+    >>> in_language("de", "Ann beat Bo 7:5 in W1.1.")
+    'Ann schlägt Bo 7:5 in W1.1.'
+    >>> in_language("de", "W1.1 has a result, Ann beat Bo 7:5; change it with correct W1.1")
+    'W1.1 hat ein Ergebnis, Ann schlägt Bo 7:5; geändert wird es unter „Ergebnis korrigieren“'
+    >>> in_language("de", "winner of W1.1"), in_language("en", "winner of W1.1")
+    ('Sieger von W1.1', 'winner of W1.1')
+    """
+    return "\n".join(_line(language, line) for line in text.split("\n"))
+
+
+def _line(language: str, line: str) -> str:
+    sentences = _SENTENCE_ENDS.split(line)
+    if len(sentences) > 1:
+        each = [_said(language, sentence) for sentence in sentences]
+        if None not in each:
+            return " ".join(filter(None, each))
+    whole = _said(language, line)
+    if whole is not None:
+        return whole
+    if len(sentences) > 1:
+        return " ".join(_line(language, sentence) for sentence in sentences)
+    listed = _LIST_ENDS.split(line)
+    if len(listed) > 1:
+        between = patterns(language)
+        return "".join(
+            between.get(one, one) if k % 2 else _line(language, one) for k, one in enumerate(listed)
+        )
+    return line
+
+
+def _said(language: str, text: str) -> str | None:
+    for pattern, other in _compiled(language):
+        if found := pattern.fullmatch(text):
+            return other.format(*(_line(language, one) for one in found.groups()))
+    return None
+
+
+def answer_in_language(language: str, answer: Answer) -> Answer:
+    """Return an answer with its texts as the pages say them, without details and warnings."""
+    parts = [_part(language, part) for part in answer.parts]
+    heading = in_language(language, answer.heading)
+    return replace(answer, heading=heading, parts=parts, details=(), warnings=())
+
+
+def _named(language: str, one: Named) -> Named:
+    """Return a column or a quantity whose heading and values are said as the pages say them."""
+
+    def show(value: Any) -> str:
+        return in_language(language, one.show(value))
+
+    words = None if one.words is None else in_language(language, one.words)
+    return replace(one, words=words, show=show)
+
+
+def _part(language: str, part: Part) -> Part:
+    if isinstance(part, str):
+        return in_language(language, part)
+    if isinstance(part, Table):
+        columns = [_named(language, one) for one in part.columns]
+        return replace(part, columns=columns, title=in_language(language, part.title))
+    of = [_named(language, one) for one in part.of]
+    return replace(part, of=of, title=in_language(language, part.title))

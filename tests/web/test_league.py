@@ -1,0 +1,139 @@
+"""The league on the page: results in, ratings and files out, why a race is fair."""
+
+import csv
+import io
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from evenbreak.files.results import read_results
+from evenbreak.files.tournament_store import read_tournament
+from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.usual import usual_ratings
+from places import DATA
+from web.phones import Phone, Shown, running
+
+RUDE = "=1+1<script>alert(1)</script>"
+SMALL = f"""player_a,player_b,score_a,score_b
+Ann,Bo,7,5
+"{RUDE}",Ann,7,2
+علي,Bo,3,7
+Bo,"{RUDE}",7,6
+"""
+
+
+def rated(phone: Phone, content: str, **fields: object) -> Shown:
+    """Give results and wait for the ratings."""
+    shown = phone.send("/league", results=content, scale="fargo", race=7, **fields)
+    assert shown.status == 200, shown.words
+    for _ in range(200):
+        shown = phone.open("/league")
+        if "data-older" not in shown.text:
+            return shown
+        time.sleep(0.02)
+    raise AssertionError(shown.words)
+
+
+@pytest.fixture(scope="module")
+def director(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
+    with running(tmp_path_factory.mktemp("league") / "tonight.db") as site:
+        phone = Phone(site, director=True)
+        rated(phone, (DATA / "demo_league.csv").read_text(encoding="utf-8"))
+        yield phone
+
+
+def test_the_ratings_are_those_of_the_command(director: Phone) -> None:
+    ratings, _ = usual_ratings(
+        read_results(DATA / "demo_league.csv").results, scale=SCALES["fargo"]
+    )
+    shown = Phone(director.site).open("/league/ratings.csv")
+    rows = list(csv.DictReader(io.StringIO(shown.text)))
+    assert len(rows) == len(ratings.players)
+    by_name = dict(zip(ratings.players, ratings.rating, strict=True))
+    assert all(abs(float(row["rating"]) - by_name[row["player"]]) < 1e-5 for row in rows)
+    assert rows[0]["player"] in Phone(director.site).open("/league").words
+
+
+def test_a_player_sees_matches_and_why_a_race_is_fair(director: Phone) -> None:
+    guest = Phone(director.site)
+    first, second, *_ = read_results(DATA / "demo_league.csv").results.players
+    for _ in range(100):
+        shown = guest.open("/league/player", name=first, other=second)
+        if "data-older" not in shown.text:
+            break
+        time.sleep(0.05)
+    assert shown.text.count("<tr>") > 10
+    assert second in shown.words
+    assert guest.open("/league/player", name="Nobody").status == 400
+
+
+@pytest.mark.parametrize("name", ["sheet.pdf", "sheet.html", "sheet.xlsx", "matchups.csv"])
+def test_files_to_take_along(director: Phone, name: str) -> None:
+    with director.opener.open(f"{director.site.address}/league/{name}") as got:
+        content = got.read()
+    begins = {"pdf": b"%PDF", "html": b"<!doctype html>", "xlsx": b"PK", "csv": b"player_a"}
+    assert content.startswith(begins[name.rpartition(".")[2]])
+
+
+def test_only_the_director_gives_results(director: Phone) -> None:
+    assert Phone(director.site).send("/league", results=SMALL, scale="fargo").status == 403
+
+
+def test_wrong_results_are_refused_by_line_and_the_old_ones_kept(director: Phone) -> None:
+    before = director.open("/league/ratings.csv").text
+    shown = director.send(
+        "/league", results="player_a,player_b,score_a,score_b\nAnn,Bo,x,5\n", scale="fargo"
+    )
+    assert shown.status == 400
+    assert "Line 2: score_a 'x'" in shown.words
+    assert director.send("/league", results=" ", scale="fargo").status == 400
+    assert director.send("/league", results=SMALL, scale="best").status == 400
+    assert director.open("/league/ratings.csv").text == before
+
+
+def test_rude_names_do_no_harm_and_a_restart_goes_on(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    with running(path) as site:
+        shown = rated(Phone(site, director=True), SMALL)
+        assert "<script>alert" not in shown.text
+    assert (tmp_path / "tonight.league.csv").read_text(encoding="utf-8").split() == SMALL.split()
+    with running(path) as site:
+        guest = Phone(site)
+        for _ in range(200):
+            if "علي" in guest.open("/league").words:
+                break
+            time.sleep(0.02)
+        assert "'=1+1" in guest.open("/league/ratings.csv").text
+        assert "<script>alert" not in guest.open("/league/sheet.html").text
+        with guest.opener.open(f"{site.address}/league/sheet.xlsx") as got:
+            packed = zipfile.ZipFile(io.BytesIO(got.read()))
+        cells = b"".join(packed.read(name) for name in packed.namelist())
+        assert b"<f>" not in cells
+        assert b"<script>alert" not in cells
+
+
+def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        rated(director, (DATA / "demo_league.csv").read_text(encoding="utf-8"))
+        one, other, *_ = site.league.sheet.ratings.players
+        fair = director.open("/fair", a=one.upper(), b=other, race="7").words
+        assert one in fair
+        assert director.open("/fair", a=one, b="Nobody", race="7").status == 400
+        asked = {"race": 3, "tables": 1, "discipline": "9-ball", "seeding": "listed"}
+        shown = director.send(
+            "/new",
+            entrants=f"{one}\n{other}\nNew Ned",
+            format="single",
+            scale="npl",
+            league="yes",
+            **asked,
+        )
+        assert shown.status == 200, shown.words
+        found = read_tournament(site.path)
+        assert found.scale.text == "fargo"
+        assert found.entrants[one].rating == site.league.known(one)[1]
+        assert found.entrants["New Ned"].rating == SCALES["fargo"].centre
