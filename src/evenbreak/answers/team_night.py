@@ -55,8 +55,8 @@ def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str
         return f"{state.teams[a < b]} leads by {ahead} with {count_of(left, 'set')} to finish."
     needed = [state.plan.sets // 2 + 1 - won for won in (a, b)]
     return (
-        f"To win the night {first} needs {needed[0]} and {second} {needed[1]} of the "
-        f"{count_of(left, 'set')} to finish."
+        f"To win the night {first} needs {needed[0]} of the {count_of(left, 'set')} to finish, "
+        f"and {second} needs {needed[1]}."
     )
 
 
@@ -66,7 +66,7 @@ def chance_words(state: TeamEvening, chances: tuple[float, float]) -> str:
     counted = state.plan.count == "sets" and state.plan.sets % 2
     tied = "" if counted else " A tie counts as half a win."
     return (
-        f"{first} wins the night {percent(chances[0])} of the time, {second} "
+        f"{first} wins the night {percent(chances[0])} of the time, and {second} wins it "
         f"{percent(chances[1])}.{tied}"
     )
 
@@ -95,7 +95,10 @@ def waiting_words(state: TeamEvening) -> str:
     if line is None or state.due:
         return ""
     who = "winner" if state.meeting.order[line.number - 1] == WINNER else "loser"
-    return f"The {who} of set {line.number - 1} names first in set {line.number}: first its result."
+    return (
+        f"The {who} of set {line.number - 1} names first in set {line.number}, so enter its result "
+        "first."
+    )
 
 
 def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:

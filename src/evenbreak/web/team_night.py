@@ -17,6 +17,7 @@ from evenbreak.teams.advice import Advice, advice
 from evenbreak.teams.evening.events import Event
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 from evenbreak.teams.evening.outlook import Side, chance, point_of, side_of
+from evenbreak.teams.sealed import SealedNight
 from evenbreak.teams.solve import SolvedNight
 from evenbreak.web.beside import Beside
 from evenbreak.web.night import mark_of
@@ -49,11 +50,11 @@ class Advised:
     answer
         in words and numbers.
     found
-        each pick and what it is worth; None where line-ups are sealed.
+        each pick and what it is worth, or where line-ups are sealed each line-up.
     """
 
     answer: Answer
-    found: Advice | None
+    found: Advice | SealedNight
 
 
 class TeamNights:
@@ -106,7 +107,7 @@ class TeamNights:
             seen = now.state.seen_by(team)
             side = self._side(seen, team)
             if not isinstance(side.solution, SolvedNight):
-                return Advised(sealed_answer(side.meeting, (), side.solution), None)
+                return Advised(sealed_answer(side.meeting, (), side.solution), side.solution)
             point = point_of(seen, team)
             answer = lineup_answer(side.meeting, point, solution=side.solution)
             return Advised(answer, advice(side.solution, point))

@@ -9,6 +9,9 @@ from evenbreak.teams.advice import Advice
 from evenbreak.teams.evening.choices import choices
 from evenbreak.teams.evening.events import Pick, Score
 from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.teams.sealed import SealedNight
+
+_RARE = 5e-4  # shares below this are not shown
 
 
 class SetView(NamedTuple):
@@ -99,6 +102,12 @@ def advised_options(state: TeamEvening, team: int, found: Advice) -> list[Option
         )
         for option in found.options
     ]
+
+
+def advised_line_ups(found: SealedNight) -> list[OptionView]:
+    """Return the line-ups that a captain does well to hand in, the most frequent first."""
+    played = sorted((one for one in found.ours if one.mix > _RARE), key=lambda one: -one.mix)
+    return [OptionView("", ", ".join(one.names), one.worth, "", one.mix) for one in played]
 
 
 def plain_options(state: TeamEvening, team: int) -> list[OptionView]:

@@ -8,12 +8,10 @@ from collections.abc import Callable, Sequence
 from datetime import datetime
 from typing import Any
 
-from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.team_night import (
     cap_words,
     chance_words,
@@ -24,16 +22,24 @@ from evenbreak.answers.team_night import (
     waiting_words,
 )
 from evenbreak.files.team_night_store import add_team_events
+from evenbreak.teams.advice import Advice
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What
 from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.teams.sealed import SealedNight
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director, check_tries, is_director, phone_of, wrong_pin
 from evenbreak.web.team_night import TeamNow
-from evenbreak.web.team_view import advised_options, pick_value, plain_options, set_views
+from evenbreak.web.team_view import (
+    advised_line_ups,
+    advised_options,
+    pick_value,
+    plain_options,
+    set_views,
+)
 from evenbreak.web.words import say
 
 _CAPTAIN = "captain"
@@ -85,11 +91,12 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
     handed_in = bool(own) and line is not None and state.unseen(line.number)
     may_pick = line is not None and (captain in now.state.due or handed_in)
     options = []
-    if line and may_pick and not state.sealed:
-        advised = found and found.found
-        options = (
-            advised_options(state, captain, advised) if advised else plain_options(state, captain)
-        )
+    if found and isinstance(found.found, SealedNight):
+        options = advised_line_ups(found.found)
+    elif found and may_pick and isinstance(found.found, Advice):
+        options = advised_options(state, captain, found.found)
+    elif may_pick:
+        options = plain_options(state, captain)
     return {
         "line": line,
         "may_pick": may_pick,
@@ -100,7 +107,6 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
         "words": found.answer.sentences[0] if found else "",
         "working": line is not None and bool(now.state.due) and found is None,
         "caps": cap_words(state, captain),
-        "sealed": Markup(to_html(found.answer)) if found and state.sealed else "",  # noqa: S704 (every text in it is escaped there)
         "line_up": [pick_value(state, captain, one.picks[captain]) for one in state.sets],
         "squad": state.plan.teams[captain].players,
     }
