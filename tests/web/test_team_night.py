@@ -206,6 +206,22 @@ def test_nobody_else_sees_an_unseen_pick(tmp_path: Path, order: str) -> None:
         assert "Dan" in night.director.open("/team/history").words
 
 
+def test_where_it_is_best_to_draw_lots_the_page_draws_them(tmp_path: Path) -> None:
+    with night_of(tmp_path / "tonight.db", order="blind") as night:
+        found = []
+        for phone in night.captains:
+            texts = {re.sub(r'"once" value="[^"]+"', "", phone.open("/team").text) for _ in "ab"}
+            assert len(texts) == 1  # drawn once
+            found.append(
+                re.search(r'pick"><bdi>(\w+)<.*?value="(\d)" required checked', *texts, re.S)
+            )
+        answer = lineup(tmp_path, "--order", "blind")
+        mixed = {row["name"] for row in answer["options"] if row["mix"] > 0}
+        assert found[0]
+        assert found[0][1] in mixed
+        assert list(RACKS)[int(found[0][2])] == found[0][1]
+
+
 def test_both_captains_enter_a_result_and_the_director_settles_what_differs(night: Night) -> None:
     night.put(0, "Ann")
     night.put(1, "Wim")

@@ -80,6 +80,8 @@ def cap_words(state: TeamEvening, team: int) -> list[str]:
     line = state.to_name
     if line is None or not found.caps:
         return lines
+    if state.sealed:
+        return []
     if not found.barred:
         return [*lines, "Everybody who has not played can still be put up."]
     return [

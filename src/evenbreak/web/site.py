@@ -87,6 +87,10 @@ class Site:
         )
         return next(pin for pin in drawn if pin not in others)
 
+    def captain_lot(self, night: int, team: int, number: int) -> str:
+        """Return by what is drawn for a captain, if it is best to draw; a set has the same lot."""
+        return self.match_token(f"lot {night} {team} {number}")
+
     def captain_mark(self, night: int, team: int, again: int = 0) -> str:
         """Return what the session of a captain holds; with `again`, what their PIN is made of."""
         return self.match_token(f"captain {night} {team} {again}")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from random import Random
 from typing import NamedTuple
 
 from evenbreak.answers.lineup import names_words
@@ -108,6 +110,35 @@ def advised_line_ups(found: SealedNight) -> list[OptionView]:
     """Return the line-ups that a captain does well to hand in, the most frequent first."""
     played = sorted((one for one in found.ours if one.mix > _RARE), key=lambda one: -one.mix)
     return [OptionView("", ", ".join(one.names), one.worth, "", one.mix) for one in played]
+
+
+def drawn(options: Sequence[OptionView], lot: str) -> OptionView | None:
+    """Return the pick that is drawn by the shares of a mixture; None if there is no mixture.
+
+    Parameters
+    ----------
+    options
+        what can be picked.
+    lot
+        the same lot draws the same pick again.
+
+    >>> both = [OptionView("0", "Ann", 0.5, mix=0.6), OptionView("1", "Bo", 0.5, mix=0.4)]
+    >>> sorted({drawn(both, f"lot {k}").name for k in range(20)})
+    ['Ann', 'Bo']
+    >>> drawn([OptionView("0", "Ann", 0.5, mix=1.0), OptionView("1", "Bo", 0.4, mix=0.0)], "x")
+    """
+    shares = [one.mix or 0.0 for one in options]
+    if sum(share > _RARE for share in shares) < 2:
+        return None
+    return Random(lot).choices(list(options), shares)[0]  # noqa: S311 (keyed by the lot)
+
+
+def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[str]:
+    """Return a line-up drawn by its share, in an order drawn too, as a form sends it."""
+    chance = Random(lot)  # noqa: S311 (keyed by the lot)
+    names = list(chance.choices(found.ours, [one.mix for one in found.ours])[0].names)
+    chance.shuffle(names)
+    return [str(squad.index(name)) for name in names]
 
 
 def plain_options(state: TeamEvening, team: int) -> list[OptionView]:

@@ -36,6 +36,8 @@ from evenbreak.web.team_night import TeamNow
 from evenbreak.web.team_view import (
     advised_line_ups,
     advised_options,
+    drawn,
+    drawn_line_up,
     pick_value,
     plain_options,
     set_views,
@@ -97,19 +99,31 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
         options = advised_options(state, captain, found.found)
     elif may_pick:
         options = plain_options(state, captain)
+    chosen, line_up = pick_value(state, captain, own), _line_up(state, captain)
+    lot = site_of(request).captain_lot(state.began, captain, line.number if line else 0)
+    lots = drawn(options, lot) if may_pick and not state.sealed else None
+    if found and isinstance(found.found, SealedNight) and not own:
+        line_up = drawn_line_up(found.found, state.plan.teams[captain].players, lot)
+    elif not own and options:
+        chosen = (lots or options[0]).value
     return {
         "line": line,
         "may_pick": may_pick,
         "handed_in": handed_in,
         "named": bool(own),
-        "chosen": pick_value(state, captain, own),
+        "chosen": chosen,
+        "lots": lots,
         "options": options,
         "words": found.answer.sentences[0] if found else "",
         "working": line is not None and bool(now.state.due) and found is None,
         "caps": cap_words(state, captain),
-        "line_up": [pick_value(state, captain, one.picks[captain]) for one in state.sets],
+        "line_up": line_up,
         "squad": state.plan.teams[captain].players,
     }
+
+
+def _line_up(state: TeamEvening, captain: int) -> list[str]:
+    return [pick_value(state, captain, one.picks[captain]) for one in state.sets]
 
 
 def _for_director(request: Request, now: TeamNow) -> dict[str, Any]:
