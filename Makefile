@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench clean
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -54,9 +54,14 @@ drift: reports    ## fail if what is committed is not what the scripts make
 	git diff --exit-code -- reports data docs/images
 	test -z "$$(git status --porcelain -- reports data docs/images)"
 
+app:              ## evenbreak.pyz: one file that needs nothing but Python
+	python3 -m venv .venv-app
+	.venv-app/bin/python -m pip install -q shiv
+	.venv-app/bin/shiv -q --compressed -c evenbreak -o evenbreak.pyz '.[excel,swiss]'
+
 bench:            ## each benchmark beside the bare floor it is compared with
 	$(PYTHON) -m pytest -q -o python_files='bench_*.py' -o addopts='--import-mode=importlib' \
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf docs/_build sheet .venv .venv-dev .venv-lowest .pytest_cache .mypy_cache .ruff_cache
+	rm -rf docs/_build sheet evenbreak.pyz .venv .venv-app .venv-dev .venv-lowest .pytest_cache .mypy_cache .ruff_cache

@@ -21,7 +21,7 @@ axe_api = pytest.importorskip(
 )
 
 PAGES = ("/", "/bracket", "/fair?a=Player+1&b=560&race=7", "/screen", "/pin", "/desk", "/new")
-MORE_PAGES = ("/players", "/prizes?fee=10")
+MORE_PAGES = ("/players", "/prizes?fee=10", "/league")
 DESK_PAGES = ("/desk/codes", "/desk/history", "/nowhere")
 AT = "2025-03-01T20:00:00"
 

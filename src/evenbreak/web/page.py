@@ -9,13 +9,16 @@ from importlib.resources import files
 from typing import Any
 
 import jinja2
+from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.faces.to_html import to_html
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
 from evenbreak.web.words import LANGUAGES, language_of, say
-from evenbreak.web.words.sentences import in_language
+from evenbreak.web.words.sentences import answer_in_language, in_language
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -121,6 +124,16 @@ def page(
         )
     )
     return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+
+
+def answer_shown(request: Request, answer: Answer) -> Markup:
+    """Return an answer in the reader's language, as a piece of a page.
+
+    Its tables may be wider than a phone: they can be scrolled, also by keys.
+    """
+    shown = to_html(answer_in_language(language(request), answer))
+    # Every text in it is escaped there.
+    return Markup(shown.replace("<table>", '<table tabindex="0">'))  # noqa: S704
 
 
 def _capital(text: str) -> str:

@@ -7,14 +7,12 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
-from markupsafe import Markup
 from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.chosen_players import find_players
-from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.sheet import Sheet
 from evenbreak.answers.why import why_answer
 from evenbreak.files.csv_writer import to_csv
@@ -22,11 +20,10 @@ from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import rated_alike
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.league import League
-from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
-from evenbreak.web.words.sentences import answer_in_language
 
 _LONGEST = 2 << 20
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
@@ -108,8 +105,7 @@ async def player(request: Request) -> Response:
         shown["working"] = answer is None
         shown["other"] = sheet.ratings.players[pair[1]]
         if answer is not None:
-            said = answer_in_language(language(request), answer)
-            shown["answer"] = Markup(to_html(said))  # noqa: S704 (every text in it is escaped there)
+            shown["answer"] = answer_shown(request, answer)
     return page(
         request,
         "league_player.html",

@@ -5,21 +5,18 @@ from __future__ import annotations
 import asyncio
 from typing import NamedTuple
 
-from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.times_of_day import time_of_day
 from evenbreak.answers.tournament_prizes import tournament_prizes_answer
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PAYOUTS, payout_table
 from evenbreak.web.forms import Form
 from evenbreak.web.night import Known
-from evenbreak.web.page import language, page, site_of
+from evenbreak.web.page import answer_shown, page, site_of
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.words.sentences import answer_in_language
 
 MOST_MONEY = 1_000_000
 
@@ -102,8 +99,7 @@ async def prizes(request: Request) -> Response:
         answer = tournament_prizes_answer(
             state, payout_table(payout), float(pot), odds, source=site_of(request).path.stem
         )
-        answer = answer_in_language(language(request), answer)
-        shown = Markup(to_html(answer))  # noqa: S704 (every text in it is escaped there)
+        shown = answer_shown(request, answer)
     asked = {"fee": fee, "added": added, "payout": payout}
     return page(request, "prizes.html", asked=asked, payouts=list(PAYOUTS), answer=shown)
 
