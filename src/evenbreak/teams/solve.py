@@ -51,6 +51,17 @@ class SolvedNight:
         """What the night is worth before the first nomination."""
         return float(self.values[0][0, 0, 0, 0])
 
+    def mirrored(self, night: TeamNight) -> SolvedNight:
+        """Return the solution as the other team sees it.
+
+        Parameters
+        ----------
+        night
+            the same night, with that team as `ours`.
+        """
+        seen = tuple(1.0 - v.transpose(1, 0, 2, 3)[:, :, ::-1, ::-1] for v in self.values)
+        return SolvedNight(night, seen)
+
 
 def solved(night: TeamNight) -> SolvedNight:
     """Return the value of every point of a night.

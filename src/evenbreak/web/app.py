@@ -29,6 +29,7 @@ from evenbreak.web.pages import (
     players,
     screen,
     team,
+    team_moves,
     team_new,
 )
 from evenbreak.web.refusals import RefusalError
@@ -63,6 +64,7 @@ def make_app(site: Site) -> Starlette:
             *desk.ROUTES,
             *entry.ROUTES,
             *team.ROUTES,
+            *team_moves.ROUTES,
             *team_new.ROUTES,
         ],
         middleware=[

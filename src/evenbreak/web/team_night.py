@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from starlette.requests import Request
+
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.lineup import lineup_answer
 from evenbreak.answers.sealed_lineup import sealed_answer
@@ -21,6 +23,7 @@ from evenbreak.teams.sealed import SealedNight
 from evenbreak.teams.solve import SolvedNight
 from evenbreak.web.beside import Beside
 from evenbreak.web.night import mark_of
+from evenbreak.web.refusals import RefusalError
 
 _WAIT = 0.7  # seconds that a page waits for what is being worked out
 _KEPT = 12  # answers, and solved nights
@@ -131,7 +134,16 @@ class TeamNights:
         """Return a night solved as a team sees it; only the thread beside asks."""
         key = state.began, team
         if key not in self._sides:
-            self._sides[key] = side_of(state, team)
+            found = self._side(state, 0).mirrored() if team else side_of(state)
+            self._sides[key] = found
             while len(self._sides) > _KEPT // 3:
                 self._sides.popitem(last=False)
         return self._sides[key]
+
+
+async def night_on(request: Request) -> TeamNow:
+    """Return the team night that a request is about; refuse it if there is none."""
+    now: TeamNow | None = await request.app.state.site.teams.now()
+    if now is None:
+        raise RefusalError("refused_no_night", status=404)
+    return now

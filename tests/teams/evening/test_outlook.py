@@ -8,6 +8,8 @@ import pytest
 from evenbreak.teams.advice import advice
 from evenbreak.teams.evening.events import HandedIn, PutUp, Result
 from evenbreak.teams.evening.outlook import chance, point_of, side_of
+from evenbreak.teams.sealed import sealed
+from evenbreak.teams.solve import solved
 from team_nights import after
 
 PAIRS = [("Ann", "Wim"), ("Bo", "Vic"), ("Cleo", "Uli")]
@@ -26,12 +28,29 @@ def moments(order):
     yield tuple(done)
 
 
+@pytest.mark.parametrize("order", ["alternate", "AWL", "blind"])
+def test_the_other_side_is_the_night_solved_the_other_way_round(order):
+    side = side_of(after(order=order, count="games")).mirrored()
+    own = solved(side.meeting.night())
+    for mirrored, direct in zip(side.solution.values, own.values, strict=True):
+        assert np.allclose(mirrored, direct)
+
+
+def test_the_other_side_of_sealed_line_ups():
+    side = side_of(after(order="sealed", cap=15)).mirrored()
+    own = sealed(side.meeting.night())
+    assert side.solution.worth == pytest.approx(own.worth)
+    assert [one.names for one in side.solution.ours] == [one.names for one in own.ours]
+    shares = [one.mix for one in own.ours]
+    assert [one.mix for one in side.solution.ours] == pytest.approx(shares, abs=1e-6)
+
+
 @pytest.mark.parametrize("order", ["home", "blind", "AWW", "ALL"])
 @pytest.mark.parametrize("count", ["sets", "games"])
 def test_the_chances_of_both_teams_add_up_to_one(order, count):
     for done in moments(order):
         state = after(*done, order=order, count=count)
-        sides = [side_of(state, team) for team in (0, 1)]
+        sides = [side_of(state), side_of(state).mirrored()]
         assert sum(chance(side, state) for side in sides) == pytest.approx(1.0)
     assert chance(sides[0], state) == pytest.approx(1.0)
 
@@ -39,7 +58,7 @@ def test_the_chances_of_both_teams_add_up_to_one(order, count):
 def test_the_chance_is_that_of_the_best_pick():
     state = after(PutUp(0, 1, ("Ann",)))
     for team in (0, 1):
-        side = side_of(state, team)
+        side = side_of(state) if team == 0 else side_of(state).mirrored()
         found = advice(side.solution, point_of(state, team))
         assert found.ours == (team == 1)
         assert chance(side, state) == found.best.worth
@@ -49,7 +68,7 @@ def test_the_last_sets_are_worth_what_their_races_are():
     done = [*moments("home")][-2]  # the last set is being played at 1:1
     state = after(*done, order="home")
     law = state.meeting.law_in_play(("Cleo",), ("Uli",))
-    assert chance(side_of(state, 0), state) == pytest.approx(law[0].sum())
+    assert chance(side_of(state), state) == pytest.approx(law[0].sum())
 
 
 def test_who_names_next_is_averaged_over_the_set_in_play():
@@ -57,7 +76,7 @@ def test_who_names_next_is_averaged_over_the_set_in_play():
     state = after(*done, order="loser")
     won, lost = (after(*done, Result(1, score), order="loser") for score in ((4, 0), (0, 4)))
     law = state.meeting.law_in_play(("Ann",), ("Wim",)).sum(axis=1)
-    side = side_of(state, 0)
+    side = side_of(state)
     expected = law @ [chance(side, won), chance(side, lost)]
     assert chance(side, state) == pytest.approx(expected)
 
@@ -66,7 +85,7 @@ def test_a_correction_leaves_standing_whoever_has_named_first():
     done = PutUp(0, 1, ("Ann",)), PutUp(1, 1, ("Wim",)), Result(1, (4, 0)), PutUp(1, 2, ("Vic",))
     states = [after(*done, *more, order="loser") for more in ((), (Result(1, (0, 4)),))]
     assert [state.due for state in states] == [(0,), (0,)]
-    chances = [chance(side_of(state, 0), state) for state in states]
+    chances = [chance(side_of(state), state) for state in states]
     assert chances[0] > chances[1]
 
 
@@ -77,7 +96,7 @@ def test_an_unseen_pick_changes_no_chance():
     ]:
         before, since = after(order=order), after(done, order=order)
         for team in (0, 1):
-            side = side_of(before, team)
+            side = side_of(before) if team == 0 else side_of(before).mirrored()
             assert chance(side, before) == chance(side, since)
 
 
@@ -90,4 +109,4 @@ def test_sealed_line_ups_that_are_in_are_worth_their_pairings():
         for outcome in itertools.product((0, 1), repeat=3)
         if sum(outcome) >= 2
     )
-    assert chance(side_of(state, 0), state) == pytest.approx(two_or_more)
+    assert chance(side_of(state), state) == pytest.approx(two_or_more)

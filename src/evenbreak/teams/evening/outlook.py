@@ -31,12 +31,21 @@ class Side:
     meeting: Meeting
     solution: SolvedNight | SealedNight
 
+    def mirrored(self) -> Side:
+        """Return the same night as the other team sees it."""
+        meeting = self.meeting.mirrored()
+        if isinstance(self.solution, SolvedNight):
+            found: SolvedNight | SealedNight = self.solution.mirrored(meeting.night())
+        else:
+            found = self.solution.mirrored()
+        return Side(1 - self.team, meeting, found)
 
-def side_of(state: TeamEvening, team: int) -> Side:
-    """Return a night solved as a team sees it; it stays the same as long as the plan does."""
-    meeting = state.meeting if team == 0 else state.meeting.mirrored()
+
+def side_of(state: TeamEvening) -> Side:
+    """Return a night solved as team A sees it; it stays the same as long as the plan does."""
+    meeting = state.meeting
     night = meeting.night()
-    return Side(team, meeting, sealed(night) if meeting.order == SEALED else solved(night))
+    return Side(0, meeting, sealed(night) if meeting.order == SEALED else solved(night))
 
 
 def point_of(state: TeamEvening, team: int) -> Point:
@@ -76,7 +85,8 @@ def chance(side: Side, state: TeamEvening) -> float:
     >>> them = TeamSheet("Cues", ("Cy", "Di"), (560.0, 540.0), (0.0, 0.0), (6.0, 5.0))
     >>> what = [Begun(NightPlan((us, them), 1, race=5)), PutUp(0, 1, ("Ann",))]
     >>> state = team_evening(Event("2025-03-01T19:30:00", one) for one in what)
-    >>> [round(chance(side_of(state, team), state), 3) for team in (0, 1)]
+    >>> side = side_of(state)
+    >>> [round(chance(one, state), 3) for one in (side, side.mirrored())]
     [0.665, 0.335]
     """
     point = point_of(state, side.team)
