@@ -1,8 +1,10 @@
 """A team night through the page: each captain's phone, the director's, a guest's, the screen."""
 
+import itertools
 import json
 import re
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -452,6 +454,33 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
         assert (plan.cap, plan.at_most, plan.sets, plan.scale) == (20.0, (2, 6.0), 4, "1.5")
         assert plan.teams[0].weights == (6.5, 5.5, 5.0, 4.0)
         assert night.state.due == (1,)
+
+
+def test_players_without_a_rating_have_that_of_the_league(tmp_path: Path) -> None:
+    names = ["Ann", "Bo", "Cleo", "Dan", "Uli", "Vic"]
+    rows = [
+        f"{a},{b},{7 if k % 3 else 5},{5 if k % 3 else 7}"
+        for k, (a, b) in enumerate(itertools.permutations(names, 2))
+    ]
+    results = "\n".join(["player_a,player_b,score_a,score_b", *rows])
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        director.send("/league", results=results, scale="fargo", race=7)
+        for _ in range(200):
+            if site.league.sheet is not None:
+                break
+            time.sleep(0.02)
+        assert site.league.sheet is not None
+        teams = {"players_a": "Ann\nBo\nNew", "players_b": "Uli,,5\nvic,555,4"}
+        shown = director.send("/team/new", **fields(**teams))
+        assert shown.status == 200
+        assert "1 player has no rating (New)" in shown.words
+        now = site.teams._now()
+        assert now is not None
+        ours, theirs = now.state.plan.teams
+        known = [site.league.known(name) for name in ("Ann", "Bo", "Uli")]
+        assert [*ours.ratings[:2], theirs.ratings[0]] == [one[1] for one in known if one]
+        assert theirs.ratings[1] == 555.0
 
 
 @pytest.mark.parametrize("path", ["/team", "/team/new"])

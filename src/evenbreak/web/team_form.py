@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import re
 from codecs import BOM_UTF8
+from dataclasses import replace
 
 import numpy as np
 
 from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak.answers.starters import starters_words
 from evenbreak.errors import DataError
 from evenbreak.files.player_names import clean_name
 from evenbreak.files.team_list import TeamList, read_team
 from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
 from evenbreak.web.forms import Form
+from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
 
@@ -38,11 +42,14 @@ RACES = {EVEN: "races_even", FAIR: "races_fair"}
 MOST_SETS, LONGEST_RACE = 25, 100
 _NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
 _AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
-_ROW = re.compile(r"[^,;\t]*[^,;\t\d][^,;\t]*([,;\t])\s*\d+(\.\d+)?\s*(\1\s*\d*(\.\d+)?\s*)?")
+_ROW = re.compile(r"[^,;\t]*[^,;\t\d][^,;\t]*([,;\t])\s*\d*(\.\d+)?\s*(\1\s*\d*(\.\d+)?\s*)?")
 
 
-async def plan_of(form: Form) -> tuple[NightPlan, list[str]]:
-    """Return the plan that a form asks for, and what its lists make doubtful."""
+async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
+    """Return the plan that a form asks for, and what its lists make doubtful.
+
+    Players without a rating have that of the league, if it knows them.
+    """
     names = [" ".join(form.text(f"team_{side}", longest=60).split()) for side in "ab"]
     if not all(names):
         raise RefusalError("refused_teams")
@@ -52,7 +59,8 @@ async def plan_of(form: Form) -> tuple[NightPlan, list[str]]:
         if not content.strip():
             raise RefusalError("refused_nobody")
         lists.append(_read(content, name))
-    scale = _scale(form, lists)
+    scale = _scale(form, lists, league)
+    lists = [_with_league(one, scale, league) for one in lists]
     sheets = [_sheet(name, one, scale, form) for name, one in zip(names, lists, strict=True)]
     times = form.whole("times", 1, MOST_SETS, default=1)
     fewest = min(len(sheet.players) for sheet in sheets) * times
@@ -74,6 +82,9 @@ async def plan_of(form: Form) -> tuple[NightPlan, list[str]]:
     warnings = [
         line for name, one in zip(names, lists, strict=True) for line in warnings_of(one.file, name)
     ]
+    for one in lists:
+        filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling)
+        warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
     return plan, [*dict.fromkeys(warnings), *league_doubts(scale, rated, "is it the right scale?")]
 
@@ -95,8 +106,13 @@ def with_header(content: bytes) -> bytes:
     'player;rating;level'
     >>> with_header(b"player,level\nAnn,6").decode().split()[0]
     'player,level'
+    >>> with_header(b"Ann Lee\n\nBo").decode().splitlines()
+    ['player,rating', 'Ann Lee,', 'Bo,']
     """
     content = content.removeprefix(BOM_UTF8)
+    if content.strip() and not any(mark in content for mark in (b",", b";", b"\t", b"\0")):
+        names = [line.strip() for line in content.splitlines() if line.strip()]
+        return b"player,rating\n" + b"".join(name + b",\n" for name in names)
     first = content.lstrip().split(b"\n")[0].decode("utf-8", "replace").strip()
     found = _ROW.fullmatch(first)
     if found is None:
@@ -105,8 +121,20 @@ def with_header(content: bytes) -> bytes:
     return f"{found[1].join(columns)}\n".encode() + content.lstrip()
 
 
-def _scale(form: Form, lists: list[TeamList]) -> Scale:
-    """Return the scale of the ratings: as the form states it, or as the lists do."""
+def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
+    """Return a team whose players without a rating have that of the league."""
+    if league.sheet is None or not league.sheet.ratings.scale.same_points(scale):
+        return read
+    roster = read.file.roster
+    rating, error = roster.rating.copy(), roster.standard_error.copy()
+    for k, name in enumerate(roster.players):
+        if np.isnan(rating[k]) and (known := league.known(name)):
+            _, rating[k], error[k] = known
+    return replace(read, file=replace(read.file, roster=Roster(roster.players, rating, error)))
+
+
+def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
+    """Return the scale of the ratings: as the form, the lists or the league states it."""
     if points := _number(form, "doubling"):
         return scale_of(points)
     if any(one.file.levels for one in lists):
@@ -114,7 +142,12 @@ def _scale(form: Form, lists: list[TeamList]) -> Scale:
     stated = [one.file.scale for one in lists if one.file.scale is not None]
     if any(not stated[0].same_points(other) for other in stated[1:]):
         raise RefusalError("refused_scales")
-    return stated[0] if stated else SCALES[form.one_of("scale", tuple(SCALES))]
+    if stated:
+        return stated[0]
+    unrated = all(np.isnan(one.file.roster.rating).all() for one in lists)
+    if unrated and league.sheet is not None:
+        return league.sheet.ratings.scale
+    return SCALES[form.one_of("scale", tuple(SCALES))]
 
 
 def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:

@@ -43,12 +43,12 @@ async def ask(request: Request) -> Response:
 
 async def begin(request: Request) -> Response:
     """Begin a team night."""
+    site = site_of(request)
     async with request.form(max_files=2, max_fields=40) as fields:
         await form_of(request)
         check_director(request)
         form = Form(fields)
-        plan, warnings = await plan_of(form)
-    site = site_of(request)
+        plan, warnings = await plan_of(form, site.league)
     await site.night.beside.run(partial(check_plan, plan))
 
     def decide(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
