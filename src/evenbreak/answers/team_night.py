@@ -30,6 +30,11 @@ def night_words(state: TeamEvening) -> str:
     return f"{count_of(state.plan.sets, 'set')}, {race_words(state.meeting.race)}{counted}"
 
 
+def decided(state: TeamEvening, chances: tuple[float, float] | None) -> bool:
+    """Return whether a night is over, or no set to come can change who wins it."""
+    return state.over or (chances is not None and min(chances) < _DECIDED)
+
+
 def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str:
     """Return how the night stands: who has won it, or what is still needed.
 
@@ -43,8 +48,7 @@ def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str
     (first, second), (a, b) = state.teams, state.score
     if state.over and a == b:
         return "The night ends in a tie."
-    decided = state.over or (chances is not None and min(chances) < _DECIDED)
-    if decided:
+    if decided(state, chances):
         won = a > b if state.over or chances is None else chances[0] > 0.5
         return f"{(second, first)[won]} has won the night."
     left = sum(line.score is None for line in state.sets)

@@ -12,6 +12,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.team_night import (
     chance_words,
+    decided,
     history_words,
     last_words,
     needed_words,
@@ -54,6 +55,7 @@ async def seen_values(request: Request, now: TeamNow, viewer: int | None) -> dic
         "played": night_words(seen),
         "needed": needed_words(seen, chances),
         "chances": chances,
+        "decided": decided(seen, chances),
         "chance_words": chance_words(seen, chances) if chances else "",
         "waiting": waiting_words(seen),
         "due": now.state.due,
