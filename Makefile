@@ -45,14 +45,17 @@ reports:          ## make again every committed output that a script makes
 	$(PYTHON) data/make_demo_teams.py
 	$(PYTHON) data/make_drill_log.py
 	$(PYTHON) data/make_practice.py
-	$(PYTHON) docs/images/make_images.py
 	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --html > demo_league.txt
 	mv demo_league.txt reports/demo_league/sheet.txt
 	$(PYTHON) -m evenbreak reproduce --out reports
+	$(PYTHON) docs/images/make_images.py
+
+# What docs/images/make_images.py writes.
+DRAWN = docs/images docs/gallery.md docs/_static/essentials.html
 
 drift: reports    ## fail if what is committed is not what the scripts make
-	git diff --exit-code -- reports data docs/images
-	test -z "$$(git status --porcelain -- reports data docs/images)"
+	git diff --exit-code -- reports data $(DRAWN)
+	test -z "$$(git status --porcelain -- reports data $(DRAWN))"
 
 app:              ## evenbreak.pyz: one file that needs nothing but Python
 	python3 -m venv .venv-app

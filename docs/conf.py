@@ -19,7 +19,6 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
-    "sphinx.ext.viewcode",
 ]
 exclude_patterns = ["_build", "images"]
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
@@ -42,13 +41,22 @@ os.environ["IPYTHONDIR"] = _ipython.name
 autodoc_member_order = "bysource"
 # matplotlib writes this method into each of its subclasses.
 autodoc_default_options = {"exclude-members": "set"}
-autodoc_typehints = "none"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 80
+# These names say more than what they stand for.
+autodoc_type_aliases = {
+    name: name
+    for name in ("ArrayLike", "Floats", "Ints", "Bools", "Players", "Scale", "Win", "Wins", "Way")
+}
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 napoleon_attr_annotations = False
 # A docstring's words in single backquotes are code.
 default_role = "literal"
+add_module_names = False
 toc_object_entries = False
 nitpicky = False
 # Many classes have a field `games`; a class that names its own means no other.
@@ -57,31 +65,71 @@ suppress_warnings = ["ref.python"]
 html_theme = "furo"
 html_title = f"evenbreak {release}"
 html_static_path = ["_static"]
-html_css_files = ["notebooks.css"]
+html_static_path = ["_static"]
+html_css_files = ["cards.css", "notebooks.css"]
 
 
+API = Path(__file__).parent / "reference" / "api"
 ROOM = re.compile(r"^```\{room\} (\w+)\n```$", re.MULTILINE)
 
 
-def modules_of(room: str) -> str:
-    """Return a heading and the documentation for each module of a room that has public names."""
+def modules_of(room: str) -> dict[str, list[str]]:
+    """Return the public names of a room by module, as its stub lists them."""
     stub = Path(evenbreak.__file__).parent / room / "__init__.pyi"
     public: dict[str, list[str]] = {}
     for line in ast.parse(stub.read_text("utf-8")).body:
-        names = [alias.name for alias in line.names]
-        public.setdefault(line.module, []).extend(names)
-    return "\n".join(
-        f"## {module.replace('_', ' ').replace('.', ', ').capitalize()}\n\n"
-        f"```{{eval-rst}}\n"
-        f".. automodule:: evenbreak.{room}.{module}\n   :members: {', '.join(names)}\n"
-        f"```\n"
-        for module, names in public.items()
-    )
+        public.setdefault(line.module, []).extend(alias.name for alias in line.names)
+    return public
+
+
+def title_of(module: str) -> str:
+    """Return a heading for a module."""
+    return module.replace("_", " ").replace(".", ", ").capitalize()
+
+
+def first_line(module: str) -> str:
+    """Return what a module says of itself in one line."""
+    path = Path(evenbreak.__file__).parent.joinpath(*module.split("."))
+    source = path.with_suffix(".py") if path.with_suffix(".py").exists() else path / "__init__.py"
+    said = ast.get_docstring(ast.parse(source.read_text("utf-8"))) or ""
+    return " ".join(said.partition("\n\n")[0].split())
+
+
+def write_modules(app) -> None:  # noqa: ARG001
+    """Write a page for each module with public names, and remove those of modules that are gone."""
+    pages = {}
+    for stub in Path(evenbreak.__file__).parent.glob("*/__init__.pyi"):
+        room = stub.parent.name
+        for module, names in modules_of(room).items():
+            pages[API / "modules" / f"{room}.{module}.md"] = (
+                # Kept out of the sidebar, which every page would have to draw anew.
+                f"---\norphan: true\n---\n\n# {title_of(module)}\n\n"
+                f"`evenbreak.{room}.{module}`, in [{room}](../{room}.md)\n\n```{{eval-rst}}\n"
+                f".. automodule:: evenbreak.{room}.{module}\n   :members: {', '.join(names)}\n```\n"
+            )
+    (API / "modules").mkdir(exist_ok=True)
+    for gone in set((API / "modules").glob("*.md")) - pages.keys():
+        gone.unlink()
+    for page, text in pages.items():
+        if not page.exists() or page.read_text("utf-8") != text:
+            page.write_text(text, "utf-8")
+
+
+def listed(room: str) -> str:
+    """Return a list of a room's modules: what each is for, and its names."""
+    rows = []
+    for module, names in modules_of(room).items():
+        links = [f"{{py:obj}}`{name} <evenbreak.{room}.{module}.{name}>`" for name in names]
+        rows += [
+            f"[{title_of(module)}](modules/{room}.{module}.md)",
+            f": {first_line(f'{room}.{module}')}\n  {', '.join(links)}\n",
+        ]
+    return "\n".join(rows)
 
 
 def write_rooms(app, docname, source) -> None:  # noqa: ARG001
-    """Put the modules of a room where a page says `{room} games`, as the room's stub lists them."""
-    source[0] = ROOM.sub(lambda found: modules_of(found[1]), source[0])
+    """List the modules of a room where a page says `{room} games`."""
+    source[0] = ROOM.sub(lambda found: listed(found[1]), source[0])
 
 
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
@@ -110,6 +158,7 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
 
 
 def setup(app) -> None:
-    """Write the rooms' pages, and run `prepare` before napoleon, whose priority is 500."""
+    """Write the modules' pages, and run `prepare` before napoleon, whose priority is 500."""
+    app.connect("builder-inited", write_modules)
     app.connect("source-read", write_rooms)
     app.connect("autodoc-process-docstring", prepare, priority=100)

@@ -1,103 +1,101 @@
-"""Make the pictures of README and docs, the same to the byte every time.
+"""Make the pictures of README and docs, the gallery and the essentials, always the same bytes.
 
 python docs/images/make_images.py
 """
 
-from pathlib import Path
+from __future__ import annotations
 
-import networkx as nx
-import numpy as np
-from matplotlib.figure import Figure
+import contextlib
+import re
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path, PurePath
+from unittest import mock
 
-from evenbreak.answers import OfferedRaces, Sheet, most_active
-from evenbreak.files.results import read_results
-from evenbreak.games import Ahead, OneBall, Race, Rack
-from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, settling
-from evenbreak.physics import PoolTable, aimed_shot, pockets, strike_for_speed
-from evenbreak.physics.units import INCH
-from evenbreak.plots.diagram import draw
-from evenbreak.plots.ladders import ladder_figure
-from evenbreak.plots.picture import image_bytes, in_our_look
-from evenbreak.plots.style import LINES, new_axes
-from evenbreak.plots.traced_shot import shot_on_table
-from evenbreak.ratings import fit
-from evenbreak.sheets import sheet_pages
-from evenbreak.tournaments import double_elimination, single_elimination, title_odds
+from evenbreak.plots.picture import image_bytes, our_look
 
 HERE = Path(__file__).resolve().parent
-RESULTS = HERE.parents[1] / "data" / "demo_league.csv"
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE))
+
+from at_work import desk, run  # noqa: E402
+from essentials_page import essentials_page  # noqa: E402
+from gallery_page import gallery_page  # noqa: E402
+from shown import SHOWN, Shown  # noqa: E402
+
+DECIMAL = re.compile(r"-?\d+\.\d+")
+PLACES = re.compile(r'( (?:d|x|y|points)="|translate\()([^")]*)')
 
 
-def drill(levels: int) -> nx.DiGraph:
-    """Return the diagram of a drill with symbols for its chances."""
-    graph = nx.DiGraph()
-    for i in range(1, levels + 1):
-        graph.add_edge(i, min(i + 1, levels), label=f"$p_{i}$")
-        graph.add_edge(i, max(i - 1, 1), label=f"$q_{i}$")
-    return graph
+def short(svg: str) -> str:
+    """Return a picture in fewer bytes: to a twentieth of a point, without unused names."""
+
+    def rounded(found: re.Match[str]) -> str:
+        return found[1] + DECIMAL.sub(
+            lambda number: f"{float(number[0]):.1f}".removesuffix(".0"), found[2]
+        )
+
+    svg = re.sub(r"<metadata>.*?</metadata>\n?|<!--.*?-->\n?", "", svg, flags=re.DOTALL)
+    used = set(re.findall(r"#([\w.-]+)", svg))
+    svg = re.sub(r' id="([\w.-]+)"', lambda name: name[0] if name[1] in used else "", svg)
+    svg = PLACES.sub(rounded, svg).replace("DejaVuSans-", "f").replace("xlink:href", "href")
+    return re.sub(r"\s*\n\s*", "\n", svg)
 
 
-def sheet() -> Figure:
-    """Draw the page that `evenbreak report` writes for the demo league."""
-    file = read_results(RESULTS)
-    ratings = fit(file.results)
-    sheet = Sheet.of(file, ratings, OfferedRaces(race_to=7), most_active(ratings, 10))
-    (page,) = sheet_pages(sheet)
-    return page
+def drawing_functions(one: Shown) -> Iterator[tuple[str, str]]:
+    """Yield module and name of each function that is said to draw a picture."""
+    if one.python:
+        return
+    for module in sorted((ROOT / "src/evenbreak/plots").glob("*.py")):
+        for name in one.draws.split():
+            if re.search(rf"^def {name}\(", module.read_text("utf-8"), re.MULTILINE):
+                yield f"evenbreak.plots.{module.stem}", name
 
 
-def cut_shot() -> Figure:
-    """Draw a draw shot into the far corner, allowing for throw."""
-    corner = pockets(PoolTable())[2]
-    hit = strike_for_speed(80.0 * INCH, -0.4)
-    places = ((30.0, 15.0), (50.0, 15.0), (corner.x / INCH, corner.y / INCH))
-    return shot_on_table(aimed_shot(hit, *((x * INCH, y * INCH) for x, y in places)))
+def make(one: Shown, place: Path) -> bytes:
+    """Return a picture as its command or its Python makes it.
 
-
-def ladder() -> Figure:
-    """Draw what `evenbreak ladder` draws of chart 10: the law, and how newcomers settle."""
-    model = Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL)
-    natural = Ladder("npl", chart("npl_10")).law()
-    curve = settling(model, -30, newcomer=True)
-    return ladder_figure(
-        model.law(), natural=natural, curve=curve, title="chart npl_10, system npl"
-    )
-
-
-@in_our_look
-def second_chance() -> Figure:
-    """Draw a favourite's chance of the title in single and in double elimination."""
-    chances = np.linspace(0.5, 1.0, 26)
-    figure, axes = new_axes(
-        "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
-    )
-    for players, line in ((8, LINES[0]), (16, LINES[1])):
-        win = np.full((players, players), 0.5)
-        for make, dashes in ((double_elimination, "-"), (single_elimination, "--")):
-            title = []
-            for p in chances:
-                win[0, 1:], win[1:, 0] = p, 1.0 - p
-                title.append(title_odds(make(players), win).title[0])
-            name = f"{make.__name__.replace('_', ' ')} of {players}"
-            axes.plot(chances, title, dashes, color=line.color, label=name)
-    axes.legend(fontsize=9)
-    return figure
+    A command must draw with the functions that are named beside it.
+    """
+    written, file = place / one.name, place / PurePath(one.name).name
+    if written.exists():
+        return written.read_bytes()
+    with contextlib.ExitStack() as watch:
+        seen = [
+            watch.enter_context(
+                mock.patch(f"{module}.{name}", side_effect=getattr(import_module(module), name))
+            )
+            for module, name in drawing_functions(one)
+        ]
+        for line in one.first.splitlines():
+            run(line)
+        if one.python:
+            names: dict[str, object] = {}
+            with our_look():
+                exec(one.python, names)  # noqa: S102
+            kind = "png" if file.suffix == ".png" else "svg"
+            file.write_bytes(image_bytes(names["picture"], kind))  # type: ignore[arg-type]
+        else:
+            run(one.command.replace("FILE", file.name))
+    if not all(function.called for function in seen):
+        raise RuntimeError(f"{one.name} is not drawn by {one.draws}")
+    return (written if written.exists() else file).read_bytes()
 
 
 def main() -> None:
-    """Write every picture beside this file."""
-    diagrams = {
-        "one_ball": draw(OneBall(0.4, 0.8)),
-        "ahead": draw(Ahead(3, 2, Rack(2 / 3)), title="Player 1 must lead by 3, player 2 by 2"),
-        "drill": draw(drill(4)),
-        "race": draw(Race(3, 2, Rack(0.6)), title="Race 3:2"),
-        "shot": cut_shot(),
-        "ladder": ladder(),
-        "second_chance": second_chance(),
-    }
-    for name, figure in diagrams.items():
-        (HERE / f"{name}.svg").write_bytes(image_bytes(figure, "svg"))
-    (HERE / "sheet.png").write_bytes(image_bytes(sheet(), "png"))
+    """Write every picture beside this file, and the page that shows them."""
+    with desk() as place:
+        for one in (one for group in SHOWN.values() for one in group):
+            made = make(one, place)
+            if one.name.endswith(".svg"):
+                made = short(made.decode()).encode()
+            (HERE / PurePath(one.name).name).write_bytes(made)
+        essentials = essentials_page()
+    (HERE.parent / "_static" / "essentials.html").write_text(
+        essentials, encoding="utf-8", newline="\n"
+    )
+    (HERE.parent / "gallery.md").write_text(gallery_page(), encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ from .roster import Roster as Roster
 from .scale import SCALES as SCALES
 from .scale import Scale as Scale
 from .scale import scale_of as scale_of
+from .usual import rated_alike as rated_alike
+from .usual import usual_ratings as usual_ratings
 from .validate import Validation as Validation
 from .validate import validate as validate
 from .walk_forward import Forecasts as Forecasts

@@ -9,6 +9,7 @@ from typing import Literal
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.decay import day_of, until
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.levels import begun
@@ -54,6 +55,7 @@ def usual_ratings(
     >>> ratings.players, choice
     (('Ann', 'Bo', 'Cy'), None)
     """
+    check_results(results)
     choice = None
     if not isinstance(prior, float):
         choice = _choice(
@@ -87,7 +89,13 @@ def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratin
     ----------
     ratings, results
         the ratings, and the matches that they come from.
+
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> again = rated_alike(fit(season, prior_sd=0.4), season)
+    >>> again(season.select([0])).prior_sd
+    0.4
     """
+    check_results(results)
     day = ratings.as_of
     if day is None and ratings.half_life is not None and results.date is not None:
         # The day from which ages were counted: a match left out must not make the others younger.

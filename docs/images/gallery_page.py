@@ -1,0 +1,97 @@
+"""The gallery's page: a card for each picture, with what made it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path, PurePath
+
+from shown import SHOWN, Shown
+
+HERE = Path(__file__).resolve().parent
+REPORTS = HERE.parents[1] / "reports"
+WIDTH = 42
+"""Characters of a line of code on a card."""
+FIGURE = re.compile(r"!\[([^\]]*)\]\((figure_\w+)\.png\)")
+
+HEAD = """\
+# Gallery
+
+Every picture that evenbreak draws, with the command or the Python that drew the one shown. Each
+leads to its page. Commands write to the file that you name, as PNG or SVG; in a notebook pictures
+show themselves. The commands use the sample data in the folder `data/`.
+"""
+
+PAGES = """\
+## Pages and paper
+
+Not everything is a picture:
+
+| what | command |
+|---|---|
+| any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html`, and so with other commands |
+| the sheet for [phones and printers](how-to/share-the-sheet.md) | `evenbreak report data/demo_league.csv --out sheet --html` |
+| the sheet as a workbook | `evenbreak report data/demo_league.csv --out sheet --excel` |
+| the bracket as a page, or on paper | `evenbreak tournament show --out bracket.html`, or `bracket.pdf` |
+| score cards, the bracket, the list of the draw | `evenbreak tournament print cards`, `bracket` or `draw` |
+| the evening live, on phones and the screen | [`evenbreak serve`](how-to/a-page-for-phones-and-the-screen.md) |
+"""  # noqa: E501
+
+TEXT = """\
+## The figures of the text
+
+Shepard's *Amateur Physics for the Amateur Pool Player*, from which this program grew, has the
+figures below. One command draws them all anew, beside tables of every number in it:
+
+```sh
+evenbreak reproduce --out reports
+```
+"""
+
+
+def _command(text: str) -> str:
+    """Return a command in lines that fit a card, broken before options."""
+    lines = ["evenbreak"]
+    for part in re.split(" (?=--)", text):
+        if len(lines[-1]) + 1 + len(part) <= WIDTH or lines == ["evenbreak"]:
+            lines[-1] += f" {part}"
+        else:
+            lines.append(f"  {part}")
+    return " \\\n".join(lines)
+
+
+def _made(one: Shown) -> str:
+    if one.python:
+        return f"```{{code-block}} python\n{one.python}```\n"
+    command = one.command.replace("FILE", PurePath(one.name).name)
+    lines = "\n".join(map(_command, [*one.first.splitlines(), command]))
+    return f"```{{code-block}} sh\n{lines}\n```\n"
+
+
+def _card(one: Shown) -> str:
+    return (
+        ":::{container} picture\n"
+        f"[![{one.title}](images/{PurePath(one.name).name})]({one.page})\n\n"
+        f"[{one.title}]({one.page}). {one.says}\n\n"
+        f"{_made(one)}:::\n"
+    )
+
+
+def _of_the_text() -> Iterator[str]:
+    """Yield each figure of the text, in its order, with what `reports` says it shows."""
+    for page in ("physics.md", "index.md"):
+        found = FIGURE.findall((REPORTS / page).read_text("utf-8"))
+        for says, name in found:
+            number = name.removeprefix("figure_").replace("p5_", "P5.").replace("_", ".")
+            alt = " ".join(says.split())
+            yield f'```{{figure}} ../reports/{name}.svg\n:alt: "{alt}"\n\nFigure {number}\n```\n'
+
+
+def gallery_page() -> str:
+    """Return the page as Markdown."""
+    parts = [HEAD]
+    for group, shown in SHOWN.items():
+        parts += [f"## {group}\n", "::::{container} gallery\n"]
+        parts += [*map(_card, shown), "::::\n"]
+    parts += [PAGES, TEXT, "::::{container} gallery small\n", *_of_the_text(), "::::\n"]
+    return "\n".join(parts)

@@ -1,0 +1,339 @@
+"""The pictures of the gallery: what each shows, and the command or the Python that makes it.
+
+A command is run as it stands here, with FILE for the picture's name; Python is run as it stands,
+and leaves its picture in `picture`.
+"""
+
+from typing import NamedTuple
+
+NIGHT = """\
+tournament new data/demo_roster.csv --race 5 --losers-race 4 --tables 2 --at 18:50
+tournament draw --at 19:00
+tournament call --at 19:02
+tournament result W1.2 5:3 --at 19:40
+"""
+
+
+class Shown(NamedTuple):
+    """A picture of the gallery.
+
+    Parameters
+    ----------
+    name
+        the file as it is written; its last part is the picture's name beside this module.
+    title, says, page
+        the words below it, and the page of docs about it.
+    command, python
+        what makes it: one of the two.
+    draws
+        the functions of evenbreak.plots that draw it.
+    first
+        commands to run before, a line each.
+    """
+
+    name: str
+    title: str
+    says: str
+    page: str
+    command: str = ""
+    python: str = ""
+    draws: str = ""
+    first: str = ""
+
+
+SHOWN: dict[str, tuple[Shown, ...]] = {
+    "Tournaments and sheets": (
+        Shown(
+            "bracket.svg",
+            "A bracket as it stands",
+            "Results, who plays next, and where losers go.",
+            "how-to/run-an-evening.md",
+            "tournament show --at 19:40 --out FILE",
+            first=NIGHT,
+        ),
+        Shown(
+            "sheet.png",
+            "The sheet for the wall",
+            "The fairest race for each pair, and everybody's rating with its uncertainty.",
+            "tutorial/first-evening.md",
+            python="""\
+from evenbreak.answers import OfferedRaces, Sheet, most_active
+from evenbreak.files.results import read_results
+from evenbreak.ratings import fit
+from evenbreak.sheets import sheet_pages
+
+file = read_results("data/demo_league.csv")
+ratings = fit(file.results)
+offered = OfferedRaces(race_to=7)
+sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10))
+(picture,) = sheet_pages(sheet)
+""",
+        ),
+        Shown(
+            "second_chance.svg",
+            "What a second chance is worth",
+            "A favourite's title odds in single and in double elimination.",
+            "explanation/exact-brackets.md",
+            python="""\
+import numpy as np
+from evenbreak.plots.style import LINES, new_axes
+from evenbreak.tournaments import double_elimination, single_elimination, title_odds
+
+picture, axes = new_axes(
+    "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
+)
+chances = np.linspace(0.5, 1.0, 26)
+for players, line in ((8, LINES[0]), (16, LINES[1])):
+    win = np.full((players, players), 0.5)
+    for make, dashes in ((double_elimination, "-"), (single_elimination, "--")):
+        title = []
+        for p in chances:
+            win[0, 1:], win[1:, 0] = p, 1.0 - p
+            title.append(title_odds(make(players), win).title[0])
+        name = f"{make.__name__.replace('_', ' ')} of {players}"
+        axes.plot(chances, title, dashes, color=line.color, label=name)
+axes.legend(fontsize=9)
+""",
+        ),
+    ),
+    "Matches": (
+        Shown(
+            "live.svg",
+            "A match in progress",
+            "A's chance after each game, and how much depended on it.",
+            "how-to/during-a-match.md",
+            "live --p 0.6 --race 7:5 --racks abbababaab --plot FILE",
+            draws="plot_course",
+        ),
+        Shown(
+            "formats.svg",
+            "Match formats side by side",
+            "Who gains by which format, and where two are worth the same.",
+            "how-to/compare-formats.md",
+            'compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3" --plot FILE',
+            draws="plot_formats",
+        ),
+        Shown(
+            "breaks.svg",
+            "Break formats",
+            "The long-run share of the racks, for any two players.",
+            "how-to/which-break-format.md",
+            "breaks 0.9 0.5 --win 1 --lose 2 --plot FILE",
+            draws="breaks_figure",
+        ),
+    ),
+    "Handicaps": (
+        Shown(
+            "chart.svg",
+            "A chart, audited",
+            "The stronger player's chance at each rating difference, beside another chart.",
+            "how-to/audit-a-chart.md",
+            "chart audit data/house_chart.csv --scale npl --beside npl_10 --plot FILE",
+            draws="chart_figure",
+        ),
+        Shown(
+            "front.svg",
+            "How fair a chart can be",
+            "The fairest charts for each length of match; diamonds can be beaten.",
+            "how-to/design-a-chart.md",
+            "chart design --games 5..9 --least 2:2 --pareto --beside npl_8 --beside npl_10 "
+            "--plot FILE",
+            draws="pareto_figure",
+        ),
+        Shown(
+            "ladder.svg",
+            "How far off ratings stay",
+            "The long-run error of ratings, and how newcomers settle.",
+            "how-to/how-wrong-are-our-ratings.md",
+            "ladder --chart npl_10 --equal-skill --newcomer --plot FILE",
+            draws="ladder_figure",
+        ),
+        Shown(
+            "systems.svg",
+            "Accurate or quick",
+            "How far off ratings stay, against how long newcomers take, for several systems.",
+            "how-to/how-wrong-are-our-ratings.md",
+            "ladder --compare --plot FILE",
+            draws="systems_figure",
+        ),
+        Shown(
+            "pay.svg",
+            "What losing on purpose pays",
+            "The chance to win afterwards, for several numbers of dumped matches.",
+            "how-to/sandbagging.md",
+            "sandbag pay --chart npl_12 --stake 50 --dumped-stake 5 --plot FILE",
+            draws="pay_figure",
+        ),
+        Shown(
+            "watch.svg",
+            "A watch for sandbagging",
+            "The evidence against each player, match by match.",
+            "how-to/sandbagging.md",
+            "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv --plot FILE",
+            draws="watch_figure",
+        ),
+    ),
+    "Leagues": (
+        Shown(
+            "calibration.svg",
+            "Can the ratings be trusted?",
+            "How often favourites won, against the chance that they had been given.",
+            "how-to/can-i-trust-the-ratings.md",
+            "validate data/demo_league.csv --prior 30 --plot FILE",
+            draws="calibration_figure",
+        ),
+        Shown(
+            "season/errors_by_week.svg",
+            "A season: the ratings",
+            "How far off they are, week by week.",
+            "how-to/simulate-a-season.md",
+            "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
+            "--no-matches --jobs 1 --out season",
+            draws="errors_figure",
+        ),
+        Shown(
+            "season/wins_by_gap.svg",
+            "A season: the handicaps",
+            "How often the stronger player wins, by how much stronger they are.",
+            "how-to/simulate-a-season.md",
+            "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
+            "--no-matches --jobs 1 --out season",
+            draws="gaps_figure",
+        ),
+        Shown(
+            "season/standings.svg",
+            "A season: the table",
+            "How many matches each player wins: the mean, and 8 seasons in 10.",
+            "how-to/simulate-a-season.md",
+            "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
+            "--no-matches --jobs 1 --out season",
+            draws="standings_figure",
+        ),
+    ),
+    "Practice and the table": (
+        Shown(
+            "shot.svg",
+            "A shot, traced",
+            "Where both balls go and stop, and where to aim so that throw does no harm.",
+            "how-to/draw-a-shot.md",
+            "physics shot --cue-ball 30,15 --object-ball 50,15 --pocket foot-right --speed 80 "
+            "--offset -0.4 --plot FILE",
+            draws="shot_on_table",
+        ),
+        Shown(
+            "shots.svg",
+            "Which shot to take",
+            "Your chance on the last ball, for each shot you could try.",
+            "how-to/which-shot.md",
+            "oneball 0.4 0.8 --or 0.3:0.3 --or 0.6:0.9 --plot FILE",
+            draws="shots_figure",
+        ),
+        Shown(
+            "log.svg",
+            "A drill, logged",
+            "How often each level was tried, against the long run.",
+            "tutorial/read-your-practice.md",
+            "drill --log data/drill_log.csv --plot FILE",
+            draws="log_figure",
+        ),
+        Shown(
+            "long_run.svg",
+            "A drill in the long run",
+            "Where it settles, for a player who makes 4 shots in 5.",
+            "tutorial/read-your-practice.md",
+            "drill --p 0.8 --plot FILE",
+            draws="drill_figure",
+        ),
+        Shown(
+            "scores.svg",
+            "Was it luck?",
+            "Practice scores over time, their mean, and one new score.",
+            "how-to/did-my-practice-help.md",
+            "practice data/practice_scores.csv --new 53 --plot FILE",
+            draws="plot_scores",
+        ),
+        Shown(
+            "two_lists.svg",
+            "Did it help?",
+            "Scores before and after, with the two means.",
+            "how-to/did-my-practice-help.md",
+            "practice data/practice_scores.csv --versus data/practice_scores_after.csv --plot FILE",
+            draws="plot_two_lists",
+        ),
+        Shown(
+            "runs.svg",
+            "How long the runs are",
+            "The score of several innings, with a range shaded.",
+            "how-to/runs-and-straight-pool.md",
+            "runs --mean 24 --innings 5 --between 100..150 --plot FILE",
+            draws="plot_score",
+        ),
+        Shown(
+            "spot.svg",
+            "A spot in straight pool",
+            "What each number of points is worth, and which makes the match even.",
+            "how-to/runs-and-straight-pool.md",
+            "straight 24 19 --points 150 --plot FILE",
+            draws="plot_spot",
+        ),
+    ),
+    "Games as graphs": (
+        Shown(
+            "one_ball.svg",
+            "One ball left",
+            "A game is a directed graph; its arcs carry chances.",
+            "how-to/draw-a-game.md",
+            python="""\
+from evenbreak.games import OneBall
+from evenbreak.plots import draw
+
+picture = draw(OneBall(0.4, 0.8))
+""",
+            draws="draw",
+        ),
+        Shown(
+            "race.svg",
+            "A race",
+            "Every score, from 0:0 to the end.",
+            "how-to/from-graph-to-limit.md",
+            python="""\
+from evenbreak.games import Race, Rack
+from evenbreak.plots import draw
+
+picture = draw(Race(3, 2, Rack(0.6)), title="Race 3:2")
+""",
+            draws="draw",
+        ),
+        Shown(
+            "ahead.svg",
+            "Ahead by some games",
+            "A chain with no last game.",
+            "how-to/draw-a-game.md",
+            python="""\
+from evenbreak.games import Ahead, Rack
+from evenbreak.plots import draw
+
+title = "Player 1 must lead by 3, player 2 by 2"
+picture = draw(Ahead(3, 2, Rack(2 / 3)), title=title)
+""",
+            draws="draw",
+        ),
+        Shown(
+            "drill.svg",
+            "A graph of your own",
+            "Any networkx graph, here a drill with symbols for its chances.",
+            "how-to/draw-a-game.md",
+            python="""\
+import networkx as nx
+from evenbreak.plots import draw
+
+graph = nx.DiGraph()
+for i in range(1, 5):
+    graph.add_edge(i, min(i + 1, 4), label=f"$p_{i}$")
+    graph.add_edge(i, max(i - 1, 1), label=f"$q_{i}$")
+picture = draw(graph)
+""",
+            draws="draw",
+        ),
+    ),
+}
