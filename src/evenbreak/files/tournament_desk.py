@@ -89,7 +89,7 @@ def proposals(path: str | Path) -> list[Proposal]:
         if not has_table(base, "proposal"):
             return []
         rows = base.execute(
-            "SELECT game, player, score, phone, at FROM proposal ORDER BY at, player"
+            "SELECT game, player, score, phone, at FROM proposal ORDER BY rowid"
         ).fetchall()
     return [
         Proposal(name, who, json.loads(score), phone, at) for name, who, score, phone, at in rows
