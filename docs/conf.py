@@ -8,6 +8,9 @@ import re
 import tempfile
 from pathlib import Path
 
+from docutils.nodes import SkipNode, math_block
+from latex2mathml.converter import convert as mathml
+
 import evenbreak
 
 project = "evenbreak"
@@ -61,6 +64,8 @@ toc_object_entries = False
 nitpicky = False
 # Many classes have a field `games`; a class that names its own means no other.
 suppress_warnings = ["ref.python"]
+
+html_math_renderer = "mathml"
 
 html_theme = "furo"
 html_title = f"evenbreak {release}"
@@ -157,8 +162,30 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
     lines[:] = result
 
 
+def number_equations(app, doctree, docname) -> None:  # noqa: ARG001
+    """Give each displayed equation of a page its number."""
+    for number, node in enumerate(doctree.findall(math_block), 1):
+        node["number"] = number
+
+
+def inline_math(translator, node) -> None:
+    """Write an equation in a line as MathML, which browsers show without a script."""
+    translator.body.append(mathml(node.astext()))
+    raise SkipNode
+
+
+def displayed_math(translator, node) -> None:
+    """Write an equation on a line of its own, with its number."""
+    translator.body.append(translator.starttag(node, "div", CLASS="math notranslate"))
+    translator.body.append(f'<span class="eqno">({node["number"]})</span>')
+    translator.body.append(mathml(node.astext(), display="block") + "</div>\n")
+    raise SkipNode
+
+
 def setup(app) -> None:
     """Write the modules' pages, and run `prepare` before napoleon, whose priority is 500."""
+    app.add_html_math_renderer("mathml", (inline_math, None), (displayed_math, None))
     app.connect("builder-inited", write_modules)
+    app.connect("doctree-resolved", number_equations)
     app.connect("source-read", write_rooms)
     app.connect("autodoc-process-docstring", prepare, priority=100)
