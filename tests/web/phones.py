@@ -40,6 +40,7 @@ class Phone:
 
     def __init__(self, site: Site, *, director: bool = False, language: str = "en") -> None:
         self.site = site
+        self.kept = ""
         self.jar = CookieJar()
         self.opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(self.jar))
         self.opener.addheaders = [("Accept-Language", language)]
@@ -53,10 +54,12 @@ class Phone:
         return self._get(urllib.request.Request(self.site.address + path))  # noqa: S310
 
     def token(self) -> str:
-        """Return the token of this phone's forms."""
-        found = re.search(r'name="csrf" value="([^"]+)"', self.open("/pin").text)
-        assert found
-        return found[1]
+        """Return the token of this phone's forms, which its session keeps."""
+        if not self.kept:
+            found = re.search(r'name="csrf" value="([^"]+)"', self.open("/pin").text)
+            assert found
+            self.kept = found[1]
+        return self.kept
 
     def send(self, path: str, **fields: object) -> Shown:
         """Send a form of this phone."""

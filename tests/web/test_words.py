@@ -62,7 +62,12 @@ def skeletons_of(path: Path) -> Iterator[str]:
 
 
 REFUSALS = sorted(
-    {text for path in (SRC / "tournaments" / "evening").glob("*.py") for text in skeletons_of(path)}
+    {
+        text
+        for room in ("tournaments", "teams")
+        for path in (SRC / room / "evening").glob("*.py")
+        for text in skeletons_of(path)
+    }
 )
 
 

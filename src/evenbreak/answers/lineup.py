@@ -11,9 +11,10 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
-from evenbreak.answers.team_meeting import SEALED, Meeting, cost_words, race_words
+from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
+from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.reliance import best_by_skills
 from evenbreak.teams.solve import SolvedNight, solved, steps_of
@@ -30,6 +31,7 @@ def lineup_answer(
     *,
     seed: int = 0,
     warnings: Sequence[str] = (),
+    solution: SolvedNight | None = None,
 ) -> Answer:
     """Return whom to put up now.
 
@@ -43,6 +45,8 @@ def lineup_answer(
         of the ratings that are drawn, where they have standard errors.
     warnings
         about the question.
+    solution
+        of the night, if it is known; then the ratings are not drawn again.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -54,12 +58,13 @@ def lineup_answer(
     """
     if meeting.order == SEALED:
         return sealed_answer(meeting, warnings)
-    night = meeting.night()
-    solution = solved(night)
+    night = meeting.night() if solution is None else solution.night
+    redrawn = solution is None and meeting.uncertain
+    solution = solution or solved(night)
     found = advice(solution, point)
     sure: dict[tuple[str, ...], float] = {}
     draws = int(min(MOST_DRAWS, _WORK / steps_of(night)))
-    if meeting.uncertain and not found.blind and draws >= _FEWEST_DRAWS:
+    if redrawn and not found.blind and draws >= _FEWEST_DRAWS:
         sure = best_by_skills(
             night,
             meeting.laws,

@@ -7,14 +7,17 @@ from collections.abc import Sequence
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
-from evenbreak.answers.team_meeting import Meeting, cost_words, race_words
+from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.wording import chance, count_of, listed, percent
-from evenbreak.teams.sealed import SealedLineUp, sealed
+from evenbreak.teams.meeting import Meeting
+from evenbreak.teams.sealed import SealedLineUp, SealedNight, sealed
 
 _LISTED = 10
 
 
-def sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
+def sealed_answer(
+    meeting: Meeting, warnings: Sequence[str], solution: SealedNight | None = None
+) -> Answer:
     """Return whom to write on a line-up that the other team does not see.
 
     Parameters
@@ -23,6 +26,8 @@ def sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
         who meets whom, and what is played.
     warnings
         about the question.
+    solution
+        of the night, if it is known.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -32,7 +37,7 @@ def sealed_answer(meeting: Meeting, warnings: Sequence[str]) -> Answer:
     >>> print(sealed_answer(meeting, ()).sentences[0])
     Play Ann, in an order drawn at random: you win the night 67% of the time, whatever they do.
     """
-    found = sealed(meeting.night())
+    found = solution or sealed(meeting.night())
     played = [one for one in found.ours if one.mix > 5e-4]
     if len(played) == 1:
         words = f"Play {listed(list(played[0].names))}, in an order drawn at random"

@@ -42,6 +42,17 @@ class TeamList:
     file: RosterFile
     levels: Floats
 
+    @property
+    def weights(self) -> Floats:
+        """What a cap counts: the levels, or the ratings where the file states no level."""
+        return self.file.roster.rating if np.isnan(self.levels).all() else self.levels
+
+    @property
+    def without_weight(self) -> str:
+        """A player for whom there is nothing to count; '' if there is none."""
+        unknown = np.isnan(self.weights)
+        return self.file.roster.players[int(unknown.argmax())] if unknown.any() else ""
+
 
 def read_team(path: str | Path) -> TeamList:
     r"""Read a team from a CSV file with the columns player, rating and level.

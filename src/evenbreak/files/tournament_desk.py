@@ -12,7 +12,7 @@ from datetime import datetime
 from itertools import count
 from pathlib import Path
 
-from evenbreak.files.tournament_store import opened
+from evenbreak.files.evening_file import has_table, opened
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -86,10 +86,10 @@ def propose(path: str | Path, proposal: Proposal) -> None:
 def proposals(path: str | Path) -> list[Proposal]:
     """Return all proposed results, in the order in which they came in."""
     with opened(path) as base:
-        if not _has(base, "proposal"):
+        if not has_table(base, "proposal"):
             return []
         rows = base.execute(
-            "SELECT game, player, score, phone, at FROM proposal ORDER BY at, player"
+            "SELECT game, player, score, phone, at FROM proposal ORDER BY rowid"
         ).fetchall()
     return [
         Proposal(name, who, json.loads(score), phone, at) for name, who, score, phone, at in rows
@@ -99,7 +99,7 @@ def proposals(path: str | Path) -> list[Proposal]:
 def authors(path: str | Path) -> dict[int, str]:
     """Return who entered each event, by its number from 1, where that is known."""
     with opened(path) as base:
-        if not _has(base, "author"):
+        if not has_table(base, "author"):
             return {}
         return dict(base.execute("SELECT number, name FROM author").fetchall())
 
@@ -130,8 +130,3 @@ def _new_name(place: Path, at: str) -> Path:
 def _begin(base: sqlite3.Connection) -> None:
     base.executescript(_TABLES)
     base.execute("BEGIN IMMEDIATE")
-
-
-def _has(base: sqlite3.Connection, table: str) -> bool:
-    asked = "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?"
-    return base.execute(asked, (table,)).fetchone() is not None

@@ -32,3 +32,4 @@ from .solve import SolvedNight as SolvedNight
 from .solve import solved as solved
 from .squad import Cap as Cap
 from .squad import Squad as Squad
+from .squad import caps_of as caps_of

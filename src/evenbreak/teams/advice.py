@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -129,6 +129,8 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
     point = point or Point()
     night = solution.night
     k, a, b = _states(night, point)
+    if k == night.sets:
+        raise InputError(f"all {k} sets have been named; there is nobody left to put up")
     games, letter = _games(solution, point, k, a, b)
     mine, others = night.our_line_ups, night.their_line_ups
     rows = np.flatnonzero(mine.after[k][a] >= 0)
@@ -141,6 +143,37 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
     if letter == OURS:
         return _turns(games, our_names, their_names, k, point.named, ours_first=True)
     return _turns(games.T, their_names, our_names, k, point.named, ours_first=False)
+
+
+def worth_at(solution: SolvedNight, point: Point) -> float:
+    """Return what the night is worth at a point, even if nobody can be named there.
+
+    That is so once all sets have their players, and while the set is being played whose winner or
+    loser names first in the next one.
+
+    Raises
+    ------
+    InputError
+        if the night cannot come to this point.
+
+    >>> from evenbreak.teams import Squad, TeamNight, solved
+    >>> law = np.zeros((1, 1, 2, 3))
+    >>> law[0, 0, 0, 2], law[0, 0, 1, 0] = 0.6, 0.4
+    >>> night = TeamNight(Squad(("Ann",)), Squad(("Cy",)), [law])
+    >>> worth_at(solved(night), Point(("Ann",), ("Cy",), in_play=(law[0, 0],)))
+    0.6
+    """
+    k, a, b = _states(solution.night, point)
+    values, reach = solution.values[k][a, b], solution.night.reach
+    if k < solution.night.sets and (len(values) == 1 or point.last_won is not None):
+        return advice(solution, point).worth
+    found = 0.0
+    *earlier, last = point.in_play or (np.array([[1.0], [0.0]]),)
+    for won, after in enumerate(values):
+        kept = last if len(values) == 1 else np.where(np.arange(2)[:, None] == won, last, 0.0)
+        chances, leads = leads_of(replace(point, in_play=(*earlier, kept)), reach, k)
+        found += float(chances @ after[leads + k * reach])
+    return found
 
 
 def _mixed(
@@ -217,8 +250,6 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
             f"players used: {len(point.used_ours)} of ours and {len(point.used_theirs)} of "
             "theirs; give both sides of every set played"
         )
-    if k == night.sets:
-        raise InputError(f"all {k} sets have been named; there is nobody left to put up")
     over = k - len(point.in_play)
     if over < 0:
         raise InputError(f"{len(point.in_play)} matches are in play, but {k} sets were named")
@@ -257,7 +288,7 @@ def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple
         letter = names_first(letter, _last_won(point, letter))
     one_of(letter, "order", (OURS, THEIRS, BOTH))
     mine, others = night.our_line_ups.after[k][a], night.their_line_ups.after[k][b]
-    chances, leads = _leads(point, night.reach, k)
+    chances, leads = leads_of(point, night.reach, k)
     games = np.full((len(mine), len(others)), np.nan)
     for i in np.flatnonzero(mine >= 0):
         for j in np.flatnonzero(others >= 0):
@@ -274,8 +305,18 @@ def _last_won(point: Point, letter: str) -> bool:
     return point.last_won
 
 
-def _leads(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
-    """Return the chances of the leads that the matches in play may bring."""
+def leads_of(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
+    """Return the chances of the leads that the matches in play may bring.
+
+    Parameters
+    ----------
+    point
+        the point.
+    reach
+        by how much a set can change the lead at most.
+    k
+        the sets that have been named.
+    """
     chances = np.ones(1)
     for law in point.in_play:
         own = np.asarray(law, dtype=float).sum(axis=0)

@@ -56,6 +56,14 @@ class SealedNight(NamedTuple):
     ours: tuple[SealedLineUp, ...]
     theirs: tuple[SealedLineUp, ...]
 
+    def mirrored(self) -> SealedNight:
+        """Return the same night as the other team sees it."""
+        ours, theirs = (
+            tuple(one._replace(worth=1.0 - one.worth) for one in side)
+            for side in (self.theirs, self.ours)
+        )
+        return SealedNight(1.0 - self.worth, ours, theirs)
+
 
 def sealed(night: TeamNight) -> SealedNight:
     """Return what a night is worth if both line-ups are handed in before it.

@@ -182,6 +182,40 @@ def law_in_play(
     return law
 
 
+def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tuple[int, int]:
+    """Return what a set that has been played brings both teams.
+
+    Parameters
+    ----------
+    needs, score
+        the games that both needed, and won.
+    count
+        what decides the night.
+
+    Raises
+    ------
+    InputError
+        if the score does not end the set.
+
+    >>> brought((5, 4), (5, 3), "sets"), brought((5, 4), (5, 3), Points())
+    ((1, 0), (2, 1))
+    """
+    (m, n), (a, b) = needs, (whole(games, "score") for games in score)
+    if (a == m) == (b == n) or a > m or b > n:
+        raise InputError(f"{a}:{b} does not end a race {m}:{n}")
+    if count == "games":
+        return a, b
+    won = a == m
+    if count == "sets":
+        return int(won), int(not won)
+    lost, other = (b, n) if won else (a, m)
+    points = (
+        count.win + (count.shutout if lost == 0 else 0),
+        count.hill if lost == other - 1 and lost > 0 else 0,
+    )
+    return points if won else points[::-1]
+
+
 def _margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]]:
     """Yield each length of a race m:n won by us (0) or by them (1), and what it adds to our lead.
 
@@ -190,14 +224,8 @@ def _margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]
     """
     needs, other, sign = (m, n, 1) if who == 0 else (n, m, -1)
     for lost in range(other):
-        if count == "sets":
-            margin = 1
-        elif count == "games":
-            margin = needs - lost
-        else:
-            hill = lost == other - 1 and lost > 0
-            margin = count.win + (count.shutout if lost == 0 else 0) - (count.hill if hill else 0)
-        yield needs + lost, sign * margin
+        ours, theirs = brought((needs, other), (needs, lost), count)
+        yield needs + lost, sign * (ours - theirs)
 
 
 def _reach(needs_1: Ints, needs_2: Ints, count: Count) -> int:

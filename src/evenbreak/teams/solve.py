@@ -51,6 +51,17 @@ class SolvedNight:
         """What the night is worth before the first nomination."""
         return float(self.values[0][0, 0, 0, 0])
 
+    def mirrored(self, night: TeamNight) -> SolvedNight:
+        """Return the solution as the other team sees it.
+
+        Parameters
+        ----------
+        night
+            the same night, with that team as `ours`.
+        """
+        seen = tuple(1.0 - v.transpose(1, 0, 2, 3)[:, :, ::-1, ::-1] for v in self.values)
+        return SolvedNight(night, seen)
+
 
 def solved(night: TeamNight) -> SolvedNight:
     """Return the value of every point of a night.
@@ -67,7 +78,7 @@ def solved(night: TeamNight) -> SolvedNight:
     >>> solved(night).value
     0.6
     """
-    _refuse_large(night)
+    refuse_large(night)
     reach, sets = night.reach, night.sets
     leads = np.arange(-sets * reach, sets * reach + 1)
     shape = len(night.our_line_ups.used[sets]), len(night.their_line_ups.used[sets])
@@ -186,7 +197,14 @@ def steps_of(night: TeamNight) -> float:
     )
 
 
-def _refuse_large(night: TeamNight) -> None:
+def refuse_large(night: TeamNight) -> None:
+    """Refuse a night that has too many points.
+
+    Raises
+    ------
+    InputError
+        if it has.
+    """
     if steps_of(night) > MOST_STEPS:
         sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
         raise InputError(

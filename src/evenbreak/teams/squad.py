@@ -55,6 +55,33 @@ class Cap:
         return sum(w * count for w, count in zip(self.weights, counts, strict=True))
 
 
+def caps_of(
+    weights: Sequence[float], most: float | None, at_most: tuple[int, float] | None
+) -> tuple[Cap, ...]:
+    """Return the caps on a line-up.
+
+    Parameters
+    ----------
+    weights
+        the level of each player.
+    most
+        the largest sum of the levels; None: no limit.
+    at_most
+        how many players of this level or above may play; None: any number.
+
+    >>> [(cap.weights, cap.most) for cap in caps_of((7, 5, 3), 13, (1, 5))]
+    [((7.0, 5.0, 3.0), 13), ((1.0, 1.0, 0.0), 1)]
+    """
+    found = []
+    if most is not None:
+        found.append(Cap(tuple(weights), most, "the sum of the levels"))
+    if at_most is not None:
+        many, high = at_most
+        above = tuple(float(level >= high) for level in weights)
+        found.append(Cap(above, many, f"the number of players of level {high:g} or more"))
+    return tuple(found)
+
+
 @dataclass(frozen=True)
 class Squad:
     """The players of a team on a night.

@@ -18,7 +18,20 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
 from evenbreak.web.page import language, own_file, page, script_hash
-from evenbreak.web.pages import bracket, desk, entry, fair, home, league, match, players, screen
+from evenbreak.web.pages import (
+    bracket,
+    desk,
+    entry,
+    fair,
+    home,
+    league,
+    match,
+    players,
+    screen,
+    team,
+    team_moves,
+    team_new,
+)
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.site import Site
 from evenbreak.web.words import say
@@ -50,6 +63,9 @@ def make_app(site: Site) -> Starlette:
             *match.ROUTES,
             *desk.ROUTES,
             *entry.ROUTES,
+            *team.ROUTES,
+            *team_moves.ROUTES,
+            *team_new.ROUTES,
         ],
         middleware=[
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),

@@ -31,13 +31,16 @@ Examples:
     help="Where the page is found on this computer.",
 )
 def command(*, file: str, lan: bool, port: int) -> None:
-    """Open tonight's tournament as a page: for phones, the director and the screen on the wall.
+    """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
-    FILE.db is the tournament's file, as evenbreak tournament new writes it; if it is not there, the
-    page begins one. The commands of evenbreak tournament can be used on it at the same time.
+    FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
+    night; if it is not there, the page begins one. The commands of evenbreak tournament can be used
+    on it at the same time.
     """
     import segno
 
+    from evenbreak.files.evening_file import TOURNAMENT, holds
+    from evenbreak.files.team_night_store import read_team_events
     from evenbreak.files.tournament_desk import back_up
     from evenbreak.files.tournament_store import read_tournament
     from evenbreak.web.app import server_of
@@ -45,7 +48,8 @@ def command(*, file: str, lan: bool, port: int) -> None:
 
     path = Path(file)
     if path.exists():
-        read_tournament(path)
+        if holds(path, TOURNAMENT) or not read_team_events(path):
+            read_tournament(path)
         back_up(path, datetime.now())
     elif not path.parent.is_dir():
         raise click.UsageError(

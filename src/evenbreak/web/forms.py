@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+
 from starlette.datastructures import FormData, QueryParams
 from starlette.requests import Request
 
@@ -40,6 +42,21 @@ class Form:
         if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
             raise RefusalError("refused_whole", name=name, value=text, low=low, high=high)
         return int(text)
+
+    def key(self, *more: str) -> str | None:
+        """Return what a form is known by if it comes in again; None if it has no number.
+
+        Somebody who goes back and changes a field sends another form.
+
+        >>> forms = [Form(FormData([("once", "7"), ("race", race)])) for race in ("5", "5", "6")]
+        >>> [form.key() == forms[0].key() for form in forms]
+        [True, True, False]
+        """
+        if not self.text("once"):
+            return None
+        fields = sorted((k, v) for k, v in self.fields.multi_items() if isinstance(v, str))
+        sent = [one for one in fields if one[0] != "csrf"]
+        return hashlib.sha256(repr([*more, sent]).encode()).hexdigest()
 
     def one_of(self, name: str, allowed: tuple[str, ...]) -> str:
         """Return one of several words."""

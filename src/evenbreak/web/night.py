@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
+from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -76,17 +77,19 @@ class Night:
         self.clock = clock
         self.known: Known | None = None
         self._read: tuple[tuple[int, int, int], int, Evening] | None = None
+        self._begun = False
         self._work: asyncio.Task[None] | None = None
-        self._beside = Beside()
+        self.beside = Beside()
 
     @property
     def exists(self) -> bool:
         """Whether the tournament has been begun."""
-        return self.path.exists()
+        self._begun = self._begun or holds(self.path, TOURNAMENT)
+        return self._begun and self.path.exists()
 
     def state(self) -> tuple[int, Evening]:
         """Return the number of events, and the state after them."""
-        mark = _mark(self.path)
+        mark = mark_of(self.path)
         if self._read is None or self._read[0] != mark:
             events = read_events(self.path)
             if self._read is None or self._read[1] != len(events):
@@ -119,7 +122,7 @@ class Night:
             starts = _next_starts(night) if to_play else {}
             return Known(version, 0.0, data, calls, begun_at(night), night.odds, starts)
 
-        found = await self._beside.run(work)
+        found = await self.beside.run(work)
         clock = asyncio.get_running_loop().time()
         self.known = replace(found, at=clock)
 
@@ -137,7 +140,7 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
     return starts
 
 
-def _mark(path: Path) -> tuple[int, int, int]:
+def mark_of(path: Path) -> tuple[int, int, int]:
     """Return what changes whenever the file does: of the database and of its log."""
     log = path.with_name(f"{path.name}-wal")
     try:
@@ -148,7 +151,7 @@ def _mark(path: Path) -> tuple[int, int, int]:
 
 
 def version_of(path: Path) -> int:
-    """Return the number of events in the file; 0 if there is no file yet."""
+    """Return the number of all events in the file; 0 if there is no file yet."""
     if not path.exists():
         return 0
     try:
@@ -156,8 +159,9 @@ def version_of(path: Path) -> int:
     except sqlite3.Error:
         return 0
     try:
-        [(count,)] = base.execute("SELECT COALESCE(MAX(number), 0) FROM event").fetchall()
-        return int(count)
+        there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
+        asked = "SELECT COALESCE(MAX(number), 0) FROM "
+        return sum(int(base.execute(asked + table).fetchone()[0]) for table in there)
     except sqlite3.Error:
         return 0
     finally:

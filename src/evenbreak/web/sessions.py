@@ -12,7 +12,7 @@ from starlette.requests import Request
 
 from evenbreak.web.refusals import RefusalError
 
-DIRECTOR = "director"
+DIRECTOR, CAPTAIN = "director", "captain"
 _CSRF, _PHONE = "form", "phone"
 _SECONDS = 60.0
 _MOST_ADDRESSES = 1000
@@ -77,6 +77,39 @@ def check_director(request: Request) -> None:
     """Refuse whoever has not entered the director's PIN."""
     if not is_director(request):
         raise RefusalError("refused_director", status=403)
+
+
+def captain_of(request: Request, night: int) -> int | None:
+    """Return for which team a captain's PIN was entered in this session; None: for neither.
+
+    Parameters
+    ----------
+    request
+        of the session.
+    night
+        the number of the event with which the team night began.
+    """
+    mark = request.session.get(CAPTAIN)
+    for team in (0, 1):
+        own = request.app.state.site.captain_mark(night, team)
+        if isinstance(mark, str) and hmac.compare_digest(mark.encode(), own.encode()):
+            return team
+    return None
+
+
+def check_tries(request: Request) -> None:
+    """Refuse another PIN where too many wrong ones have come in."""
+    site = request.app.state.site
+    if site.tries.full(address_of(request)) or site.all_tries.full(""):
+        raise RefusalError("refused_tries", status=429)
+
+
+def wrong_pin(request: Request) -> RefusalError:
+    """Count a wrong PIN, and return why it is refused."""
+    site = request.app.state.site
+    site.tries.count(address_of(request))
+    site.all_tries.count("")
+    return RefusalError("refused_pin", status=403)
 
 
 def address_of(request: Request) -> str:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import itertools
 import secrets
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from evenbreak.files.evening_file import is_there
 from evenbreak.files.tournament_desk import kept_secrets, new_pin
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, now
 from evenbreak.web.sessions import Tries
+from evenbreak.web.team_night import TeamNights
 
 
 @dataclass(eq=False)
@@ -43,6 +46,7 @@ class Site:
 
     def __post_init__(self) -> None:
         self.night = Night(self.path, clock=self.clock)
+        self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self._secrets = {
             "pin": new_pin(),
@@ -52,7 +56,7 @@ class Site:
 
     def keep_secrets(self) -> None:
         """Keep the secrets in the file, so that phones go on after a restart."""
-        if self.path.exists():
+        if is_there(self.path):
             self._secrets = kept_secrets(self.path, self._secrets)
 
     @property
@@ -73,6 +77,23 @@ class Site:
     def director_mark(self) -> str:
         """What the session of a director holds."""
         return self._secrets["director"]
+
+    def captain_pin(self, night: int, team: int) -> str:
+        """Return the PIN of a captain: another one each night, and none of the others' PINs."""
+        others = {self.pin} | ({self.captain_pin(night, 0)} if team else set())
+        drawn = (
+            f"{int(self.captain_mark(night, team, again), 16) % 10**6:06d}"
+            for again in itertools.count(1)
+        )
+        return next(pin for pin in drawn if pin not in others)
+
+    def captain_lot(self, night: int, team: int, number: int) -> str:
+        """Return by what is drawn for a captain, if it is best to draw; a set has the same lot."""
+        return self.match_token(f"lot {night} {team} {number}")
+
+    def captain_mark(self, night: int, team: int, again: int = 0) -> str:
+        """Return what the session of a captain holds; with `again`, what their PIN is made of."""
+        return self.match_token(f"captain {night} {team} {again}")
 
     def match_token(self, match: str) -> str:
         """Return the token by which a match is scored."""

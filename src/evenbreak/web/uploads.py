@@ -10,13 +10,26 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from starlette.datastructures import UploadFile
+
 from evenbreak.errors import DataError
+from evenbreak.files.roster import RosterFile
+from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError
 
 _WORKBOOK = b"PK\x03\x04"
 _MOST_UNPACKED = 50 << 20
+_LONGEST_LIST = 200_000
 
 Read = TypeVar("Read")
+
+
+async def list_of(form: Form, text: str, file: str) -> bytes:
+    """Return the file that came in a field of a form, or else the text of another field."""
+    upload = form.fields.get(file)
+    if isinstance(upload, UploadFile) and upload.size:
+        return await upload.read()
+    return form.text(text, longest=_LONGEST_LIST).encode()
 
 
 def ending_of(content: bytes) -> str:
@@ -43,6 +56,11 @@ def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
             return read(place)
         except DataError as error:
             raise DataError([_of_list(problem, place) for problem in error.problems]) from None
+
+
+def warnings_of(file: RosterFile, name: str = "list") -> list[str]:
+    """Return the warnings about a list that came in, which they call by a name."""
+    return [line.replace(file.source, name) for line in file.warnings]
 
 
 def _of_list(problem: str, place: Path) -> str:

@@ -149,7 +149,7 @@ def command(
     """
     from evenbreak.answers.lineup import lineup_answer
     from evenbreak.answers.starters import starters_words
-    from evenbreak.answers.team_meeting import SEALED, Meeting
+    from evenbreak.teams.meeting import SEALED, Meeting
 
     lists = files.read_team(ours), files.read_team(theirs)
     points, doubts = scale_of_teams(lists, scale)

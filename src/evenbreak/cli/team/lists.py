@@ -64,26 +64,14 @@ def race_of(race: int | None, race_to: int | None, chart: str | None, *, or_else
 
 def caps_of(team: TeamList, cap: float | None, at_most: str | None) -> tuple[teams.Cap, ...]:
     """Return the caps that --cap and --at-most ask for, with a weight for each player."""
-    import numpy as np
-
     if cap is None and at_most is None:
         return ()
-    levels, source = team.levels, team.file.source
-    if np.isnan(levels).all():
-        levels = team.file.roster.rating
-    if np.isnan(levels).any():
-        name = team.file.roster.players[int(np.isnan(levels).argmax())]
-        refuse(f"{source} has no level for {name!r}; the caps need one for everybody")
-    caps = []
-    if cap is not None:
-        caps.append(teams.Cap(tuple(levels.tolist()), cap, "the sum of the levels"))
+    if name := team.without_weight:
+        refuse(f"{team.file.source} has no level for {name!r}; the caps need one for everybody")
+    high = None
     if at_most is not None:
         found = _AT_MOST.fullmatch(at_most)
         if found is None:
             refuse(f"--at-most {at_most!r}; give a number of players and a level, such as 2:6")
-        high = float(found[2])
-        above = tuple(float(level >= high) for level in levels)
-        caps.append(
-            teams.Cap(above, int(found[1]), f"the number of players of level {high:g} or more")
-        )
-    return tuple(caps)
+        high = int(found[1]), float(found[2])
+    return teams.caps_of(team.weights.tolist(), cap, high)

@@ -6,15 +6,15 @@ import re
 from typing import TYPE_CHECKING
 
 from evenbreak import ratings, teams
-from evenbreak.answers.team_meeting import SEALED
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.team.scores import check_score
 from evenbreak.files.known_names import KnownNames
+from evenbreak.teams.meeting import SEALED
 from evenbreak.teams.order import LOSER, WINNER, order_of
 
 if TYPE_CHECKING:
-    from evenbreak.answers.team_meeting import Meeting
+    from evenbreak.teams.meeting import Meeting
 
 _PLAYING = re.compile(r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", re.ASCII)
 _SIDES = ("ours", "theirs")
@@ -125,17 +125,5 @@ def _in_play(meeting: Meeting, text: str) -> tuple[list[list[str]], Floats]:
         ]
         for side in (0, 1)
     ]
-    law = teams.law_in_play(
-        _some(meeting.ours, names[0]),
-        _some(meeting.theirs, names[1]),
-        meeting.race,
-        (int(match[3]), int(match[4])),
-        scale=meeting.scale,
-        count=meeting.count,
-    )
+    law = meeting.law_in_play(names[0], names[1], (int(match[3]), int(match[4])))
     return names, law
-
-
-def _some(roster: ratings.Roster, names: list[str]) -> ratings.Roster:
-    places = [roster.position(name) for name in names]
-    return ratings.Roster(names, roster.rating[places], roster.standard_error[places])

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from evenbreak.cli.kit.values import refuse
 from evenbreak.handicaps.charts.race_of_pair import games_needed
+from evenbreak.teams.set_laws import brought
 
 if TYPE_CHECKING:
-    from evenbreak.answers.team_meeting import Meeting
+    from evenbreak.teams.meeting import Meeting
 
 Score = tuple[int, int]
 
@@ -49,14 +50,8 @@ def _of_a_set(meeting: Meeting) -> set[Score]:
         return {(1, 0), (0, 1)}
     points = meeting.ours.rating[:, None] - meeting.theirs.rating
     first, second = games_needed(points, meeting.race, meeting.scale)
-    races = set(zip(first.ravel().tolist(), second.ravel().tolist(), strict=True))
     found: set[Score] = set()
-    for m, n in races:
-        found |= {(m, lost) for lost in range(n)} | {(won, n) for won in range(m)}
-    if meeting.count == "games":
-        return found
-    count = meeting.count
-    brought = {(count.win + count.shutout, 0), (count.win, 0)}
-    if any(min(race) > 1 for race in races):
-        brought.add((count.win, count.hill))
-    return brought | {(b, a) for a, b in brought}
+    for m, n in set(zip(first.ravel().tolist(), second.ravel().tolist(), strict=True)):
+        ends = [(m, lost) for lost in range(n)] + [(won, n) for won in range(m)]
+        found |= {brought((m, n), end, meeting.count) for end in ends}
+    return found

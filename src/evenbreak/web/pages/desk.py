@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import segno
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.answers.tournament_moves import (
@@ -47,6 +47,8 @@ async def desk(request: Request) -> Response:
     check_director(request)
     site = site_of(request)
     if not site.night.exists:
+        if await site.teams.now() is not None:
+            return RedirectResponse("/team", status_code=303)
         raise RefusalError("refused_no_tournament", status=404)
     known = await site.night.outlook()
     _, state = await asyncio.to_thread(site.night.state)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 
 import numpy as np
-from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -23,13 +22,12 @@ from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
-from evenbreak.web.uploads import read_upload
+from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.web.words import say
 
 FORMATS = ("double", "single", "round-robin", "groups", "consolation", "king-of-the-hill")
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
-_LONGEST_LIST = 200_000
 
 
 async def ask(request: Request) -> Response:
@@ -50,10 +48,7 @@ async def begin(request: Request) -> Response:
     """Begin a tournament."""
     async with request.form(max_files=1, max_fields=40) as fields:
         form = Form(fields)
-        content = form.text("entrants", longest=_LONGEST_LIST).encode()
-        upload = fields.get("file")
-        if isinstance(upload, UploadFile) and upload.size:
-            content = await upload.read()
+        content = await list_of(form, "entrants", "file")
         await form_of(request)
     check_director(request)
     site = site_of(request)
@@ -85,7 +80,7 @@ async def begin(request: Request) -> Response:
     event = Event(site.clock(), opened)
     await asyncio.to_thread(new_tournament, site.path, [event])
     site.keep_secrets()
-    return done(request, "/desk", *file.warnings)
+    return done(request, "/desk", *warnings_of(file))
 
 
 def _entrants(file: RosterFile, scale: Scale, league: League | None) -> tuple[Entrant, ...]:

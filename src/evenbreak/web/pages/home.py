@@ -5,20 +5,21 @@ from __future__ import annotations
 import asyncio
 
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import choose_language, done, page, site_of
-from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import DIRECTOR, address_of
+from evenbreak.web.sessions import DIRECTOR, check_tries, wrong_pin
 
 
 async def tonight(request: Request) -> Response:
     """Show the evening, or how one begins."""
     night = site_of(request).night
     if not night.exists:
+        if await site_of(request).teams.now() is not None:
+            return RedirectResponse("/team", status_code=303)
         return page(request, "begin.html")
     known = await night.outlook()
     _, state = await asyncio.to_thread(night.state)
@@ -34,13 +35,9 @@ async def enter_pin(request: Request) -> Response:
     """Let the director in."""
     form = await form_of(request)
     site = site_of(request)
-    address = address_of(request)
-    if site.tries.full(address) or site.all_tries.full(""):
-        raise RefusalError("refused_tries", status=429)
+    check_tries(request)
     if not site.is_pin(form.text("pin")):
-        site.tries.count(address)
-        site.all_tries.count("")
-        raise RefusalError("refused_pin", status=403)
+        raise wrong_pin(request)
     request.session[DIRECTOR] = site.director_mark
     return done(request, "/")
 

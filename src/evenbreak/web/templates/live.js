@@ -1,12 +1,20 @@
 "use strict";
 (() => {
   let seen = null, waiting = false;
+  // A form that somebody has begun to fill in is left alone.
+  const begun = () =>
+    [...document.querySelectorAll("#main input")].some((one) =>
+      one.checked !== one.defaultChecked || (one.type !== "radio" && one.value !== one.defaultValue)) ||
+    [...document.querySelectorAll("#main select")].some((one) =>
+      one.selectedIndex !== Math.max(0, [...one.options].findIndex((each) => each.defaultSelected)));
   const busy = () => {
     const at = document.activeElement;
-    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName);
+    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName) || begun();
   };
+  const title = (one) => one.firstElementChild.textContent;
   const renew = async () => {
-    if (waiting || busy()) return;
+    if (waiting) return;
+    if (busy()) { again(); return; }
     waiting = true;
     try {
       const answer = await fetch(location.href, { cache: "no-store" });
@@ -15,6 +23,8 @@
         const fresh = found.getElementById("main"), old = document.getElementById("main");
         if (fresh && old && fresh.innerHTML !== old.innerHTML) {
           const left = [...old.querySelectorAll(".bracket")].map((one) => one.scrollLeft);
+          const open = [...old.querySelectorAll("details")].filter((one) => one.open).map(title);
+          fresh.querySelectorAll("details").forEach((one) => { one.open ||= open.includes(title(one)); });
           old.replaceWith(fresh);
           fresh.querySelectorAll(".bracket").forEach((one, k) => { one.scrollLeft = left[k] || 0; });
         }

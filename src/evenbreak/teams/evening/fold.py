@@ -1,0 +1,245 @@
+"""The state of a team night, as the fold of its events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from evenbreak.teams.evening.events import (
+    Begun,
+    Event,
+    HandedIn,
+    Pick,
+    Proposed,
+    PutUp,
+    Result,
+    Score,
+    Undone,
+    What,
+)
+from evenbreak.teams.evening.plan import NightPlan, meeting_of
+from evenbreak.teams.meeting import SEALED, Meeting
+from evenbreak.teams.order import BOTH, LOSER, OURS, THEIRS, WINNER
+from evenbreak.teams.set_laws import brought
+from evenbreak.teams.solve import names_first
+
+EVERYBODY = None
+"""Whoever is in the room: sees no pick before both are in, where picks are unseen."""
+
+
+@dataclass(frozen=True)
+class SetLine:
+    """A set of the night.
+
+    Parameters
+    ----------
+    number
+        counted from 1.
+    picks
+        who plays for each team; () if nobody has been put up yet.
+    said
+        how each team says that it ended; None: it has not said.
+    score
+        how it ended; None: it has not.
+    hidden
+        which team's pick is in, but left out here.
+    """
+
+    number: int
+    picks: tuple[Pick, Pick] = ((), ())
+    said: tuple[Score | None, Score | None] = (None, None)
+    score: Score | None = None
+    hidden: tuple[bool, bool] = (False, False)
+
+    @property
+    def missing(self) -> tuple[int, ...]:
+        """The teams whose pick is not in."""
+        return tuple(team for team in (0, 1) if not (self.picks[team] or self.hidden[team]))
+
+    @property
+    def named(self) -> bool:
+        """Whether both teams have put somebody up."""
+        return all(self.picks)
+
+
+@dataclass(frozen=True, eq=False)
+class TeamEvening:
+    """The state of a team night.
+
+    Parameters
+    ----------
+    plan
+        what is played, and by whom.
+    began
+        the number of the event with which it began, counted from 1.
+    sets
+        all sets, whether played or not.
+    last
+        the event that an undo would take back.
+    """
+
+    plan: NightPlan
+    began: int
+    sets: tuple[SetLine, ...]
+    last: Event
+
+    @cached_property
+    def meeting(self) -> Meeting:
+        """What is played, as team A sees it."""
+        return meeting_of(self.plan)
+
+    @property
+    def teams(self) -> tuple[str, str]:
+        """The names of the two teams."""
+        return self.plan.teams[0].name, self.plan.teams[1].name
+
+    @property
+    def sealed(self) -> bool:
+        """Whether both line-ups are handed in before the night."""
+        return self.meeting.order == SEALED
+
+    def unseen(self, number: int) -> bool:
+        """Whether the picks of a set are shown only once both are in."""
+        return self.sealed or self.meeting.order[number - 1] == BOTH
+
+    def open(self, number: int) -> bool:
+        """Whether everybody may see who is put up in a set."""
+        return not self.unseen(number) or self.sets[number - 1].named
+
+    @property
+    def to_name(self) -> SetLine | None:
+        """The set for which somebody is put up next; None if all sets have their players."""
+        return next((line for line in self.sets if not line.named), None)
+
+    @property
+    def due(self) -> tuple[int, ...]:
+        """The teams that may put somebody up now (0: A, 1: B)."""
+        line = self.to_name
+        if line is None:
+            return ()
+        if self.unseen(line.number) or len(line.missing) == 1:
+            return line.missing
+        first = self.first(line.number)
+        return () if first is None else (first,)
+
+    def first(self, number: int) -> int | None:
+        """Return the team that names first in a set; None: both at once, or not known yet."""
+        letter = OURS if self.sealed else self.meeting.order[number - 1]
+        if self.unseen(number):
+            return None
+        if letter in (WINNER, LOSER):
+            won = self.winner(number - 1)
+            if won is None:
+                return None
+            letter = names_first(letter, won == 0)
+        return 0 if letter == OURS else 1 if letter == THEIRS else None
+
+    def winner(self, number: int) -> int | None:
+        """Return the team that won a set; None if it is not over."""
+        line = self.sets[number - 1]
+        if line.score is None:
+            return None
+        return 0 if line.score[0] == self.needs(line)[0] else 1
+
+    def needs(self, line: SetLine) -> Score:
+        """Return the games that each side of a set needs."""
+        return self.meeting.needs(*line.picks)
+
+    def brought(self, line: SetLine) -> Score:
+        """Return what a finished set brought each team: sets, games or points."""
+        return brought(self.needs(line), line.score or (0, 0), self.meeting.count)
+
+    @cached_property
+    def score(self) -> Score:
+        """The score of the night: sets, games or points, as they count."""
+        each = [self.brought(line) for line in self.sets if line.score]
+        return sum(a for a, _ in each), sum(b for _, b in each)
+
+    @property
+    def playing(self) -> list[SetLine]:
+        """The sets that are being played."""
+        return [line for line in self.sets if line.named and line.score is None]
+
+    @property
+    def over(self) -> bool:
+        """Whether all sets have been played."""
+        return all(line.score for line in self.sets)
+
+    def used(self, team: int) -> Pick:
+        """Return who plays or has played for a team, once for each set."""
+        return tuple(name for line in self.sets if line.named for name in line.picks[team])
+
+    def seen_by(self, viewer: int | None) -> TeamEvening:
+        """Return the state as a team's captain sees it, or as `EVERYBODY` does.
+
+        What the other team has put up unseen is left out until both picks are in; where line-ups
+        are sealed, until both are handed in.
+        """
+        lines = tuple(
+            line if self.open(line.number) else _without(line, viewer) for line in self.sets
+        )
+        return replace(self, sets=lines)
+
+
+def _without(line: SetLine, viewer: int | None) -> SetLine:
+    """Return a set without the picks of teams other than the viewer's."""
+    (ours, theirs), own = line.picks, (viewer == 0, viewer == 1)
+    return replace(
+        line,
+        picks=(ours if own[0] else (), theirs if own[1] else ()),
+        hidden=(bool(ours) and not own[0], bool(theirs) and not own[1]),
+    )
+
+
+def team_evening(events: Iterable[Event]) -> TeamEvening | None:
+    """Return the state after some events; None if no night has begun.
+
+    >>> from evenbreak.teams.evening.plan import TeamSheet
+    >>> us = TeamSheet("Racks", ("Ann", "Bo"), (600.0, 500.0), (0.0, 0.0), (6.0, 5.0))
+    >>> them = TeamSheet("Cues", ("Cy", "Di"), (560.0, 540.0), (0.0, 0.0), (6.0, 5.0))
+    >>> plan = NightPlan((us, them), 2, race=5)
+    >>> what = [Begun(plan), PutUp(0, 1, ("Ann",)), PutUp(1, 1, ("Cy",)), Result(1, (5, 3))]
+    >>> state = team_evening(Event("2025-03-01T19:30:00", one) for one in what)
+    >>> state.score, state.due, state.used(1)
+    ((1, 0), (1,), ('Cy',))
+    """
+    kept: list[tuple[int, Event]] = []
+    for number, event in enumerate(events, 1):
+        if isinstance(event.what, Undone):
+            kept = kept[:-1]
+        else:
+            kept.append((number, event))
+    begun = [k for k, (_, event) in enumerate(kept) if isinstance(event.what, Begun)]
+    if not begun:
+        return None
+    began, first = kept[begun[-1]]
+    assert isinstance(first.what, Begun)  # noqa: S101
+    plan = first.what.plan
+    lines = [SetLine(number) for number in range(1, plan.sets + 1)]
+    for _, event in kept[begun[-1] + 1 :]:
+        _take(lines, event.what)
+    return TeamEvening(plan, began, tuple(lines), kept[-1][1])
+
+
+def _take(lines: list[SetLine], what: What) -> None:
+    match what:
+        case PutUp(team, number, pick):
+            _put(lines, team, number, pick)
+        case HandedIn(team, picks):
+            for number, pick in enumerate(picks, 1):
+                _put(lines, team, number, pick)
+        case Proposed(team, number, score):
+            line = lines[number - 1]
+            if line.score is None:
+                said = (score, line.said[1]) if team == 0 else (line.said[0], score)
+                agreed = score if said[0] == said[1] else None
+                lines[number - 1] = replace(line, said=said, score=agreed)
+        case Result(number, score):
+            lines[number - 1] = replace(lines[number - 1], score=score)
+
+
+def _put(lines: list[SetLine], team: int, number: int, pick: Pick) -> None:
+    old = lines[number - 1].picks
+    picks = (pick, old[1]) if team == 0 else (old[0], pick)
+    lines[number - 1] = replace(lines[number - 1], picks=picks)

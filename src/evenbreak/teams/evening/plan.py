@@ -1,0 +1,164 @@
+"""What is played on a team night, and by whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from evenbreak.checks import one_of, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import chart
+from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import scale_of
+from evenbreak.teams.meeting import SEALED, Meeting
+from evenbreak.teams.order import order_of
+from evenbreak.teams.sealed import sealed
+from evenbreak.teams.set_laws import Count, Points
+from evenbreak.teams.solve import refuse_large
+from evenbreak.teams.squad import Squad, caps_of
+
+COUNTS = ("sets", "games", "points")
+"""What may decide a night."""
+
+
+@dataclass(frozen=True)
+class TeamSheet:
+    """A team as it came in.
+
+    Parameters
+    ----------
+    name
+        of the team.
+    players
+        their names.
+    ratings, errors
+        of the players, and how far off a rating may be (0: not stated).
+    weights
+        what each player counts for under a cap: their skill level, or their rating.
+    """
+
+    name: str
+    players: tuple[str, ...]
+    ratings: tuple[float, ...]
+    errors: tuple[float, ...]
+    weights: tuple[float, ...]
+
+    @property
+    def roster(self) -> Roster:
+        """The players with their ratings."""
+        return Roster(self.players, self.ratings, self.errors)
+
+
+@dataclass(frozen=True)
+class NightPlan:
+    """What is played on a team night, and by whom.
+
+    Parameters
+    ----------
+    teams
+        team A and team B.
+    sets
+        how many are played.
+    race
+        the games of a race; 0 where a chart says it.
+    handicapped
+        whether the stronger player needs that many games, and the weaker as many as is fairest.
+    chart
+        the chart that comes with the package by which races are played; '' if there is none.
+    order
+        who names first, as `order_of` reads it, or 'sealed'.
+    count
+        what decides the night: sets, games or points.
+    doubles
+        the numbers of the sets that are doubles.
+    cap
+        the largest sum of the weights of a line-up; None: no limit.
+    at_most
+        how many players of this weight or more may play; None: any number.
+    times
+        how often a player may be put up.
+    scale
+        of the ratings, as `scale_of` reads it.
+    """
+
+    teams: tuple[TeamSheet, TeamSheet]
+    sets: int
+    race: int = 0
+    handicapped: bool = False
+    chart: str = ""
+    order: str = "alternate"
+    count: str = "sets"
+    doubles: tuple[int, ...] = ()
+    cap: float | None = None
+    at_most: tuple[int, float] | None = None
+    times: int = 1
+    scale: str = "fargo"
+
+
+@lru_cache(maxsize=8)
+def meeting_of(plan: NightPlan) -> Meeting:
+    """Return the meeting that a plan describes, as team A sees it.
+
+    Raises
+    ------
+    InputError
+        if the plan makes no sense.
+
+    >>> def team(name, *players):
+    ...     many = len(players)
+    ...     return TeamSheet(name, players, (500.0,) * many, (0.0,) * many, (5.0,) * many)
+    >>> plan = NightPlan((team("Racks", "Ann", "Bo"), team("Cues", "Cy", "Di")), 2, race=5)
+    >>> meeting_of(plan).sizes, meeting_of(plan).order
+    ((1, 1), 'AB')
+    """
+    whole(plan.sets, "sets", at_least=1)
+    one_of(plan.count, "count", COUNTS)
+    wrong = [k for k in plan.doubles if not 1 <= k <= plan.sets]
+    if wrong:
+        raise InputError(
+            f"set {wrong[0]} is to be doubles; give numbers of sets from 1 to {plan.sets}"
+        )
+    sides = [team.roster for team in plan.teams]
+    squads = [
+        Squad(team.players, caps_of(team.weights, plan.cap, plan.at_most), plan.times)
+        for team in plan.teams
+    ]
+    count: Count = Points() if plan.count == "points" else plan.count  # type: ignore[assignment]
+    order = plan.order.strip().lower()
+    return Meeting(
+        sides[0],
+        sides[1],
+        (squads[0], squads[1]),
+        _race(plan),
+        scale_of(plan.scale),
+        tuple(2 if k in plan.doubles else 1 for k in range(1, plan.sets + 1)),
+        order if order == SEALED else order_of(plan.order, plan.sets),
+        count,
+    )
+
+
+def check_plan(plan: NightPlan) -> None:
+    """Refuse a plan that cannot be played, or is too large to be worked out.
+
+    Raises
+    ------
+    InputError
+        if a team cannot fill its sets within the caps, two names are one, or no race is given.
+    """
+    first, second = (team.name for team in plan.teams)
+    if first.casefold() == second.casefold():
+        raise InputError(f"both teams are called {first}; give them two names")
+    meeting = meeting_of(plan)
+    night = meeting.night()
+    if meeting.order == SEALED:
+        sealed(night)
+    else:
+        refuse_large(night)
+
+
+def _race(plan: NightPlan) -> Race:
+    if plan.chart:
+        return chart(plan.chart)
+    race = whole(plan.race, "race", at_least=1)
+    return Fairest(race) if plan.handicapped else race

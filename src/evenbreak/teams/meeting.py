@@ -1,0 +1,119 @@
+"""Two squads that meet tonight, and what they play."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from evenbreak.arrays import Floats
+from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale
+from evenbreak.teams.night import TeamNight
+from evenbreak.teams.order import mirrored, order_of
+from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws
+from evenbreak.teams.squad import Squad
+
+SEALED = "sealed"
+"""The order in which both line-ups are handed in before the night."""
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """Two squads that meet tonight, and what they play.
+
+    Parameters
+    ----------
+    ours, theirs
+        the rosters, with a rating for everybody.
+    squads
+        the same players with their caps.
+    race
+        what is played in each set.
+    scale
+        the scale of the ratings.
+    sizes
+        the players a side in each set.
+    order
+        who names first, or `SEALED`.
+    count
+        what decides the night.
+    """
+
+    ours: Roster
+    theirs: Roster
+    squads: tuple[Squad, Squad]
+    race: Race
+    scale: Scale
+    sizes: tuple[int, ...]
+    order: str
+    count: Count = "sets"
+
+    def night(self, order: str | None = None) -> TeamNight:
+        """Return the night as a game, in another order if one is given."""
+        asked = self.order if order is None else order
+        return TeamNight(
+            *self.squads,
+            self.laws(),
+            sizes=self.sizes,
+            order="blind" if asked == SEALED else asked,
+        )
+
+    def laws(self, *skills: Floats) -> list[Floats]:
+        """Return what each set can bring, if the players have these skills."""
+        made = {
+            size: set_laws(
+                self.ours,
+                self.theirs,
+                self.race,
+                scale=self.scale,
+                count=self.count,
+                size=size,
+                skills=(skills[0], skills[1]) if skills else None,
+            )
+            for size in set(self.sizes)
+        }
+        return [made[size] for size in self.sizes]
+
+    def needs(self, ours: Sequence[str], theirs: Sequence[str]) -> tuple[int, int]:
+        """Return the games that our pick and theirs need in a set against each other."""
+        mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
+        points, _ = rating_differences(mine, others, len(mine))
+        first, second = games_needed(points, self.race, self.scale)
+        return int(first[0, 0]), int(second[0, 0])
+
+    def law_in_play(
+        self, ours: Sequence[str], theirs: Sequence[str], score: tuple[int, int] = (0, 0)
+    ) -> Floats:
+        """Return what a set between two picks can bring from a score on; see `law_in_play`."""
+        mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
+        return law_in_play(mine, others, self.race, score, scale=self.scale, count=self.count)
+
+    def mirrored(self) -> Meeting:
+        """Return the same meeting as the other team sees it.
+
+        >>> from evenbreak.ratings import SCALES, Roster
+        >>> us, them = Roster(["Ann"], [600]), Roster(["Cy"], [560])
+        >>> squads = Squad(us.players), Squad(them.players)
+        >>> meeting = Meeting(us, them, squads, 5, SCALES["fargo"], (1,), "home").mirrored()
+        >>> meeting.ours.players, meeting.order
+        (('Cy',), 'B')
+        """
+        order = self.order
+        if order != SEALED:
+            order = mirrored(order_of(order, len(self.sizes)))
+        return replace(
+            self, ours=self.theirs, theirs=self.ours, squads=self.squads[::-1], order=order
+        )
+
+    @property
+    def uncertain(self) -> bool:
+        """Whether a rating has a standard error."""
+        return any(np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs))
+
+
+def _some(roster: Roster, names: Sequence[str]) -> Roster:
+    places = [roster.position(name) for name in names]
+    return Roster(names, roster.rating[places], roster.standard_error[places])

@@ -1,0 +1,184 @@
+"""What captains and the director enter on a team night: each one event, and each form once."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.files.team_night_store import add_team_events
+from evenbreak.teams.evening import moves
+from evenbreak.teams.evening.events import Event, Pick, Undone, What
+from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.web.forms import Form, form_of
+from evenbreak.web.page import done, language, site_of
+from evenbreak.web.pages.desk import BY
+from evenbreak.web.refusals import RefusalError
+from evenbreak.web.sessions import CAPTAIN, captain_of, check_director, check_tries, wrong_pin
+from evenbreak.web.team_night import night_on
+from evenbreak.web.words import say
+
+_DIRECTOR = "director"
+_MOST_PLAYERS = 2
+
+Decide = Callable[[TeamEvening], list[What]]
+
+
+async def enter_pin(request: Request) -> Response:
+    """Let a captain in."""
+    form = await form_of(request)
+    site, now = site_of(request), await night_on(request)
+    check_tries(request)
+    given = form.text("pin").encode()
+    for side in (0, 1):
+        if hmac.compare_digest(given, site.captain_pin(now.state.began, side).encode()):
+            request.session[CAPTAIN] = site.captain_mark(now.state.began, side)
+            return done(request, "/team")
+    raise wrong_pin(request)
+
+
+async def leave(request: Request) -> Response:
+    """Let a captain out."""
+    await form_of(request)
+    request.session.pop(CAPTAIN, None)
+    return done(request, "/team")
+
+
+async def put(request: Request) -> Response:
+    """Put somebody up."""
+    form = await form_of(request)
+    now = await night_on(request)
+    by, side = _author(request, now.state, form)
+    number = form.whole("number", 1, len(now.state.sets))
+    pick = _pick(form, "pick", now.state, side)
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == BY:
+            _refuse_unseen(state, side, number)
+        return moves.put_up(state, side, number, pick)
+
+    _, added = await _add(request, form, by, decide)
+    return _taken(request, added, "team_put", name=" + ".join(pick), n=number)
+
+
+async def hand(request: Request) -> Response:
+    """Hand in a whole line-up."""
+    form = await form_of(request)
+    now = await night_on(request)
+    by, side = _author(request, now.state, form)
+    picks = tuple(_pick(form, f"pick{line.number}", now.state, side) for line in now.state.sets)
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == BY:
+            _refuse_unseen(state, side, 1)
+        return moves.hand_in(state, side, picks)
+
+    _, added = await _add(request, form, by, decide)
+    return _taken(request, added, "team_handed")
+
+
+async def result(request: Request) -> Response:
+    """Take the result of a set: a captain proposes it, the director enters it."""
+    form = await form_of(request)
+    now = await night_on(request)
+    number = form.whole("number", 1, len(now.state.sets))
+    score = form.whole("a", 0, 999), form.whole("b", 0, 999)
+    if form.text("by") == _DIRECTOR:
+        check_director(request)
+        _, added = await _add(request, form, BY, lambda state: moves.result(state, number, score))
+        return _taken(request, added, "team_result", n=number)
+    by, side = _author(request, now.state, form)
+    state, added = await _add(
+        request, form, by, lambda state: moves.propose(state, side, number, score)
+    )
+    line, other = state.sets[number - 1], state.teams[1 - side]
+    if line.score:
+        return _taken(request, added, "team_agreed", n=number)
+    if line.said[1 - side] not in (None, score):
+        return _taken(request, added, "team_differ", name=other)
+    return _taken(request, added, "team_proposed", name=other)
+
+
+async def undo(request: Request) -> Response:
+    """Take back what happened last, if nothing has come in since the page was made."""
+    form = await form_of(request)
+    check_director(request)
+    seen = form.whole("seen", 0, 10**7)
+
+    def decide(events: list[Event], _: TeamEvening | None) -> Sequence[What]:
+        if len(events) != seen:
+            raise RefusalError("refused_changed", status=409)
+        return [Undone()]
+
+    await asyncio.to_thread(_write, request, decide, form, BY)
+    return done(request, "/team", say(language(request), "undone"))
+
+
+def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]:
+    """Return who enters something, and for which team; refuse whoever may not."""
+    if form.text("by") == _DIRECTOR:
+        check_director(request)
+        return BY, form.whole("team", 0, 1)
+    side = captain_of(request, state.began)
+    if side is None or form.text("by") != str(side):
+        raise RefusalError("refused_captain", status=403)
+    return f"captain of {state.teams[side]}", side
+
+
+def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
+    """Refuse to let the director find out by guessing what a captain has handed in unseen."""
+    if not state.open(number) and state.sets[number - 1].picks[side]:
+        raise RefusalError("refused_handed_in", status=409, name=state.teams[side])
+
+
+def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
+    """Return the players that a field names by their places in the squad."""
+    squad = state.plan.teams[side].players
+    text = form.text(field, longest=12)
+    places = [int(part) for part in text.split(",") if part.isascii() and part.isdigit()]
+    if not 1 <= len(places) <= _MOST_PLAYERS or max(places) >= len(squad):
+        raise RefusalError("refused_nobody_chosen")
+    return tuple(squad[place] for place in places)
+
+
+async def _add(request: Request, form: Form, by: str, decide: Decide) -> tuple[TeamEvening, bool]:
+    """Add what is decided to the night that the form was made for."""
+    night = form.whole("night", 1, 10**7)
+
+    def decided(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
+        if state is None or state.began != night:
+            raise RefusalError("refused_other_night", status=409)
+        return decide(state)
+
+    state, added = await asyncio.to_thread(_write, request, decided, form, by)
+    if state is None:
+        raise RefusalError("refused_no_night", status=404)
+    return state, added
+
+
+def _write(request: Request, decide: Any, form: Form, by: str) -> tuple[TeamEvening | None, bool]:
+    site = site_of(request)
+    return add_team_events(
+        site.path, decide, at=site.clock(), by=by, form=form.key(request.url.path)
+    )
+
+
+def _taken(request: Request, added: bool, key: str, **values: object) -> Response:
+    """Return to the night, and say what was taken, or that it was there already."""
+    code = language(request)
+    return done(request, "/team", say(code, key if added else "team_there", **values))
+
+
+ROUTES = [
+    Route("/team/pin", enter_pin, methods=["POST"]),
+    Route("/team/leave", leave, methods=["POST"]),
+    Route("/team/put", put, methods=["POST"]),
+    Route("/team/hand", hand, methods=["POST"]),
+    Route("/team/result", result, methods=["POST"]),
+    Route("/team/undo", undo, methods=["POST"]),
+]

@@ -1,0 +1,199 @@
+"""The form that begins a team night: its fields, and the plan that they make."""
+
+from __future__ import annotations
+
+import re
+from codecs import BOM_UTF8
+from dataclasses import replace
+
+import numpy as np
+
+from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak.answers.starters import starters_words
+from evenbreak.errors import DataError
+from evenbreak.files.player_names import clean_name
+from evenbreak.files.team_list import TeamList, read_team
+from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
+from evenbreak.web.forms import Form
+from evenbreak.web.league import League
+from evenbreak.web.refusals import RefusalError
+from evenbreak.web.uploads import list_of, read_upload, warnings_of
+
+ORDERS = {
+    "alternate": "order_alternate",
+    "home": "order_home",
+    "loser": "order_loser",
+    "winner": "order_winner",
+    "blind": "order_blind",
+    "sealed": "order_sealed",
+}
+"""Who puts up first, with its words."""
+
+COUNT_WORDS = dict(zip(COUNTS, ("count_sets", "count_games", "count_points"), strict=True))
+"""What decides the night, with its words."""
+
+EVEN, FAIR = "even", "fair"
+RACES = {EVEN: "races_even", FAIR: "races_fair"}
+"""The races that are not those of a chart, with their words."""
+
+MOST_SETS, LONGEST_RACE = 25, 100
+_NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
+_AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
+_ROW = re.compile(r"[^,;\t]*[^,;\t\d][^,;\t]*([,;\t])\s*\d*(\.\d+)?\s*(\1\s*\d*(\.\d+)?\s*)?")
+
+
+async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
+    """Return the plan that a form asks for, and what its lists make doubtful.
+
+    Players without a rating have that of the league, if it knows them.
+    """
+    names = [" ".join(form.text(f"team_{side}", longest=60).split()) for side in "ab"]
+    if not all(names):
+        raise RefusalError("refused_teams")
+    lists = []
+    for side, name in zip("ab", names, strict=True):
+        content = await list_of(form, f"players_{side}", f"file_{side}")
+        if not content.strip():
+            raise RefusalError("refused_nobody")
+        lists.append(_read(content, name))
+    scale = _scale(form, lists, league)
+    lists = [_with_league(one, scale, league) for one in lists]
+    sheets = [_sheet(name, one, scale, form) for name, one in zip(names, lists, strict=True)]
+    times = form.whole("times", 1, MOST_SETS, default=1)
+    fewest = min(len(sheet.players) for sheet in sheets) * times
+    races = form.one_of("races", (*RACES, *CHARTS))
+    plan = NightPlan(
+        (sheets[0], sheets[1]),
+        form.whole("sets", 1, MOST_SETS, default=min(fewest, MOST_SETS)),
+        race=0 if races in CHARTS else form.whole("race", 1, LONGEST_RACE),
+        handicapped=races == FAIR,
+        chart=races if races in CHARTS else "",
+        order=form.text("pattern", longest=MOST_SETS) or form.one_of("order", tuple(ORDERS)),
+        count=form.one_of("count", COUNTS),
+        doubles=_numbers(form),
+        cap=_number(form, "cap"),
+        at_most=_at_most(form),
+        times=times,
+        scale=scale.text,
+    )
+    warnings = [
+        line for name, one in zip(names, lists, strict=True) for line in warnings_of(one.file, name)
+    ]
+    for one in lists:
+        filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling)
+        warnings += filter(None, [starters_words(one.file.roster, filled)])
+    rated = np.concatenate([one.file.roster.rating for one in lists])
+    return plan, [*dict.fromkeys(warnings), *league_doubts(scale, rated, "is it the right scale?")]
+
+
+def _read(content: bytes, name: str) -> TeamList:
+    """Read the players of a team; the problems of the list name the team."""
+    try:
+        return read_upload(with_header(content), read_team)
+    except DataError as error:
+        raise DataError([f"{name}: {problem}" for problem in error.problems]) from None
+
+
+def with_header(content: bytes) -> bytes:
+    r"""Return a list with a header, if it begins with a player at once.
+
+    >>> with_header(b"Ann Lee,612\nBo,540").decode().split()[0]
+    'player,rating'
+    >>> with_header(b"Ann;612;6").decode().split()[0]
+    'player;rating;level'
+    >>> with_header(b"player,level\nAnn,6").decode().split()[0]
+    'player,level'
+    >>> with_header(b"Ann Lee\n\nBo").decode().splitlines()
+    ['player,rating', 'Ann Lee,', 'Bo,']
+    """
+    content = content.removeprefix(BOM_UTF8)
+    if content.strip() and not any(mark in content for mark in (b",", b";", b"\t", b"\0")):
+        names = [line.strip() for line in content.splitlines() if line.strip()]
+        return b"player,rating\n" + b"".join(name + b",\n" for name in names)
+    first = content.lstrip().split(b"\n")[0].decode("utf-8", "replace").strip()
+    found = _ROW.fullmatch(first)
+    if found is None:
+        return content
+    columns = ["player", "rating", "level"][: first.count(found[1]) + 1]
+    return f"{found[1].join(columns)}\n".encode() + content.lstrip()
+
+
+def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
+    """Return a team whose players without a rating have that of the league."""
+    if league.sheet is None or not league.sheet.ratings.scale.same_points(scale):
+        return read
+    roster = read.file.roster
+    rating, error = roster.rating.copy(), roster.standard_error.copy()
+    for k, name in enumerate(roster.players):
+        if np.isnan(rating[k]) and (known := league.known(name)):
+            _, rating[k], error[k] = known
+    return replace(read, file=replace(read.file, roster=Roster(roster.players, rating, error)))
+
+
+def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
+    """Return the scale of the ratings: as the form, the lists or the league states it."""
+    if points := _number(form, "doubling"):
+        return scale_of(points)
+    if any(one.file.levels for one in lists):
+        raise RefusalError("refused_levels")
+    stated = [one.file.scale for one in lists if one.file.scale is not None]
+    if any(not stated[0].same_points(other) for other in stated[1:]):
+        raise RefusalError("refused_scales")
+    if stated:
+        return stated[0]
+    unrated = all(np.isnan(one.file.roster.rating).all() for one in lists)
+    if unrated and league.sheet is not None:
+        return league.sheet.ratings.scale
+    return SCALES[form.one_of("scale", tuple(SCALES))]
+
+
+def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
+    """Return a team; new players get the rating in the middle, and are very uncertain."""
+    if read.without_weight and any(form.text(field) for field in ("cap", "at_most")):
+        raise RefusalError("refused_weight", name=read.without_weight)
+    roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling)
+    errors = np.zeros(len(roster)) if form.text("sure") else np.nan_to_num(roster.standard_error)
+    weights = np.nan_to_num(read.weights)
+    return TeamSheet(
+        clean_name(name),
+        roster.players,
+        tuple(roster.rating.tolist()),
+        tuple(errors.tolist()),
+        tuple(weights.tolist()),
+    )
+
+
+def _number(form: Form, name: str) -> float | None:
+    """Return a number above 0; None if the field was left empty."""
+    text = form.text(name, longest=12).replace(",", ".")
+    if not text:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < 1e6:
+        raise RefusalError("refused_number", name=name, value=text)
+    return value
+
+
+def _numbers(form: Form) -> tuple[int, ...]:
+    text = form.text("doubles", longest=80)
+    if not text:
+        return ()
+    if not _NUMBERS.fullmatch(text):
+        raise RefusalError("refused_doubles", value=text)
+    return tuple(sorted({int(part) for part in text.split(",")}))
+
+
+def _at_most(form: Form) -> tuple[int, float] | None:
+    text = form.text("at_most", longest=12)
+    if not text:
+        return None
+    found = _AT_MOST.fullmatch(text)
+    if found is None:
+        raise RefusalError("refused_at_most", value=text)
+    return int(found[1]), float(found[2])

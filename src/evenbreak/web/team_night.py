@@ -1,0 +1,149 @@
+"""The team night as the pages show it: its state, and what is worked out of it beside them."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from starlette.requests import Request
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.lineup import lineup_answer
+from evenbreak.answers.sealed_lineup import sealed_answer
+from evenbreak.files.team_night_store import read_team_events
+from evenbreak.teams.advice import Advice, advice
+from evenbreak.teams.evening.events import Event
+from evenbreak.teams.evening.fold import TeamEvening, team_evening
+from evenbreak.teams.evening.outlook import Side, chance, point_of, side_of
+from evenbreak.teams.sealed import SealedNight
+from evenbreak.teams.solve import SolvedNight
+from evenbreak.web.beside import Beside
+from evenbreak.web.night import mark_of
+from evenbreak.web.refusals import RefusalError
+
+_WAIT = 0.7  # seconds that a page waits for what is being worked out
+_KEPT = 12  # answers, and solved nights
+
+
+class TeamNow(NamedTuple):
+    """A team night as it stands.
+
+    Parameters
+    ----------
+    events
+        of all team nights in the file.
+    state
+        of the one that is on.
+    """
+
+    events: list[Event]
+    state: TeamEvening
+
+
+@dataclass(frozen=True)
+class Advised:
+    """What a captain is advised.
+
+    Parameters
+    ----------
+    answer
+        in words and numbers.
+    found
+        each pick and what it is worth, or where line-ups are sealed each line-up.
+    """
+
+    answer: Answer
+    found: Advice | SealedNight
+
+
+class TeamNights:
+    """The team nights in a file.
+
+    Parameters
+    ----------
+    path
+        the file.
+    beside
+        the thread that works things out.
+    """
+
+    def __init__(self, path: Path, beside: Beside) -> None:
+        self.path = path
+        self.beside = beside
+        self._read: tuple[object, TeamNow | None] | None = None
+        self._tasks: OrderedDict[object, asyncio.Task[Any]] = OrderedDict()
+        self._sides: OrderedDict[tuple[int, int], Side] = OrderedDict()
+
+    async def now(self) -> TeamNow | None:
+        """Return the night that is on, or was last; None if there is none."""
+        return await asyncio.to_thread(self._now)
+
+    def _now(self) -> TeamNow | None:
+        mark = mark_of(self.path)
+        if self._read is None or self._read[0] != mark:
+            events = read_team_events(self.path)
+            state = team_evening(events)
+            self._read = mark, None if state is None else TeamNow(events, state)
+        return self._read[1]
+
+    async def chances(self, now: TeamNow) -> tuple[float, float] | None:
+        """Return both teams' chances of winning the night; None: they are being worked out."""
+
+        def work() -> tuple[float, float]:
+            ours = chance(self._side(now.state, 0), now.state)
+            return ours, 1.0 - ours
+
+        found: tuple[float, float] | None = await self._worked_out((len(now.events),), work)
+        return found
+
+    async def advised(self, now: TeamNow, team: int) -> Advised | None:
+        """Return what a team's captain is advised; None: it is being worked out, or not known.
+
+        It is not known while the set is played whose winner or loser names first in the next one.
+        """
+
+        def work() -> Advised:
+            seen = now.state.seen_by(team)
+            side = self._side(seen, team)
+            if not isinstance(side.solution, SolvedNight):
+                return Advised(sealed_answer(side.meeting, (), side.solution), side.solution)
+            point = point_of(seen, team)
+            answer = lineup_answer(side.meeting, point, solution=side.solution)
+            return Advised(answer, advice(side.solution, point))
+
+        if not now.state.due:
+            return None
+        found: Advised | None = await self._worked_out((len(now.events), team), work)
+        return found
+
+    async def _worked_out(self, key: object, work: Callable[[], Any]) -> Any:
+        """Return what a function finds, once for each key; None: not yet."""
+        if key not in self._tasks:
+            self._tasks[key] = asyncio.create_task(self.beside.run(work))
+            while len(self._tasks) > _KEPT:
+                self._tasks.popitem(last=False)
+        task = self._tasks[key]
+        await asyncio.wait({task}, timeout=_WAIT)
+        return task.result() if task.done() else None
+
+    def _side(self, state: TeamEvening, team: int) -> Side:
+        """Return a night solved as a team sees it; only the thread beside asks."""
+        key = state.began, team
+        if key not in self._sides:
+            found = self._side(state, 0).mirrored() if team else side_of(state)
+            self._sides[key] = found
+            while len(self._sides) > _KEPT // 3:
+                self._sides.popitem(last=False)
+        return self._sides[key]
+
+
+async def night_on(request: Request) -> TeamNow:
+    """Return the team night that a request is about; refuse it if there is none."""
+    now: TeamNow | None = await request.app.state.site.teams.now()
+    if now is None:
+        raise RefusalError("refused_no_night", status=404)
+    return now

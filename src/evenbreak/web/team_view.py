@@ -1,0 +1,149 @@
+"""A team night as its page shows it; plain values, and only what the reader may see."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+from typing import NamedTuple
+
+from evenbreak.answers.lineup import names_words
+from evenbreak.teams.advice import Advice
+from evenbreak.teams.evening.choices import choices
+from evenbreak.teams.evening.events import Pick, Score
+from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.teams.sealed import SealedNight
+
+_RARE = 5e-4  # shares below this are not shown
+
+
+class SetView(NamedTuple):
+    """A set.
+
+    Parameters
+    ----------
+    number
+        counted from 1.
+    names
+        who plays, for each team; '' if not known.
+    hidden
+        which team's pick is in but not shown yet.
+    needs
+        the games that each side needs; None: not known yet.
+    score
+        how it ended; None: it has not.
+    said
+        how each team says that it ended.
+    """
+
+    number: int
+    names: tuple[str, str]
+    hidden: tuple[bool, bool]
+    needs: Score | None
+    score: Score | None
+    said: tuple[Score | None, Score | None]
+
+
+class OptionView(NamedTuple):
+    """A pick that a captain can make.
+
+    Parameters
+    ----------
+    value
+        the places of its players in the squad, as the form sends them.
+    name
+        of the player, or both of them.
+    worth
+        the chance of winning the night with it; None: not known.
+    reply
+        the other side's best reply; '' if there is none to come.
+    mix
+        how often to pick it, where both teams pick unseen.
+    """
+
+    value: str
+    name: str
+    worth: float | None = None
+    reply: str = ""
+    mix: float | None = None
+
+
+def set_views(seen: TeamEvening) -> list[SetView]:
+    """Return all sets, of a state as the reader sees it."""
+    return [
+        SetView(
+            line.number,
+            (_names(line.picks[0]), _names(line.picks[1])),
+            line.hidden,
+            seen.needs(line) if line.named else None,
+            line.score,
+            line.said,
+        )
+        for line in seen.sets
+    ]
+
+
+def _names(pick: Pick) -> str:
+    return names_words(pick) if pick else ""
+
+
+def pick_value(state: TeamEvening, team: int, pick: Pick) -> str:
+    """Return a pick as a form sends it."""
+    squad = state.meeting.squads[team]
+    return ",".join(str(squad.place(name)) for name in pick)
+
+
+def advised_options(state: TeamEvening, team: int, found: Advice) -> list[OptionView]:
+    """Return what a captain can pick, the best first."""
+    return [
+        OptionView(
+            pick_value(state, team, option.names),
+            names_words(option.names),
+            option.worth,
+            "" if found.blind else _names(option.answer),
+            option.mix if found.blind else None,
+        )
+        for option in found.options
+    ]
+
+
+def advised_line_ups(found: SealedNight) -> list[OptionView]:
+    """Return the line-ups that a captain does well to hand in, the most frequent first."""
+    played = sorted((one for one in found.ours if one.mix > _RARE), key=lambda one: -one.mix)
+    return [OptionView("", ", ".join(one.names), one.worth, "", one.mix) for one in played]
+
+
+def drawn(options: Sequence[OptionView], lot: str) -> OptionView | None:
+    """Return the pick that is drawn by the shares of a mixture; None if there is no mixture.
+
+    Parameters
+    ----------
+    options
+        what can be picked.
+    lot
+        the same lot draws the same pick again.
+
+    >>> both = [OptionView("0", "Ann", 0.5, mix=0.6), OptionView("1", "Bo", 0.5, mix=0.4)]
+    >>> sorted({drawn(both, f"lot {k}").name for k in range(20)})
+    ['Ann', 'Bo']
+    >>> drawn([OptionView("0", "Ann", 0.5, mix=1.0), OptionView("1", "Bo", 0.4, mix=0.0)], "x")
+    """
+    shares = [one.mix or 0.0 for one in options]
+    if sum(share > _RARE for share in shares) < 2:
+        return None
+    return Random(lot).choices(list(options), shares)[0]  # noqa: S311 (keyed by the lot)
+
+
+def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[str]:
+    """Return a line-up drawn by its share, in an order drawn too, as a form sends it."""
+    chance = Random(lot)  # noqa: S311 (keyed by the lot)
+    names = list(chance.choices(found.ours, [one.mix for one in found.ours])[0].names)
+    chance.shuffle(names)
+    return [str(squad.index(name)) for name in names]
+
+
+def plain_options(state: TeamEvening, team: int) -> list[OptionView]:
+    """Return what a team can pick, in the order of its list."""
+    return [
+        OptionView(pick_value(state, team, pick), names_words(pick))
+        for pick in choices(state, team).picks
+    ]

@@ -1,0 +1,110 @@
+"""The state of a team night follows from its events; what is unseen stays so."""
+
+import json
+
+import pytest
+
+from evenbreak.errors import InputError
+from evenbreak.teams.evening.events import (
+    NAMES,
+    Begun,
+    Event,
+    HandedIn,
+    Proposed,
+    PutUp,
+    Result,
+    Undone,
+    as_dict,
+    event_of,
+)
+from evenbreak.teams.evening.fold import EVERYBODY, team_evening
+from team_nights import AT, after, plan
+
+FIRST = (PutUp(0, 1, ("Ann",)), PutUp(1, 1, ("Wim",)))
+
+
+def test_teams_name_in_turn():
+    assert after().due == (0,)
+    assert after(FIRST[0]).due == (1,)
+    assert after(*FIRST).due == (1,)
+    assert after(*FIRST).to_name.number == 2
+
+
+def test_the_winner_names_first_once_the_result_is_in():
+    assert after(*FIRST, order="winner").due == ()
+    assert after(*FIRST, Result(1, (4, 1)), order="winner").due == (0,)
+    assert after(*FIRST, Result(1, (1, 4)), order="winner").due == (1,)
+    assert after(*FIRST, Result(1, (1, 4)), order="loser").due == (0,)
+
+
+@pytest.mark.parametrize(
+    ("count", "score"), [("sets", (1, 1)), ("games", (7, 4)), ("points", (4, 2))]
+)
+def test_the_score_is_counted_as_the_night_is(count, score):
+    more = PutUp(1, 2, ("Vic",)), PutUp(0, 2, ("Bo",)), Result(2, (3, 4))
+    assert after(*FIRST, Result(1, (4, 0)), *more, count=count).score == score
+
+
+def test_two_teams_that_agree_enter_a_result_and_two_that_differ_do_not():
+    one, other = Proposed(0, 1, (4, 2)), Proposed(1, 1, (4, 2))
+    assert after(*FIRST, one).sets[0].score is None
+    assert after(*FIRST, one, other).sets[0].score == (4, 2)
+    differs = after(*FIRST, one, Proposed(1, 1, (2, 4)))
+    assert (differs.sets[0].score, differs.sets[0].said) == (None, ((4, 2), (2, 4)))
+    assert after(*FIRST, one, Proposed(1, 1, (2, 4)), other).sets[0].score == (4, 2)
+    corrected = after(*FIRST, one, other, Result(1, (1, 4)))
+    assert corrected.sets[0].score == (1, 4)
+
+
+def test_undo_takes_back_one_event_after_another_up_to_the_night_before():
+    assert after(*FIRST, Undone()).sets[0].picks == (("Ann",), ())
+    assert after(*FIRST, Undone(), Undone()).due == (0,)
+    first, second = plan(), plan(race=7)
+    events = [Begun(first), FIRST[0], Begun(second), Undone()]
+    state = team_evening(Event(AT, one) for one in events)
+    assert (state.plan, state.began, state.due) == (first, 1, (1,))
+    assert team_evening([Event(AT, Begun(first)), Event(AT, Undone())]) is None
+
+
+def test_an_unseen_pick_is_left_out_until_both_are_in():
+    state = after(FIRST[0], order="blind")
+    assert state.due == (1,)
+    assert state.seen_by(0).sets[0].picks == (("Ann",), ())
+    for viewer in (EVERYBODY, 1):
+        seen = state.seen_by(viewer)
+        assert seen.sets[0].picks == ((), ())
+        assert seen.sets[0].hidden == (True, False)
+        assert seen.due == (1,)
+    assert after(*FIRST, order="blind").seen_by(EVERYBODY).sets[0].picks == (("Ann",), ("Wim",))
+
+
+def test_a_sealed_line_up_is_left_out_until_both_are_in():
+    line_ups = [
+        HandedIn(0, (("Bo",), ("Ann",), ("Cleo",))),
+        HandedIn(1, (("Uli",), ("Vic",), ("Wim",))),
+    ]
+    one = after(line_ups[0], order="sealed")
+    assert one.due == (1,)
+    assert {line.picks for line in one.seen_by(1).sets} == {((), ())}
+    both = after(*line_ups, order="sealed").seen_by(EVERYBODY)
+    assert both.sets[2].picks == (("Cleo",), ("Wim",))
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        Begun(plan(doubles=(3,), cap=16.0, at_most=(1, 6.0), order="blind")),
+        FIRST[0],
+        HandedIn(0, (("Ann",), ("Bo",))),
+        Proposed(1, 2, (4, 1)),
+        Result(1, (4, 3)),
+        Undone(),
+    ],
+)
+def test_events_survive_as_plain_data(what):
+    assert event_of(NAMES[type(what)], json.loads(json.dumps(as_dict(what)))) == what
+
+
+def test_what_is_no_event_is_refused():
+    with pytest.raises(InputError, match="not an event of a team night"):
+        event_of("put up", {"team": 1})
