@@ -22,7 +22,7 @@ PAGES = [
     *sorted(
         page
         for page in (ROOT / "docs").rglob("*.md")
-        if "_build" not in page.relative_to(ROOT).parts
+        if not {"_build", "modules"} & {*page.relative_to(ROOT).parts}  # what a build makes
     ),
 ]
 PACKAGES = (
