@@ -8,10 +8,13 @@ import re
 import tempfile
 from pathlib import Path
 
+import click
 from docutils.nodes import SkipNode, math_block
 from latex2mathml.converter import convert as mathml
+from sphinx.util.inspect import TypeAliasForwardRef
 
 import evenbreak
+from evenbreak.cli.program import program
 
 project = "evenbreak"
 author = "The evenbreak authors"
@@ -53,6 +56,8 @@ autodoc_type_aliases = {
     name: name
     for name in ("ArrayLike", "Floats", "Ints", "Bools", "Players", "Scale", "Win", "Wins", "Way")
 }
+# In a union Sphinx writes the repr of such a name.
+TypeAliasForwardRef.__repr__ = lambda self: self.name
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
@@ -70,8 +75,7 @@ html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = f"evenbreak {release}"
 html_static_path = ["_static"]
-html_static_path = ["_static"]
-html_css_files = ["cards.css", "notebooks.css"]
+html_css_files = ["cards.css", "equations.css", "notebooks.css"]
 
 
 API = Path(__file__).parent / "reference" / "api"
@@ -137,6 +141,35 @@ def write_rooms(app, docname, source) -> None:  # noqa: ARG001
     source[0] = ROOM.sub(lambda found: listed(found[1]), source[0])
 
 
+COMMAND = re.compile(r"^## evenbreak (\w+)\n", re.MULTILINE)
+
+
+def helps(command: click.Command, parent: click.Context | None, name: str) -> list[str]:
+    """Return what `--help` prints for a command, and for each command within it."""
+    ctx = click.Context(command, info_name=name, parent=parent, max_content_width=88)
+    inner = command.list_commands(ctx) if isinstance(command, click.Group) else ()
+    return [
+        command.get_help(ctx),
+        *(text for each in inner for text in helps(command.get_command(ctx, each), ctx, each)),
+    ]
+
+
+def write_help(app, docname, source) -> None:  # noqa: ARG001
+    """Fold what `--help` prints into the section of each command."""
+    if docname != "reference/commands":
+        return
+    ctx = click.Context(program, info_name="evenbreak")
+
+    def with_help(found: re.Match[str]) -> str:
+        texts = "\n\n\n".join(helps(program.get_command(ctx, found[1]), ctx, found[1]))
+        return (
+            f"{found[0]}\n<details><summary><code>evenbreak {found[1]} --help</code></summary>\n\n"
+            f"````text\n{texts}\n````\n\n</details>\n"
+        )
+
+    source[0] = COMMAND.sub(with_help, source[0])
+
+
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
 
 
@@ -146,6 +179,8 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
     It reads `a: b` in the first line of an attribute as a type, and a paragraph or an example
     after a section of fields as one more field.
     """
+    if lines and lines[0].startswith("Alias for field number"):
+        lines.clear()
     if what in {"attribute", "data", "property"}:
         lines[:0] = ["..", ""]
     section, result = "", []
@@ -160,6 +195,14 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
             result += [section, "-" * len(section)]
         result.append(line)
     lines[:] = result
+
+
+ARRAY = re.compile(r"ndarray\[tuple\[[^]]*\], ?([\w.~]*)dtype\[([\w.~]+?)_?\]\]")
+
+
+def shorten(app, what, name, obj, options, signature, returned):  # noqa: ARG001
+    """Write arrays as the source does: `NDArray[int64]`."""
+    return tuple(ARRAY.sub(r"NDArray[\2]", text) if text else text for text in (signature, returned))
 
 
 def number_equations(app, doctree, docname) -> None:  # noqa: ARG001
@@ -177,8 +220,8 @@ def inline_math(translator, node) -> None:
 def displayed_math(translator, node) -> None:
     """Write an equation on a line of its own, with its number."""
     translator.body.append(translator.starttag(node, "div", CLASS="math notranslate"))
-    translator.body.append(f'<span class="eqno">({node["number"]})</span>')
-    translator.body.append(mathml(node.astext(), display="block") + "</div>\n")
+    translator.body.append(f"<div>{mathml(node.astext(), display='block')}</div>")
+    translator.body.append(f'<span class="eqno">({node["number"]})</span></div>\n')
     raise SkipNode
 
 
@@ -188,4 +231,6 @@ def setup(app) -> None:
     app.connect("builder-inited", write_modules)
     app.connect("doctree-resolved", number_equations)
     app.connect("source-read", write_rooms)
+    app.connect("source-read", write_help)
+    app.connect("autodoc-process-signature", shorten)
     app.connect("autodoc-process-docstring", prepare, priority=100)
