@@ -197,12 +197,16 @@ def prepare(app, what, name, obj, options, lines) -> None:  # noqa: ARG001
     lines[:] = result
 
 
-ARRAY = re.compile(r"ndarray\[tuple\[[^]]*\], ?([\w.~]*)dtype\[([\w.~]+?)_?\]\]")
+ARRAY = re.compile(r"ndarray\[tuple\[[^]]*\], ?[\w.~]*dtype\[~?(?:\w+\.)*(\w+?)_?\]\]")
+LIKE = re.compile(r"[\w.~]*Buffer \| .*?_NestedSequence\[[^]]*complex \| bytes \| str\]")
 
 
 def shorten(app, what, name, obj, options, signature, returned):  # noqa: ARG001
-    """Write arrays as the source does: `NDArray[int64]`."""
-    return tuple(ARRAY.sub(r"NDArray[\2]", text) if text else text for text in (signature, returned))
+    """Write arrays as the source does: `NDArray[int64]`, `ArrayLike`."""
+    return tuple(
+        LIKE.sub("ArrayLike", ARRAY.sub(r"NDArray[\1]", text)) if text else text
+        for text in (signature, returned)
+    )
 
 
 def number_equations(app, doctree, docname) -> None:  # noqa: ARG001
