@@ -5,25 +5,23 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.chosen_players import find_players
-from evenbreak.answers.sheet import Sheet
-from evenbreak.answers.why import why_answer
-from evenbreak.files.csv_writer import to_csv
 from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.usual import rated_alike
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
+
+if TYPE_CHECKING:
+    from evenbreak.answers.sheet import Sheet
 
 _LONGEST = 2 << 20
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
@@ -94,6 +92,8 @@ async def give(request: Request) -> Response:
 
 async def player(request: Request) -> Response:
     """Show a player's rating and matches and, against another, the fairest race and why."""
+    from evenbreak.answers.chosen_players import find_players
+
     sheet = _sheet(request)
     name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
     names = [name, other] if other.strip() else [name]
@@ -119,6 +119,9 @@ async def player(request: Request) -> Response:
 
 
 def _why(sheet: Sheet, pair: tuple[int, int]) -> Any:
+    from evenbreak.answers.why import why_answer
+    from evenbreak.ratings.usual import rated_alike
+
     again = rated_alike(sheet.ratings, sheet.file.results)
     return why_answer(sheet.file, sheet.ratings, pair, sheet.offered, again, sheet.choice)
 
@@ -148,6 +151,7 @@ def _matches(sheet: Sheet, seat: int) -> list[Played]:
 def _made(name: str) -> Callable[[Sheet], bytes]:
     """Return what makes a file of the sheet."""
     from evenbreak import sheets
+    from evenbreak.files.csv_writer import to_csv
 
     makers: dict[str, Callable[[Sheet], bytes]] = {
         "ratings.csv": lambda sheet: to_csv(sheet.rated),
