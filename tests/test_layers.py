@@ -296,3 +296,8 @@ def modules_loaded_by(statement: str) -> set[str]:
 def test_starting_up_loads_nothing_heavy(statement: str) -> None:
     heavy = {"numpy", "scipy", "pandas", "networkx", "matplotlib", "sympy"}
     assert modules_loaded_by(statement) & heavy == set()
+
+
+def test_the_page_starts_without_what_only_leagues_need() -> None:
+    heavy = {"pandas", "networkx", "matplotlib"}
+    assert modules_loaded_by("import evenbreak.web.app") & heavy == set()

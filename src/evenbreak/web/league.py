@@ -1,7 +1,8 @@
 """The league's results beside the tournament's file: kept there, rated in a thread, shown.
 
 The results are a plain file, such as tonight.league.csv beside tonight.db, so that commands read
-it too. Whoever puts it there by hand has it read at the next start.
+it too. Whoever puts it there by hand has it read at the next start. What reads and rates it is
+loaded only then: a page without a league needs half the memory.
 """
 
 from __future__ import annotations
@@ -11,18 +12,17 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.chosen_players import most_active
-from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.folder import write_files
-from evenbreak.files.results import read_results
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
-from evenbreak.ratings.usual import usual_ratings
 from evenbreak.web.beside import Beside
 from evenbreak.web.uploads import ending_of, read_upload
+
+if TYPE_CHECKING:
+    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.sheet import Sheet
 
 
 @dataclass
@@ -66,6 +66,8 @@ class League:
         DataError
             with every problem of the results; earlier ones are then kept.
         """
+        from evenbreak.files.results import read_results
+
         read_upload(content, read_results)
         ending = ending_of(content)
         shown = json.dumps({"scale": scale, "race": race}).encode()
@@ -120,6 +122,12 @@ class League:
 
     def _rated(self, asked: int) -> Sheet:
         """Return the sheet; the steps are told to whoever looks meanwhile."""
+        from evenbreak.answers.chosen_players import most_active
+        from evenbreak.answers.offered_races import OfferedRaces
+        from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
+        from evenbreak.files.results import read_results
+        from evenbreak.ratings.usual import usual_ratings
+
         path = self.path
         if path is None:
             raise DataError(["there are no results"])

@@ -13,6 +13,7 @@ from evenbreak.files.entrants import read_entrants
 from evenbreak.files.roster import RosterFile
 from evenbreak.files.tournament_store import add_events, new_tournament
 from evenbreak.ratings.scale import SCALES, Scale
+from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import Evening
@@ -25,7 +26,18 @@ from evenbreak.web.sessions import check_director
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.web.words import say
 
-FORMATS = ("double", "single", "round-robin", "groups", "consolation", "king-of-the-hill")
+FORMATS = (
+    "double",
+    "single",
+    "round-robin",
+    "groups",
+    "swiss",
+    "consolation",
+    "king-of-the-hill",
+    "chips",
+)
+WITH_LOSERS = ("double", "consolation")
+WITH_FINAL = ("double", "single", "groups", "consolation", "king-of-the-hill")
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
@@ -40,6 +52,7 @@ async def ask(request: Request) -> Response:
         seedings=SEEDINGS,
         disciplines=DISCIPLINES,
         scales=list(SCALES),
+        charts=list(CHIP_CHARTS),
         league=site_of(request).league.sheet,
     )
 
@@ -59,28 +72,41 @@ async def begin(request: Request) -> Response:
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
-    handicapped = bool(form.text("handicapped"))
-    losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
-    plan = Plan(
-        form.one_of("format", FORMATS),
-        form.whole("race", 1, 100),
-        losers_race=losers or None,
-        final_race=final or None,
-        handicapped=handicapped,
-        seeding=form.one_of("seeding", SEEDINGS),
-        scale=scale.text,
-        starter=scale.centre,
-        starter_error=scale.points_per_doubling,
-        tables=form.whole("tables", 1, 1000),
-        discipline=form.one_of("discipline", DISCIPLINES),
-    )
+    plan = _plan(form, scale)
     opened = Opened(plan, _entrants(file, scale, league))
+    if plan.chips is not None:
+        plan.chips.chips([one.rating for one in opened.entrants])  # refuses those below the chart
     if not 2 <= len(opened.entrants) <= moves.MOST_PLAYERS:
         raise RefusalError("refused_players", players=len(opened.entrants))
     event = Event(site.clock(), opened)
     await asyncio.to_thread(new_tournament, site.path, [event])
     site.keep_secrets()
     return done(request, "/desk", *warnings_of(file))
+
+
+def _plan(form: Form, scale: Scale) -> Plan:
+    """Return what is played, by the fields of the form."""
+    kind = form.one_of("format", FORMATS)
+    chips = kind == "chips"
+    losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
+    if losers and kind not in WITH_LOSERS:
+        raise RefusalError("refused_no_losers")
+    if final and kind not in WITH_FINAL:
+        raise RefusalError("refused_no_final")
+    return Plan(
+        kind,
+        1 if chips else form.whole("race", 1, 100),
+        losers_race=losers or None,
+        final_race=final or None,
+        handicapped=bool(form.text("handicapped")) and not chips,
+        seeding=form.one_of("seeding", SEEDINGS),
+        scale=scale.text,
+        starter=scale.centre,
+        starter_error=scale.points_per_doubling,
+        tables=form.whole("tables", 1, 1000),
+        discipline=form.one_of("discipline", DISCIPLINES),
+        chips=CHIP_CHARTS[form.one_of("chips", tuple(CHIP_CHARTS))] if chips else None,
+    )
 
 
 def _entrants(file: RosterFile, scale: Scale, league: League | None) -> tuple[Entrant, ...]:
