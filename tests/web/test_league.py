@@ -137,3 +137,19 @@ def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
         assert found.scale.text == "fargo"
         assert found.entrants[one].rating == site.league.known(one)[1]
         assert found.entrants["New Ned"].rating == SCALES["fargo"].centre
+
+
+def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_ended(
+    tmp_path: Path,
+) -> None:
+    season = "date,player_a,player_b,race_a,race_b,score_a,score_b,winner\n"
+    season += "2026-01-05,Ann,Bo,5,3,4,3,b\n2026-01-12,Bo,Ann,7,7,,,a\n"
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        rated(director, season)
+        rows = director.open("/league/player", name="Bo").text.split("<tr>")[2:]
+        assert "2026-01-12" in rows[0]
+        assert "0:0" not in rows[0]
+        assert "won" in rows[0]
+        assert "3:4" in rows[1]
+        assert "won" in rows[1]

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
 from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _LONGEST = 2 << 20
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
 _MOST_LISTED = 1000
+_MOST_MATCHES = 60
 _TYPES = {
     "csv": "text/csv; charset=utf-8",
     "pdf": "application/pdf",
@@ -113,7 +115,7 @@ async def player(request: Request) -> Response:
         quick=shown["working"],
         one=next(row for row in rows if row.name == sheet.ratings.players[pair[0]]),
         names=[row.name for row in rows[:_MOST_LISTED]],
-        matches=_matches(sheet, pair[0]),
+        matches=await asyncio.to_thread(_matches, sheet, pair[0]),
         **shown,
     )
 
@@ -133,19 +135,27 @@ def _rows(sheet: Sheet) -> list[Row]:
 
 
 def _matches(sheet: Sheet, seat: int) -> list[Played]:
-    """Return a player's matches, the last ones first."""
+    """Return a player's matches, the last ones first; where only the winner is known, no score."""
+    from evenbreak.ratings.consistency import who_won
+
     results = sheet.file.results
-    found = []
-    for row in reversed(range(len(results))):
-        sides = int(results.player_a[row]), int(results.player_b[row])
-        if seat not in sides or not results.counted[row]:
-            continue
+    played = (results.player_a == seat) | (results.player_b == seat)
+    rows = np.flatnonzero(played & results.counted)
+    if results.date is not None:
+        rows = rows[np.argsort(results.date[rows], kind="stable")]
+    winner, found = who_won(results), []
+    if results.winner is not None:
+        winner = np.where(results.winner > 0, results.winner, winner)
+    for row in rows[::-1][:_MOST_MATCHES].tolist():
+        first = int(results.player_a[row]) == seat
         scores = int(results.score_a[row]), int(results.score_b[row])
-        own, theirs = scores if seat == sides[0] else scores[::-1]
+        own, theirs = scores if first else scores[::-1]
         date = "" if results.date is None else str(results.date[row])
-        other = results.players[sides[sides[0] == seat]]
-        found.append(Played("" if date == "NaT" else date, other, f"{own}:{theirs}", own > theirs))
-    return sorted(found, key=lambda one: one.date, reverse=True)[:60]
+        other = results.players[int((results.player_b if first else results.player_a)[row])]
+        score = f"{own}:{theirs}" if any(scores) else ""
+        won = int(winner[row]) == (1 if first else 2)
+        found.append(Played("" if date == "NaT" else date, other, score, won))
+    return found
 
 
 def _made(name: str) -> Callable[[Sheet], bytes]:
