@@ -44,7 +44,7 @@ PAGES = (
         (
             ("The score was wrong", "tournament correct W1.2 4:5"),
             ("Take back the last entry", "tournament undo"),
-            ("A late player takes a bye", 'tournament late "Wanda Late" --rating 60'),
+            ("A late player takes a bye, if one is open", 'tournament late "Wanda Late" --rating 60'),
             ("Somebody goes home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
             ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
@@ -55,7 +55,8 @@ PAGES = (
     Page(
         "League night",
         "Results are a CSV file or workbook with the columns <code>player_a</code>, "
-        "<code>player_b</code>, <code>score_a</code> and <code>score_b</code>, a match a row.",
+        "<code>player_b</code>, <code>score_a</code> and <code>score_b</code>, a match a row. "
+        "Names such as <code>results.csv</code> below stand for your own files.",
         (
             Step(
                 "A sheet for the wall, from last season's results",
@@ -75,7 +76,7 @@ PAGES = (
         ),
         (
             ("What a race is worth", "odds 612 521 --scale fargo --race 7:5"),
-            ("A page for phones, and a workbook", "report results.csv --out sheet --html --excel"),
+            ("A page for phones", "report results.csv --out sheet --html"),
             ("Ratings alone", "rate results.csv"),
             ("Can the ratings be trusted?", "validate results.csv"),
             ("Is our chart fair?", "chart audit ours.csv"),

@@ -59,13 +59,13 @@ SHOWN: dict[str, tuple[Shown, ...]] = {
             python="""\
 from evenbreak.answers import OfferedRaces, Sheet, most_active
 from evenbreak.files.results import read_results
-from evenbreak.ratings import fit
+from evenbreak.ratings import scale_of, usual_ratings
 from evenbreak.sheets import sheet_pages
 
 file = read_results("data/demo_league.csv")
-ratings = fit(file.results)
+ratings, choice = usual_ratings(file.results, scale=scale_of("npl"))
 offered = OfferedRaces(race_to=7)
-sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10))
+sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10), choice)
 (picture,) = sheet_pages(sheet)
 """,
         ),
