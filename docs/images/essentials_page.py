@@ -44,7 +44,10 @@ PAGES = (
         (
             ("The score was wrong", "tournament correct W1.2 4:5"),
             ("Take back the last entry", "tournament undo"),
-            ("A late player takes a bye, if one is open", 'tournament late "Wanda Late" --rating 60'),
+            (
+                "A late player takes a bye, if one is open",
+                'tournament late "Wanda Late" --rating 60',
+            ),
             ("Somebody goes home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
             ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
