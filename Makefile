@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench app clean
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench browser app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -56,6 +56,11 @@ DRAWN = docs/images docs/gallery.md docs/_static/essentials.html
 drift: reports    ## fail if what is committed is not what the scripts make
 	git diff --exit-code -- reports data $(DRAWN)
 	test -z "$$(git status --porcelain -- reports data $(DRAWN))"
+
+browser:          ## the page in a real browser; installs Chromium where there is none
+	command -v chromium || apt-get install --yes chromium
+	$(PYTHON) -m pip install -q -e '.[browser]'
+	$(PYTHON) -m pytest -q tests/web/test_browser*.py
 
 app:              ## evenbreak.pyz: one file that needs nothing but Python
 	python3 -m venv .venv-app
