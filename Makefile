@@ -7,7 +7,8 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench browser app clean
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench browser \
+	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -61,6 +62,9 @@ browser:          ## the page in a real browser; installs Chromium where there i
 	command -v chromium || apt-get install --yes chromium
 	$(PYTHON) -m pip install -q -e '.[browser]'
 	$(PYTHON) -m pytest -q tests/web/test_browser*.py
+
+page-pictures:    ## the tutorial's pictures of the page, in a real browser
+	$(PYTHON) docs/images/page_pictures.py
 
 app:              ## evenbreak.pyz: one file that needs nothing but Python
 	python3 -m venv .venv-app

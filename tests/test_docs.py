@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import json
 import re
 import shutil
 from collections.abc import Iterator
@@ -146,6 +147,15 @@ def test_links_between_pages_lead_somewhere() -> None:
     for page in PAGES:
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{name_of(page)}: {target}"
+
+
+@pytest.mark.parametrize(
+    "page", ["tutorial/evening-by-page.md", "how-to/a-page-for-phones-and-the-screen.md"]
+)
+def test_what_a_reader_is_to_tap_is_on_the_page(page: str) -> None:
+    labels = set(json.loads((SRC / "web/words/en.json").read_text("utf-8")).values())
+    text = (ROOT / "docs" / page).read_text("utf-8")
+    assert set(re.findall(r"(?<!\*)\*([^*\n]+)\*(?!\*)", text)) <= labels | {"Deutsch"}
 
 
 def section(name: str) -> str:

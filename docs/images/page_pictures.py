@@ -1,0 +1,176 @@
+"""Make the pictures of the page: an evening on it, in a real browser, from the start to a result.
+
+python docs/images/page_pictures.py
+
+It needs the extra `browser` and Chromium. One computer makes the same bytes each time; another
+may have other fonts, so that these pictures, unlike those beside them, are not made anew by CI.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+import socket
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+from evenbreak.web.app import server_of
+from evenbreak.web.site import Site
+
+HERE = Path(__file__).resolve().parent
+ENTRANTS = HERE.parents[1] / "data" / "demo_entrants.csv"
+PLAYERS = 7
+CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
+PHONE = {"width": 390, "height": 844}
+WALL = {"width": 1280, "height": 720}
+COLOURS = 128
+
+
+class Clock:
+    """The time of the evening, which the story sets."""
+
+    at = "18:50"
+
+    def __call__(self) -> str:
+        """Return it as the page wants it."""
+        return f"2025-03-01T{self.at}:00"
+
+
+@contextmanager
+def served(path: Path, clock: Clock) -> Iterator[Site]:
+    """Serve a file while the block runs."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    site = Site(path, address=f"http://127.0.0.1:{port}", clock=clock)
+    server = server_of(site, port=port)
+    thread = threading.Thread(target=server.run, daemon=True)
+    thread.start()
+    while not server.started:
+        time.sleep(0.01)
+    yield site
+    server.should_exit = True
+    thread.join(10)
+
+
+def kept(page: Any, file: Path, *, first: str = "", last: str = "") -> None:
+    """Keep a picture of the page, from the top or an element `first` to the end of `last`."""
+    page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
+    ends = [page.locator(one).first.bounding_box() for one in (first, last) if one]
+    width, height = page.viewport_size["width"], page.viewport_size["height"]
+    top = ends[0]["y"] - 12 if first else 0.0
+    bottom = ends[-1]["y"] + ends[-1]["height"] + 12 if last else top + height
+    clip = {"x": 0, "y": top, "width": width, "height": bottom - top}
+    drawn = Image.open(io.BytesIO(page.screenshot(full_page=True, clip=clip)))
+    small = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    small.save(file, optimize=True)
+
+
+def settled(page: Any, path: str) -> None:
+    """Open a page, and wait until its odds are those of the last entry."""
+    for _ in range(100):
+        page.goto(path, wait_until="domcontentloaded")
+        if "worked out" not in page.inner_text("main"):
+            return
+        time.sleep(0.1)
+    raise RuntimeError(f"{path}: the odds do not come")
+
+
+def press(page: Any, button: Any) -> None:
+    """Press a button, and wait for the page that follows."""
+    with page.expect_navigation(wait_until="domcontentloaded"):
+        button.click()
+
+
+def result(page: Any, players: tuple[str, str], games: tuple[int, int]) -> None:
+    """Enter the result of a match that is on a table."""
+    one, other = (page.get_by_label(name) for name in players)
+    form = page.locator("form.result:visible", has=one).filter(has=other)
+    for name, won in zip(players, games, strict=True):
+        form.get_by_label(name).fill(str(won))
+    press(page, form.get_by_role("button"))
+
+
+def call_all(page: Any) -> None:
+    """Call every match that has a table."""
+    while (call := page.get_by_role("button", name="Call", exact=True)).count():
+        press(page, call.first)
+        settled(page, page.url)
+
+
+def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
+    """Go through the evening of the tutorial, and keep its pictures in a folder."""
+    desk = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
+    desk.goto(f"{site.address}/pin")
+    desk.get_by_label("PIN").fill(site.pin)
+    press(desk, desk.get_by_role("button", name="Go"))
+
+    desk.goto(f"{site.address}/new")
+    lines = ENTRANTS.read_text("utf-8").splitlines()[: 1 + PLAYERS]
+    desk.locator("[name=entrants]").fill("\n".join(",".join(line.split(",")[:2]) for line in lines))
+    for name, value in (("race", "5"), ("losers_race", "4"), ("tables", "2")):
+        desk.fill(f"[name={name}]", value)
+    desk.select_option("[name=seeding]", label="Seeded by rating")
+    kept(desk, folder / "begin.png", first="h1", last="label:has([name=losers_race])")
+    press(desk, desk.get_by_role("button", name="Begin", exact=True))
+    clock.at = "19:00"
+    press(desk, desk.get_by_role("button", name="Make the draw"))
+    settled(desk, f"{site.address}/desk")
+    kept(desk, folder / "call.png", first="h1", last="details")
+
+    clock.at = "19:05"
+    call_all(desk)
+    clock.at = "19:40"
+    result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (5, 4))
+    kept(desk, folder / "result.png", first=".said", last="section.card")
+    settled(desk, f"{site.address}/desk")
+    call_all(desk)
+    settled(desk, f"{site.address}/")
+    kept(desk, folder / "tonight.png", first="h1", last="main")
+
+    player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
+    player.goto(f"{site.address}/m/{site.match_token('W1.4')}")
+    for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
+        press(player, player.get_by_role("button", name=f"Game for {name}"))
+    kept(player, folder / "match.png", first="h1", last="main form[action$=me]")
+
+    clock.at = "20:15"
+    desk.goto(f"{site.address}/desk")
+    result(desk, ("Ruben Castellan", "Fatou Ndiaye-Roy"), (5, 3))
+    clock.at = "20:20"
+    desk.goto(f"{site.address}/desk")
+    desk.get_by_text("Correct a result").click()
+    result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5))
+    kept(desk, folder / "correct.png", first=".said", last=".said")
+    settled(desk, f"{site.address}/desk")
+    press(desk, desk.get_by_role("button", name="Undo the last entry"))
+
+    wall = browser.new_context(viewport=WALL).new_page()
+    settled(wall, f"{site.address}/screen")
+    kept(wall, folder / "screen.png", last="h2:has-text('Who wins') + *")
+
+
+def main() -> None:
+    """Write the pictures into `page/`."""
+    clock = Clock()
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        served(Path(folder, "tonight.db"), clock) as site,
+        sync_playwright() as play,
+    ):
+        browser = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        story(browser, site, clock, HERE / "page")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
