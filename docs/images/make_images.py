@@ -20,6 +20,7 @@ ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE))
 
 from at_work import desk, run  # noqa: E402
+from doors import DOORS  # noqa: E402
 from essentials_page import essentials_page  # noqa: E402
 from gallery_page import gallery_page  # noqa: E402
 from shown import SHOWN, Shown  # noqa: E402
@@ -92,6 +93,8 @@ def main() -> None:
                 made = short(made.decode()).encode()
             (HERE / PurePath(one.name).name).write_bytes(made)
         essentials = essentials_page()
+        for name, draw in DOORS.items():
+            (HERE / f"door_{name}.svg").write_text(draw(), encoding="utf-8", newline="\n")
     (HERE.parent / "_static" / "essentials.html").write_text(
         essentials, encoding="utf-8", newline="\n"
     )

@@ -1,0 +1,98 @@
+"""The small pictures of the landing page's doors: real answers, in letters that a card can show."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterable
+from html import escape
+from pathlib import Path
+
+from at_work import run
+from shown import NIGHT
+
+WIDTH, HEIGHT, LINE = 240, 136, 19
+INK, GREY, BLUE = "#222", "#aaa", "#0072b2"
+TEAMS = "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --sets 5 --order ABABA"
+
+
+def _text(x: float, y: float, words: str, *, end: str = "start", strong: bool = False) -> str:
+    weight = ' font-weight="bold"' if strong else ""
+    return f'<text x="{x:g}" y="{y:g}" text-anchor="{end}"{weight}>{escape(words)}</text>\n'
+
+
+def _box(x: float, y: float, width: float, height: float, colour: str) -> str:
+    return (
+        f'<rect x="{x:g}" y="{y:g}" width="{width:.1f}" height="{height:.1f}" fill="{colour}"/>\n'
+    )
+
+
+def _picture(heading: str, parts: Iterable[str]) -> str:
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
+        f'font-family="system-ui, sans-serif" font-size="12.5" fill="{INK}">\n'
+        f"{_text(10, 22, heading, strong=True)}{''.join(parts)}</svg>\n"
+    )
+
+
+def _chances(heading: str, chances: list[tuple[str, float]]) -> str:
+    """Draw a bar for each name and chance; the first is the answer."""
+    parts = []
+    for k, (name, p) in enumerate(chances):
+        y = 46 + LINE * 1.25 * k
+        parts += [
+            _text(10, y, name, strong=not k),
+            _box(126, y - 10, max(1.0, 66 * p), 12, GREY if k else BLUE),
+            _text(WIDTH - 8, y, f"{100 * p:.0f}%", end="end", strong=not k),
+        ]
+    return _picture(heading, parts)
+
+
+def director() -> str:
+    """Draw who wins tonight's tournament, after a result."""
+    for line in NIGHT.splitlines():
+        run(line)
+    odds = json.loads(run("tournament odds --json"))["players"]
+    first = sorted(((one["name"], one["p_title"]) for one in odds), key=lambda one: -one[1])
+    return _chances("Who wins tonight", first[:4])
+
+
+def captain() -> str:
+    """Draw whom to put up."""
+    options = json.loads(run(f"{TEAMS} --json"))["options"]
+    named = [(one["name"].split()[0], one["p_win"]) for one in options]
+    return _chances(f"Put up {named[0][0]}", named[:4])
+
+
+def operator() -> str:
+    """Draw a corner of the sheet of fair races."""
+    run("report data/demo_league.csv --out sheet --top 5")
+    pairs = list(csv.DictReader(Path("sheet", "matchups.csv").read_text("utf-8").splitlines()))
+    names = list(dict.fromkeys(one["player_a"] for one in pairs))[:4]
+    parts = [_text(114 + 36 * k, 46, str(k + 1), end="middle") for k in range(len(names))]
+    races = {(one["player_a"], one["player_b"]): (one["race_a"], one["race_b"]) for one in pairs}
+    for i, name in enumerate(names):
+        y = 67 + LINE * i
+        parts.append(_text(10, y, f"{i + 1} {name.split()[0]}"))
+        for j, other in enumerate(names):
+            race = races.get((name, other)) or races.get((other, name), ())[::-1]
+            parts.append(_text(114 + 36 * j, y, ":".join(race), end="middle"))
+    return _picture("Fair races", parts)
+
+
+def player() -> str:
+    """Draw how often each level of a drill was made, and the one to practise."""
+    levels = json.loads(run("drill --log data/drill_log.csv --json"))["levels"]
+    best = max(levels, key=lambda one: one["p_best"])["level"]
+    parts = []
+    for k, one in enumerate(levels):
+        height, x = 66 * one["p_success"], 12 + 24.5 * k
+        colour = BLUE if one["level"] == best else GREY
+        parts += [
+            _box(x, 110 - height, 18, max(1.0, height), colour),
+            _text(x + 9, 126, str(one["level"]), end="middle", strong=one["level"] == best),
+        ]
+    return _picture(f"Practise level {best}", parts)
+
+
+DOORS = {one.__name__: one for one in (director, operator, captain, player)}
