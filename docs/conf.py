@@ -5,6 +5,7 @@ import json
 import logging
 import os
 import re
+import sys
 import tempfile
 from pathlib import Path
 
@@ -15,6 +16,9 @@ from sphinx.util.inspect import TypeAliasForwardRef
 
 import evenbreak
 from evenbreak.cli.program import program
+
+sys.path.insert(0, str(Path(__file__).parent))
+from narrow_blocks import narrow
 
 project = "evenbreak"
 author = "The evenbreak authors"
@@ -236,5 +240,6 @@ def setup(app) -> None:
     app.connect("doctree-resolved", number_equations)
     app.connect("source-read", write_rooms)
     app.connect("source-read", write_help)
+    app.connect("html-page-context", narrow)
     app.connect("autodoc-process-signature", shorten)
     app.connect("autodoc-process-docstring", prepare, priority=100)
