@@ -160,7 +160,7 @@ def helps(command: click.Command, parent: click.Context | None, name: str) -> li
 
 def write_help(app, docname, source) -> None:  # noqa: ARG001
     """Fold what `--help` prints into the section of each command."""
-    if docname != "reference/commands":
+    if not docname.startswith("reference/commands/"):
         return
     ctx = click.Context(program, info_name="evenbreak")
 

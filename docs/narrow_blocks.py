@@ -18,7 +18,7 @@ BLOCK = re.compile(
     r'(<div class="highlight-(\w+) notranslate"><div class="highlight"><pre)>(.*?)</pre>', re.DOTALL
 )
 OUTPUT = re.compile(r'<span class="go">(.*)</span>')
-OPTION = re.compile(r'<span class="pre">(?=--[a-z-]{1,24}</span>)')
+OPTION = re.compile(r'<span class="pre">(?=--[a-z0-9-]{1,24}</span>)')
 TAG = re.compile(r"<[^>]*>")
 
 

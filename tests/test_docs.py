@@ -158,10 +158,22 @@ def test_what_a_reader_is_to_tap_is_on_the_page(page: str) -> None:
     assert set(re.findall(r"(?<!\*)\*([^*\n]+)\*(?!\*)", text)) <= labels | {"Deutsch"}
 
 
-def section(name: str) -> str:
-    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
-    parts = re.split(r"^## `?evenbreak (\w+)`?$", text, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))[name]
+def commands_page(group: str = "") -> str:
+    """Return the page of a group of commands, or that of all."""
+    page = f"commands/{group}" if group else "commands"
+    return (ROOT / "docs" / "reference" / f"{page}.md").read_text(encoding="utf-8")
+
+
+def page_of_each_command() -> dict[str, tuple[str, str]]:
+    """Return the group whose page describes a command, and its section there, in their order."""
+    groups = re.findall(r"^commands/(\w+)$", commands_page(), flags=re.MULTILINE)
+    described = {}
+    for group in groups:
+        parts = re.split(r"^## evenbreak (\w+)$", commands_page(group), flags=re.MULTILINE)
+        described |= {
+            name: (group, text) for name, text in zip(parts[1::2], parts[2::2], strict=True)
+        }
+    return described
 
 
 def described(text: str) -> set[str]:
@@ -192,28 +204,31 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         for text in (*option.opts, *option.secondary_opts)
         if text.startswith("--")
     }
-    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
-    common = described(text[: text.index("\n## ")])
+    common = described(commands_page())
     assert common == {"--text", "--csv", "--json", "--html", "--verbose"}
-    assert options - {"--help"} - common <= described(section(name)) <= options
+    section = page_of_each_command()[name][1]
+    assert options - {"--help"} - common <= described(section) <= options
 
 
 def test_every_command_is_described_and_no_other() -> None:
-    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
-    assert re.findall(r"^## evenbreak (\w+)$", text, flags=re.MULTILINE) == list(COMMANDS)
+    assert list(page_of_each_command()) == list(COMMANDS)
 
 
 def test_commands_are_listed_as_the_help_groups_them() -> None:
-    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
-    group, listed = "", []
-    for title, name, anchor, line in re.findall(
-        r"^\*\*(.+)\*\*$|^\| \[`(\w+)`\]\(#evenbreak-(\w+)\) \| (.+) \|$", text, flags=re.MULTILINE
+    title, page, listed = "", "", []
+    for heading, file, name, link, line in re.findall(
+        r"^\*\*\[(.+)\]\(commands/(\w+)\.md\)\*\*$|^\| \[`(\w+)`\]\((.+)\) \| (.+) \|$",
+        commands_page(),
+        flags=re.MULTILINE,
     ):
-        if title:
-            group = title
+        if heading:
+            title, page = heading, file
+            assert commands_page(page).startswith(f"# {title}\n")
         else:
-            listed.append((group, name, anchor, line))
-    assert listed == [(one.section, name, name, one.help) for name, one in COMMANDS.items()]
+            listed.append((title, name, line))
+            assert link == f"commands/{page}.md#evenbreak-{name}"
+            assert page_of_each_command()[name][0] == page
+    assert listed == [(one.section, name, one.help) for name, one in COMMANDS.items()]
 
 
 def test_every_room_with_public_names_is_in_the_reference() -> None:
