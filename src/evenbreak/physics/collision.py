@@ -29,7 +29,15 @@ from evenbreak.physics.units import GRAVITY
 
 
 class Jump(NamedTuple):
-    """A ball's short flight: its time in seconds, its height and distance in metres."""
+    """A ball's short flight: its time in seconds, its height and distance in metres.
+
+    Parameters
+    ----------
+    time
+        seconds in the air.
+    height, distance
+        metres: how high and how far.
+    """
 
     time: Any
     height: Any

@@ -24,7 +24,13 @@ from evenbreak.physics.throw import shot_of
 
 
 class EnergyShares(NamedTuple):
-    """The energies of the two balls, over the energy M V_0^2 / 2 of the cue ball before the hit."""
+    """The energies of the two balls, over the energy M V_0^2 / 2 of the cue ball before the hit.
+
+    Parameters
+    ----------
+    object_ball, cue_ball
+        shares, 0 or more; their sum is above 1 if the cue ball's spin brings energy of its own.
+    """
 
     object_ball: Any
     cue_ball: Any
@@ -72,6 +78,13 @@ def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
 
     In natural roll it falls from 5/2 at small cut angles (P4.18) to -5/7; for stun it is -1 at
     every cut.
+
+    Parameters
+    ----------
+    cut
+        cut angle in radians, -pi/2 to pi/2; a cut to the left is the mirror image.
+    topspin
+        J_y just before the hit: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
 
     >>> round(deflection_slope(0.0), 9), round(deflection_slope(math.pi / 2.0), 4)
     (2.5, -0.7143)
@@ -201,6 +214,13 @@ def split_roll_cut(topspin: Any = 1.0) -> Any:
 def energy_after_hit(cut: Any, topspin: Any = 1.0) -> EnergyShares:
     """Return the energies just after the hit, the cue ball's spin included (P4.19, P4.20).
 
+    Parameters
+    ----------
+    cut
+        cut angle in radians, -pi/2 to pi/2; a cut to the left is the mirror image.
+    topspin
+        J_y just before the hit: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
+
     >>> shares = energy_after_hit(split_cut(1.0), 1.0)
     >>> round(shares.object_ball, 9), round(shares.cue_ball, 9)
     (0.7, 0.7)
@@ -213,6 +233,13 @@ def energy_in_roll(cut: Any, topspin: Any = 1.0) -> EnergyShares:
     """Return the energies of the motion of both balls once they roll (P4.19).
 
     Their spins hold 2/5 as much in addition.
+
+    Parameters
+    ----------
+    cut
+        cut angle in radians, -pi/2 to pi/2; a cut to the left is the mirror image.
+    topspin
+        J_y just before the hit: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
 
     >>> shares = energy_in_roll(split_roll_cut(1.0), 1.0)
     >>> round(14.0 * shares.object_ball, 9), round(14.0 * shares.cue_ball, 9)

@@ -57,6 +57,11 @@ sugar is too high)."""
 def volume_range(balls: BallSet) -> tuple[float, float]:
     """Return the volumes of the smallest and the largest ball of a set, in cubic metres (P1.1).
 
+    Parameters
+    ----------
+    balls
+        the rules of the set: diameters and tolerance in metres.
+
     >>> low, high = volume_range(BALL_SETS["pool"])
     >>> round(low / INCH**3, 3), round(high / INCH**3, 3)
     (5.924, 6.004)
@@ -72,6 +77,11 @@ def volume_range(balls: BallSet) -> tuple[float, float]:
 def density_range(balls: BallSet) -> tuple[float, float]:
     """Return the smallest and the largest density that the rules allow, in kg/m^3 (P1.2).
 
+    Parameters
+    ----------
+    balls
+        the rules of the set: diameters in metres, masses in kilograms.
+
     >>> [round(density / 1000.0, 2) for density in density_range(BALL_SETS["pool"])]
     [1.58, 1.75]
     """
@@ -81,6 +91,13 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 
 def floats_in(balls: BallSet, liquid: str) -> bool:
     """Return whether every ball of a set floats in a liquid, one of `LIQUIDS` (P1.2).
+
+    Parameters
+    ----------
+    balls
+        the rules of the set.
+    liquid
+        its name, one of `LIQUIDS`.
 
     Raises
     ------

@@ -136,6 +136,17 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> A
 def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
     """Return the speed of a block that has slid for a time, in m/s; 0 once it has stopped.
 
+    Parameters
+    ----------
+    speed
+        at the start, in m/s.
+    friction
+        coefficient of friction between block and cloth.
+    time
+        seconds since the start.
+    gravity
+        metres per second squared.
+
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
     11.4
     """
@@ -145,6 +156,17 @@ def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAV
 
 def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
     """Return how far a block has slid after a time, in metres; it stays where it stops.
+
+    Parameters
+    ----------
+    speed
+        at the start, in m/s.
+    friction
+        coefficient of friction between block and cloth.
+    time
+        seconds since the start.
+    gravity
+        metres per second squared.
 
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
     15.35
@@ -156,6 +178,17 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
 
 def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAVITY) -> Any:
     """Return dT/dt, the rate at which the energy of a sliding block changes, in watts: below 0.
+
+    Parameters
+    ----------
+    speed
+        of the block now, in m/s.
+    friction
+        coefficient of friction between block and cloth.
+    mass
+        of the block, in kilograms.
+    gravity
+        metres per second squared.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
@@ -195,6 +228,11 @@ def tip_friction_of(offset: Any) -> Any:
     """Return the static friction of a tip that starts to slip at an offset b/R (P1.7).
 
     Exercise 1.3 finds the offset with the shaft upright on a ball.
+
+    Parameters
+    ----------
+    offset
+        b/R, 0 to 1: from the centre, over the radius of the ball.
 
     >>> round(tip_friction_of(0.5), 3)
     0.577

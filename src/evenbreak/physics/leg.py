@@ -32,7 +32,19 @@ _INSTANT = 1e-12
 
 
 class State(NamedTuple):
-    """A ball at a time in seconds: position in metres, velocity in m/s, spin in rad/s."""
+    """A ball at a time in seconds: position in metres, velocity in m/s, spin in rad/s.
+
+    Parameters
+    ----------
+    time
+        seconds on the clock of the shot.
+    position
+        in metres; shape (2,).
+    velocity
+        in m/s; shape (2,).
+    spin
+        angular velocity in rad/s; shape (3,).
+    """
 
     time: float
     position: Floats

@@ -29,7 +29,15 @@ In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand
 
 
 class ContactPoint(NamedTuple):
-    """A point of the ball seen from behind: y to the left and z above the cloth, over R."""
+    """A point of the ball seen from behind: y to the left and z above the cloth, over R.
+
+    Parameters
+    ----------
+    y
+        how far left of the centre, over R.
+    z
+        the height above the cloth, over R: 1 is the centre.
+    """
 
     y: Any
     z: Any
@@ -43,6 +51,11 @@ def spin_of_offset(offset: float) -> float: ...
 def spin_of_offset(offset: ArrayLike) -> Floats: ...
 def spin_of_offset(offset: Any) -> Any:
     """Return the spin J = R omega / V that an offset b/R gives (P3.4).
+
+    Parameters
+    ----------
+    offset
+        b/R, -1 to 1.
 
     >>> spin_of_offset(0.4), spin_of_offset(-0.2)
     (1.0, -0.5)
@@ -59,6 +72,11 @@ def offset_for(spin: ArrayLike) -> Floats: ...
 def offset_for(spin: Any) -> Any:
     """Return the offset b/R that gives a spin J; beyond 1 the tip misses the ball (P3.4).
 
+    Parameters
+    ----------
+    spin
+        J = R omega / V, without a unit.
+
     >>> offset_for(1.0)
     0.4
     """
@@ -74,6 +92,11 @@ def strike_side(y: ArrayLike) -> Floats: ...
 def strike_side(y: Any) -> Any:
     """Return the sidespin J_z just after a hit at y, at any height (P3.6).
 
+    Parameters
+    ----------
+    y
+        how far left of the centre the tip hits, over R, -1 to 1.
+
     >>> strike_side(-0.4)
     1.0
     """
@@ -88,6 +111,13 @@ def roll_side(y: float, z: float) -> float: ...
 def roll_side(y: ArrayLike, z: ArrayLike) -> Floats: ...
 def roll_side(y: Any, z: Any) -> Any:
     """Return the sidespin J_z of a ball struck at (y, z), once it rolls (P3.6).
+
+    Parameters
+    ----------
+    y
+        how far left of the centre the tip hits, over R, -1 to 1.
+    z
+        the height above the cloth at which it hits, over R, above 0 to 2.
 
     Notes
     -----
@@ -130,6 +160,11 @@ def largest_roll_side(offset: Any) -> Any:
     """Return the largest sidespin in natural roll for an offset from the centre (P3.8).
 
     At the miscue limit of a tip it is 7/2 of the tip's friction.
+
+    Parameters
+    ----------
+    offset
+        b/R, from the centre in any direction, 0 to 1.
 
     >>> round(largest_roll_side(2.0**-0.5), 9)
     3.5
@@ -176,6 +211,13 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     """Return where to strike at a height z so that the ball later moves as if struck at `later`.
 
     The two points and (0, 0) lie on one line (P3.9).
+
+    Parameters
+    ----------
+    later
+        the point as which the hit should later count.
+    z
+        the height above the cloth at which it hits, over R, above 0 to 2.
 
     >>> contact_for_later(ContactPoint(0.3, 1.0), 0.7)
     ContactPoint(y=0.21, z=0.7)
@@ -291,6 +333,13 @@ def roll_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
 def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     """Return the speed of natural roll over that of the stick, by offset up or down (P3.11).
 
+    Parameters
+    ----------
+    offset
+        b/R, -1 to 1: above the centre, or below it if negative.
+    ball_ratio
+        mass of the ball over mass of the stick, such as 1/3 for 6 and 18 ounces.
+
     >>> round(roll_speed_ratio(0.3, 1 / 3), 4)
     1.1917
     """
@@ -308,6 +357,11 @@ def best_lag_offset(ball_ratio: Any) -> Any:
     """Return the offset above the centre, b/R, at which a ball rolls farthest (P3.11).
 
     There the length of a lag depends least on where the tip meets the ball.
+
+    Parameters
+    ----------
+    ball_ratio
+        mass of the ball over mass of the stick, such as 1/3 for 6 and 18 ounces.
 
     >>> round(best_lag_offset(1 / 3), 3), round(best_lag_offset(1 / 4), 3)
     (0.238, 0.225)

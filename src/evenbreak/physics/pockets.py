@@ -88,6 +88,11 @@ class Pocket(NamedTuple):
 def pockets(table: PoolTable) -> tuple[Pocket, ...]:
     """Return the six pockets of a table, in the order of `POCKET_NAMES`.
 
+    Parameters
+    ----------
+    table
+        its length and width in metres.
+
     >>> [pocket.name for pocket in pockets(PoolTable())][2]
     'foot-right'
     """

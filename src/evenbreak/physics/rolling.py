@@ -28,7 +28,13 @@ SHAPES: Mapping[str, float] = MappingProxyType(
 
 
 class Energy(NamedTuple):
-    """Kinetic energy in joules: of the motion and of the spin."""
+    """Kinetic energy in joules: of the motion and of the spin.
+
+    Parameters
+    ----------
+    translational, rotational
+        in joules.
+    """
 
     translational: Any
     rotational: Any
@@ -41,6 +47,15 @@ class Energy(NamedTuple):
 
 def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
     """Return the energy of a ball with a speed and a rim speed R omega, both in m/s.
+
+    Parameters
+    ----------
+    ball
+        its mass in kilograms counts.
+    speed
+        V, in m/s.
+    rim_speed
+        R omega, in m/s.
 
     Notes
     -----

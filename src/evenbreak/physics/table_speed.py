@@ -29,6 +29,11 @@ TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 def lag_distance(table: PoolTable, ball: Ball) -> float:
     """Return how far a ball's centre travels from end cushion to end cushion, in metres.
 
+    Parameters
+    ----------
+    table, ball
+        the length of the one and the diameter of the other, in metres, count.
+
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_distance(PoolTable(), Ball()) / INCH, 9)
     97.75
@@ -82,6 +87,13 @@ def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
 
     In m/s; it is twice the mean speed. The parameters are those of `table_speed`.
 
+    Parameters
+    ----------
+    lag_time
+        seconds from one end cushion until the ball stops just at the other.
+    distance
+        metres that its centre travels; by default the length of a nine-foot table.
+
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_speed(7.0) / INCH, 1)
     27.9
@@ -101,6 +113,13 @@ def roll_time(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_time(speed: Any, cloth: Cloth) -> Any:
     """Return how long a ball rolls until it stops, in seconds, from its speed in m/s.
 
+    Parameters
+    ----------
+    speed
+        of natural roll at the start, in m/s.
+    cloth
+        on which the ball rolls: its rolling resistance, and gravity in m/s^2.
+
     >>> round(roll_time(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     10.0
     """
@@ -116,6 +135,13 @@ def roll_distance(speed: float, cloth: Cloth) -> float: ...
 def roll_distance(speed: ArrayLike, cloth: Cloth) -> Floats: ...
 def roll_distance(speed: Any, cloth: Cloth) -> Any:
     """Return how far a ball rolls until it stops, in metres, from its speed in m/s.
+
+    Parameters
+    ----------
+    speed
+        of natural roll at the start, in m/s.
+    cloth
+        on which the ball rolls: its rolling resistance, and gravity in m/s^2.
 
     >>> round(roll_distance(1.0, Cloth(mu_roll=0.01, gravity=10.0)), 9)
     5.0

@@ -170,6 +170,11 @@ def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     In fuller hits the slip ends before the hit does, and tan(throw) = tan(cut) / 7. From here on
     the answer of P4.3, full throw at every cut, holds.
 
+    Parameters
+    ----------
+    mu
+        coefficient of friction between the balls.
+
     >>> round(math.degrees(full_throw_cut()), 2)
     21.25
     """
@@ -186,6 +191,11 @@ def gearing_side(cut: Any) -> Any:
     """Return the sidespin J_z that leaves no sideways slip, and so no throw (P4.26).
 
     The cut angle is in radians, to the left below 0.
+
+    Parameters
+    ----------
+    cut
+        cut angle in radians, to the left below 0.
 
     >>> round(gearing_side(math.radians(20.0)), 4)
     -0.342

@@ -70,6 +70,11 @@ def energy_share(stick_ratio: ArrayLike) -> Floats: ...
 def energy_share(stick_ratio: Any) -> Any:
     """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
 
+    Parameters
+    ----------
+    stick_ratio
+        mass of the stick over mass of the ball, such as 3 for 18 and 6 ounces.
+
     >>> energy_share(3.0), energy_share(1.0)
     (0.75, 1.0)
     """
@@ -111,6 +116,13 @@ def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
 def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
 def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     """Return the share of the energy of stick and forearm that goes into the ball (P3.3).
+
+    Parameters
+    ----------
+    stick_ratio
+        mass of the stick over mass of the ball, such as 3 for 18 and 6 ounces.
+    forearm_ratio
+        mass of the forearm over that of the ball, such as 6 for 36 ounces.
 
     >>> break_energy_share(3.0, 6.0)
     0.45
