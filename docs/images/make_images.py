@@ -25,24 +25,6 @@ from essentials_page import essentials_page  # noqa: E402
 from gallery_page import gallery_page  # noqa: E402
 from shown import SHOWN, Shown  # noqa: E402
 
-DECIMAL = re.compile(r"-?\d+\.\d+")
-PLACES = re.compile(r'( (?:d|x|y|points)="|translate\()([^")]*)')
-
-
-def short(svg: str) -> str:
-    """Return a picture in fewer bytes: to a twentieth of a point, without unused names."""
-
-    def rounded(found: re.Match[str]) -> str:
-        return found[1] + DECIMAL.sub(
-            lambda number: f"{float(number[0]):.1f}".removesuffix(".0"), found[2]
-        )
-
-    svg = re.sub(r"<metadata>.*?</metadata>\n?|<!--.*?-->\n?", "", svg, flags=re.DOTALL)
-    used = set(re.findall(r"#([\w.-]+)", svg))
-    svg = re.sub(r' id="([\w.-]+)"', lambda name: name[0] if name[1] in used else "", svg)
-    svg = PLACES.sub(rounded, svg).replace("DejaVuSans-", "f").replace("xlink:href", "href")
-    return re.sub(r"\s*\n\s*", "\n", svg)
-
 
 def drawing_functions(one: Shown) -> Iterator[tuple[str, str]]:
     """Yield module and name of each function that is said to draw a picture."""
@@ -88,10 +70,7 @@ def main() -> None:
     """Write every picture beside this file, and the page that shows them."""
     with desk() as place:
         for one in (one for group in SHOWN.values() for one in group):
-            made = make(one, place)
-            if one.name.endswith(".svg"):
-                made = short(made.decode()).encode()
-            (HERE / PurePath(one.name).name).write_bytes(made)
+            (HERE / PurePath(one.name).name).write_bytes(make(one, place))
         essentials = essentials_page()
         for name, draw in DOORS.items():
             (HERE / f"door_{name}.svg").write_text(draw(), encoding="utf-8", newline="\n")

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
+from evenbreak.plots.small_svg import small_svg
 
 Asked = ParamSpec("Asked")
 Drawn = TypeVar("Drawn")
@@ -89,4 +90,4 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
     metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
     with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
         whole.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
-    return out.getvalue()
+    return small_svg(out.getvalue().decode()).encode() if kind == "svg" else out.getvalue()
