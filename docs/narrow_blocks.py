@@ -19,6 +19,7 @@ BLOCK = re.compile(
 )
 OUTPUT = re.compile(r'<span class="go">(.*)</span>')
 OPTION = re.compile(r'<span class="pre">(?=--[a-z0-9-]{1,24}</span>)')
+GIVEN = re.compile(r"(?<=>)--[a-z0-9-]+")
 TAG = re.compile(r"<[^>]*>")
 
 
@@ -51,7 +52,8 @@ def _console(lines: list[str]) -> Iterator[str]:
             yield f'<span class="rows" style="--columns: {columns}">{text}\n</span>'
         else:
             for line, after in part:
-                yield line
+                given = not OUTPUT.fullmatch(line)
+                yield GIVEN.sub(r'<span class="option">\g<0></span>', line) if given else line
                 yield '<span class="joint">\n</span>' if _was_broken(line, after) else "\n"
 
 

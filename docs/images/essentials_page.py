@@ -34,7 +34,8 @@ PAGES = (
         "The director's evening",
         "Players are a CSV file with the columns <code>player</code> and <code>rating</code>; a "
         "rating may be missing. The evening is kept in <code>tonight.db</code>; leave out "
-        "<code>--at</code>, which sets the clock here.",
+        "<code>--at</code>, which sets the clock here. To run all of it from a phone, type "
+        "<b><code>evenbreak serve tonight.db --lan</code></b> and scan the code that it prints.",
         (
             Step("Begin: the list, the races, the tables", NEW, (0,)),
             Step("Make the draw", DRAW, (1,)),
@@ -52,7 +53,6 @@ PAGES = (
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
             ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
             ("Score cards, bracket or draw on paper", "tournament print cards"),
-            ("All of this on phones, and a screen for the wall", "serve tonight.db --lan"),
         ),
     ),
     Page(

@@ -37,6 +37,13 @@ Not everything is a picture:
 | the evening live, on phones and the screen | [`evenbreak serve`](how-to/a-page-for-phones-and-the-screen.md) |
 """  # noqa: E501
 
+PHONE = (
+    ("call", "Call the next matches", "The director's phone: which match goes to which table."),
+    ("match", "Keep your own score", "A player's phone: the score, and the chances as it goes on."),
+    ("tonight", "Tonight", "Everybody's phone: tables, the end of the evening, title odds."),
+)
+"""Pictures of the page, which `page_pictures.py` makes: name, title, words."""
+
 TEXT = """\
 ## The figures of the text
 
@@ -77,6 +84,16 @@ def _card(one: Shown) -> str:
     )
 
 
+def _on_a_phone() -> Iterator[str]:
+    """Yield the cards of the page's pictures."""
+    page = "tutorial/evening-by-page.md"
+    for name, title, says in PHONE:
+        yield (
+            ":::{container} picture\n"
+            f"[![{title}](images/page/{name}.png)]({page})\n\n[{title}]({page}). {says}\n:::\n"
+        )
+
+
 def _of_the_text() -> Iterator[str]:
     """Yield each figure of the text, in its order, with what `reports` says it shows."""
     for page in ("physics.md", "index.md"):
@@ -93,5 +110,6 @@ def gallery_page() -> str:
     for group, shown in SHOWN.items():
         parts += [f"## {group}\n", "::::{container} gallery\n"]
         parts += [*map(_card, shown), "::::\n"]
-    parts += [PAGES, TEXT, "::::{container} gallery small\n", *_of_the_text(), "::::\n"]
+    parts += [PAGES, "::::{container} gallery\n", *_on_a_phone(), "::::\n"]
+    parts += [TEXT, "::::{container} gallery small\n", *_of_the_text(), "::::\n"]
     return "\n".join(parts)
