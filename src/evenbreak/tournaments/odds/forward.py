@@ -101,16 +101,23 @@ def joined(parts: list[Floats]) -> Floats:
 
 def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
     """Return the probabilities of the states after a match."""
-    won, lost = split(step, mass, p)
-    return gathered(step, 0, won) + gathered(step, 1, lost)
+    won, whole = won_of(step, mass, p)
+    after = gathered(step, 0, won)
+    after += gathered(step, 1, np.subtract(whole, won, out=won))
+    return after
 
 
 def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
     """Return the probability of each state and a win of slot 1, and of slot 2."""
-    of_state = p if step.pair is None else p[step.pair]
-    won = mass[..., None] * of_state if of_state.ndim > mass.ndim else mass * of_state
-    whole = mass[..., None] if of_state.ndim > mass.ndim else mass
+    won, whole = won_of(step, mass, p)
     return won, whole - won
+
+
+def won_of(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
+    """Return the probability of each state and a win of slot 1, and that of each state."""
+    of_state = p if step.pair is None else p[step.pair]
+    whole = mass[..., None] if of_state.ndim > mass.ndim else mass
+    return whole * of_state, whole
 
 
 def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
