@@ -67,19 +67,20 @@ def kept(page: Any, file: Path, *, first: str = "", last: str = "") -> None:
     page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
     ends = [page.locator(one).first.bounding_box() for one in (first, last) if one]
     width, height = page.viewport_size["width"], page.viewport_size["height"]
-    top = ends[0]["y"] - 12 if first else 0.0
-    bottom = ends[-1]["y"] + ends[-1]["height"] + 12 if last else top + height
+    top = ends[0]["y"] - 7 if first else 0.0
+    bottom = ends[-1]["y"] + ends[-1]["height"] + 7 if last else top + height
     clip = {"x": 0, "y": top, "width": width, "height": bottom - top}
     drawn = Image.open(io.BytesIO(page.screenshot(full_page=True, clip=clip)))
     small = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
     small.save(file, optimize=True)
 
 
-def settled(page: Any, path: str) -> None:
-    """Open a page, and wait until its odds are those of the last entry."""
-    for _ in range(100):
-        page.goto(path, wait_until="domcontentloaded")
+def settled(page: Any, site: Site, path: str) -> None:
+    """Open a page once the odds are those of the last entry; *Tonight* says while they are not."""
+    for _ in range(300):
+        page.goto(f"{site.address}/", wait_until="domcontentloaded")
         if "worked out" not in page.inner_text("main"):
+            page.goto(f"{site.address}{path}", wait_until="domcontentloaded")
             return
         time.sleep(0.1)
     raise RuntimeError(f"{path}: the odds do not come")
@@ -91,20 +92,21 @@ def press(page: Any, button: Any) -> None:
         button.click()
 
 
-def result(page: Any, players: tuple[str, str], games: tuple[int, int]) -> None:
-    """Enter the result of a match that is on a table."""
+def result(page: Any, players: tuple[str, str], games: tuple[int, int]) -> Any:
+    """Type a result, and return the button that enters it."""
     one, other = (page.get_by_label(name) for name in players)
     form = page.locator("form.result:visible", has=one).filter(has=other)
     for name, won in zip(players, games, strict=True):
         form.get_by_label(name).fill(str(won))
-    press(page, form.get_by_role("button"))
+    return form.get_by_role("button")
 
 
-def call_all(page: Any) -> None:
+def call_all(page: Any, site: Site) -> None:
     """Call every match that has a table."""
+    settled(page, site, "/desk")
     while (call := page.get_by_role("button", name="Call", exact=True)).count():
         press(page, call.first)
-        settled(page, page.url)
+        settled(page, site, "/desk")
 
 
 def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
@@ -124,17 +126,18 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     press(desk, desk.get_by_role("button", name="Begin", exact=True))
     clock.at = "19:00"
     press(desk, desk.get_by_role("button", name="Make the draw"))
-    settled(desk, f"{site.address}/desk")
+    settled(desk, site, "/desk")
     kept(desk, folder / "call.png", first="h1", last="details")
 
     clock.at = "19:05"
-    call_all(desk)
+    call_all(desk, site)
     clock.at = "19:40"
-    result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (5, 4))
-    kept(desk, folder / "result.png", first=".said", last="section.card")
-    settled(desk, f"{site.address}/desk")
-    call_all(desk)
-    settled(desk, f"{site.address}/")
+    enter = result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (5, 4))
+    kept(desk, folder / "result.png", first="h2", last="section.card")
+    press(desk, enter)
+    kept(desk, folder / "said.png", first=".said", last=".said")
+    call_all(desk, site)
+    settled(desk, site, "/")
     kept(desk, folder / "tonight.png", first="h1", last="main")
 
     player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
@@ -145,17 +148,17 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
 
     clock.at = "20:15"
     desk.goto(f"{site.address}/desk")
-    result(desk, ("Ruben Castellan", "Fatou Ndiaye-Roy"), (5, 3))
+    press(desk, result(desk, ("Ruben Castellan", "Fatou Ndiaye-Roy"), (5, 3)))
     clock.at = "20:20"
     desk.goto(f"{site.address}/desk")
     desk.get_by_text("Correct a result").click()
-    result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5))
+    press(desk, result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5)))
     kept(desk, folder / "correct.png", first=".said", last=".said")
-    settled(desk, f"{site.address}/desk")
+    settled(desk, site, "/desk")
     press(desk, desk.get_by_role("button", name="Undo the last entry"))
 
     wall = browser.new_context(viewport=WALL).new_page()
-    settled(wall, f"{site.address}/screen")
+    settled(wall, site, "/screen")
     kept(wall, folder / "screen.png", last="h2:has-text('Who wins') + *")
 
 
