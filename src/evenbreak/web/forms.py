@@ -13,6 +13,10 @@ from evenbreak.web.sessions import check_form
 _MOST_FIELDS, _MOST_FILES = 60, 1
 _LONGEST = 200
 
+EVEN, FAIR = "even", "fair"
+RACES = {EVEN: "races_even", FAIR: "races_fair"}
+"""The races that are not those of a chart, with their words."""
+
 
 class Form:
     """The fields of a form.
@@ -29,9 +33,9 @@ class Form:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
-            raise RefusalError("refused_field", name=name)
+            raise RefusalError("refused_field", field=name)
         if len(value) > longest:
-            raise RefusalError("refused_long", name=name, longest=longest)
+            raise RefusalError("refused_long", field=name, longest=longest)
         return value.strip()
 
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
@@ -39,8 +43,10 @@ class Form:
         text = self.text(name)
         if not text and default is not None:
             return default
+        if not text:
+            raise RefusalError("refused_empty", field=name, low=low, high=high)
         if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
-            raise RefusalError("refused_whole", name=name, value=text, low=low, high=high)
+            raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
         return int(text)
 
     def key(self, *more: str) -> str | None:
@@ -62,7 +68,7 @@ class Form:
         """Return one of several words."""
         text = self.text(name)
         if text not in allowed:
-            raise RefusalError("refused_choice", name=name, value=text, allowed=", ".join(allowed))
+            raise RefusalError("refused_choice", field=name, value=text, allowed=", ".join(allowed))
         return text
 
 

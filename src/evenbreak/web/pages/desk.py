@@ -13,6 +13,8 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.tournament import races_words
 from evenbreak.answers.tournament_moves import (
     draw_words,
     event_words,
@@ -22,21 +24,26 @@ from evenbreak.answers.tournament_moves import (
     tie_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
+from evenbreak.answers.tournament_under_way import time_under_way
 from evenbreak.files.tournament_desk import authors, back_up, proposals
 from evenbreak.files.tournament_store import add_events, read_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
+from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of
-from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
+from evenbreak.web.words.sentences import in_language
 
 BY = "director's page"
+RACES_TO_CHANGE = ("race", "losers_race", "final_race")
 
 Decide = Callable[[Evening], Sequence[What]]
 Said = Callable[[Evening, Evening], Sequence[str]]
@@ -51,7 +58,7 @@ async def desk(request: Request) -> Response:
             return RedirectResponse("/team", status_code=303)
         raise RefusalError("refused_no_tournament", status=404)
     known = await site.night.outlook()
-    _, state = await asyncio.to_thread(site.night.state)
+    state = await asyncio.to_thread(site.night.state)
     shown: dict[str, Any] = {
         "view": view_of(state, known),
         "decided": [],
@@ -59,6 +66,7 @@ async def desk(request: Request) -> Response:
         "warnings": [],
         "tied": [],
         "drawable": False,
+        "changeable": _changeable(state),
     }
     if state.drawn:
         shown["decided"] = [name for name in state.counted if name in state.records]
@@ -70,6 +78,17 @@ async def desk(request: Request) -> Response:
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
     return page(request, "desk.html", live=False, **shown)
+
+
+def _changeable(state: Evening) -> dict[str, int]:
+    """Return what can be changed under way, with what it is now: the tables, and the races."""
+    plan = state.plan
+    found = {"tables": plan.tables}
+    if plan.chart is None and plan.form != "chips":
+        own = (plan.race, plan.losers_race or plan.race, plan.final_race or plan.race)
+        races = zip(RACES_TO_CHANGE, own, strict=True)
+        found |= {name: n for name, n in races if plan.form in FORMATS_WITH.get(name, FORMATS)}
+    return found
 
 
 async def _enter(request: Request, decide: Decide, said: Said, to: str = "/desk") -> Response:
@@ -164,6 +183,23 @@ async def drop(request: Request) -> Response:
     )
 
 
+async def change(request: Request) -> Response:
+    """Change the tables, or the races of the matches that have not begun."""
+    form = await _form(request)
+    tables = form.whole("tables", 0, 1000, default=0)
+    races = {name: form.whole(name, 0, 100, default=0) for name in RACES_TO_CHANGE}
+
+    def decide(state: Evening) -> list[What]:
+        asked = {name: n for name, n in ({"tables": tables} | races).items() if n}
+        return [moves.change(state, **asked)]
+
+    def said(_: Evening, after: Evening) -> list[str]:
+        words = in_language(language(request), races_words(after.races))
+        return [say(language(request), "changed", tables=after.plan.tables, races=words)]
+
+    return await _enter(request, decide, said)
+
+
 async def tiebreak(request: Request) -> Response:
     """Break the ties of a group whose matches are played."""
     await _form(request)
@@ -200,6 +236,23 @@ async def save(request: Request) -> Response:
     return done(request, "/desk", say(language(request), "saved", name=copy.name))
 
 
+async def time(request: Request) -> Response:
+    """Show when it ends, and what would change that."""
+    check_director(request)
+    site = site_of(request)
+    if not site.night.exists:
+        raise RefusalError("refused_no_tournament", status=404)
+    state = await asyncio.to_thread(site.night.state)
+    if not state.drawn:
+        raise RefusalError("refused_not_drawn", status=409)
+
+    def work() -> Answer:
+        return time_under_way(Outlook(state, site.clock()), source=site.path.stem)
+
+    answer = await site.night.beside.run(work)
+    return page(request, "time.html", answer=answer_shown(request, answer))
+
+
 async def history(request: Request) -> Response:
     """Show who entered what, and when."""
     check_director(request)
@@ -226,7 +279,7 @@ async def codes(request: Request) -> Response:
     site = site_of(request)
     shown = [("", site.address, _code(site.address))]
     if site.night.exists:
-        _, state = await asyncio.to_thread(site.night.state)
+        state = await asyncio.to_thread(site.night.state)
         for name in state.standing.to_play if state.drawn else ():
             to = f"{site.address}/m/{site.match_token(name)}"
             shown.append((f"{name}: {' – '.join(state.pair(name))}", to, _code(to)))
@@ -241,9 +294,10 @@ def _code(text: str) -> str:
 ROUTES = [
     Route("/desk", desk),
     Route("/desk/history", history),
+    Route("/desk/time", time),
     Route("/desk/codes", codes),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
-        for one in (draw, call, result, forfeit, drop, tiebreak, undo, save)
+        for one in (draw, call, result, forfeit, drop, change, tiebreak, undo, save)
     ),
 ]
