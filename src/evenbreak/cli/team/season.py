@@ -117,8 +117,8 @@ def command(
     played, ahead = files.read_team_results(results, known)
     warnings += played.warnings
     if schedule is not None:
-        if many := len(ahead.pairs):
-            left = count_of(many, "match without a score", "matches without a score")
+        if unplayed := len(ahead.pairs):
+            left = count_of(unplayed, "match without a score", "matches without a score")
             warnings.append(f"{results}: {left} left out; the schedule says what is to come")
         ahead = files.read_fixtures(schedule, known)
         warnings += ahead.warnings
