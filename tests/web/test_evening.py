@@ -137,6 +137,21 @@ def test_a_page_is_small_and_needs_nothing_from_elsewhere(standing_hall: Hall, p
     assert "//" not in shown.text.replace("http://127.0.0.1", "").split("</script>")[-1]
 
 
+def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
+    asked = {"match": ["W1.1", "W1.2", "W1.3"], "table": [1, 2, 3]}
+    for _ in range(2):  # a double tap
+        shown = hall.director.send("/desk/call", **asked)
+        assert shown.status == 200
+        assert all(f"Table {n}: W1.{n}, " in shown.words for n in (1, 2, 3))
+    assert {name: one.call.table for name, one in hall.state.on_tables.items()} == {
+        f"W1.{n}": n for n in (1, 2, 3)
+    }
+    for taken in ([4, 4], [3, 4]):  # none is called then
+        assert hall.director.send("/desk/call", match=["W1.4", "W1.5"], table=taken).status == 400
+    assert hall.director.send("/desk/call", match=["W1.4"], table=[]).status == 400
+    assert len(hall.state.on_tables) == 3
+
+
 def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
     at = "2025-03-01T20:00:00"
     add_events(hall.site.path, lambda state: [Event(at, moves.result(state, "W1.1", (3, 2)))])

@@ -38,16 +38,15 @@ class Form:
             raise RefusalError("refused_long", field=name, longest=longest)
         return value.strip()
 
+    def texts(self, name: str) -> list[str]:
+        """Return the texts of all fields of a name, without the blanks around them."""
+        given = self.fields.getlist(name)
+        return [Form(FormData([(name, one)])).text(name) for one in given]
+
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
         """Return a whole number between two others."""
         text = self.text(name)
-        if not text and default is not None:
-            return default
-        if not text:
-            raise RefusalError("refused_empty", field=name, low=low, high=high)
-        if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
-            raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
-        return int(text)
+        return default if not text and default is not None else whole(name, text, low, high)
 
     def key(self, *more: str) -> str | None:
         """Return what a form is known by if it comes in again; None if it has no number.
@@ -70,6 +69,19 @@ class Form:
         if text not in allowed:
             raise RefusalError("refused_choice", field=name, value=text, allowed=", ".join(allowed))
         return text
+
+
+def whole(name: str, text: str, low: int, high: int) -> int:
+    """Return the whole number in a field, between two others.
+
+    >>> whole("race", "7", 1, 100)
+    7
+    """
+    if not text:
+        raise RefusalError("refused_empty", field=name, low=low, high=high)
+    if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
+        raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
+    return int(text)
 
 
 async def form_of(request: Request) -> Form:

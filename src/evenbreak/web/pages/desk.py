@@ -29,13 +29,13 @@ from evenbreak.files.tournament_desk import authors, back_up, proposals
 from evenbreak.files.tournament_store import add_events, read_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, What
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
 from evenbreak.web.evening_view import view_of
-from evenbreak.web.forms import Form, form_of
+from evenbreak.web.forms import Form, form_of, whole
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
@@ -122,20 +122,36 @@ async def draw(request: Request) -> Response:
 
 
 async def call(request: Request) -> Response:
-    """Call a match to a table."""
+    """Call matches to tables."""
     form = await _form(request)
-    match, table = form.text("match"), form.whole("table", 0, 1000, default=0)
+    matches, tables = form.texts("match"), form.texts("table")
+    if len(matches) != len(tables):
+        raise RefusalError("refused_calls")
+    calls = {
+        name: whole("table", table, 1, 1000) for name, table in zip(matches, tables, strict=True)
+    }
 
     def decide(state: Evening) -> list[What]:
-        on = state.on_tables.get(match)
-        if on is not None and table in (0, on.call.table):
-            return []  # the same tap again
-        return [moves.call(state, match, table or None)]
+        called: list[What] = []
+        for match, table in calls.items():
+            on = state.on_tables.get(match)
+            if on is None or on.call.table != table:  # else it is the same tap again
+                called.append(moves.call(state, match, table))
+                state = evening([*state.events, Event(site_of(request).clock(), called[-1])])
+        return called
 
     def said(_: Evening, after: Evening) -> list[str]:
-        one = after.on_tables[moves.known_match(after, match)].call
-        names = " – ".join(one.players)
-        return [say(language(request), "called", match=one.match, names=names, table=one.table)]
+        found = [after.on_tables[moves.known_match(after, match)].call for match in calls]
+        return [
+            say(
+                language(request),
+                "called",
+                match=one.match,
+                names=" – ".join(one.players),
+                table=one.table,
+            )
+            for one in found
+        ]
 
     return await _enter(request, decide, said)
 
