@@ -21,6 +21,7 @@ from evenbreak.web.page import language, own_file, page, reason, script_hash
 from evenbreak.web.pages import (
     bracket,
     desk,
+    desk_extras,
     entry,
     fair,
     home,
@@ -62,6 +63,7 @@ def make_app(site: Site) -> Starlette:
             *screen.ROUTES,
             *match.ROUTES,
             *desk.ROUTES,
+            *desk_extras.ROUTES,
             *entry.ROUTES,
             *team.ROUTES,
             *team_moves.ROUTES,
