@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+import xlsxwriter
 
 from evenbreak.errors import DataError
 from evenbreak.files.entrants import read_entrants, roster_of_entrants
@@ -38,8 +39,43 @@ def test_a_name_with_a_comma_is_a_name(written):
 
 
 @pytest.mark.parametrize(
+    ("text", "names", "ratings"),
+    [
+        ("Ann Lee,92\nBo Diaz;71,5\nCy\n", ("Ann Lee", "Bo Diaz", "Cy"), [92, 71.5, np.nan]),
+        ("Ann Lee 92\nBo\t71\n", ("Ann Lee", "Bo"), [92, 71]),
+        ("Ann Lee 92\nBo 71\n", ("Ann Lee", "Bo"), [92, 71]),
+        ("Ann Lee 612\nBo\n", ("Ann Lee", "Bo"), [612, np.nan]),
+        ("Player 1\nPlayer 2\n", ("Player 1", "Player 2"), [np.nan, np.nan]),
+        ("Player 101\nPlayer 102\n", ("Player 101", "Player 102"), [np.nan, np.nan]),
+        ("Ann Lee,\nBo,\n", ("Ann Lee", "Bo"), [np.nan, np.nan]),
+    ],
+)
+def test_ratings_may_follow_the_names(written, text, names, ratings):
+    found = read_entrants(written(text))
+    assert found.roster.players == names
+    assert found.roster.rating.tolist() == pytest.approx(ratings, nan_ok=True)
+    split = "612" in text or "Lee 92" in text
+    assert ("is read as" in " ".join(found.warnings)) == split
+
+
+def test_a_workbook_of_entrants(tmp_path):
+    with xlsxwriter.Workbook(tmp_path / "entrants.xlsx") as book:
+        sheet = book.add_worksheet()
+        sheet.write_row(0, 0, ["Player", "Rating"])
+        sheet.write_row(1, 0, ["Ann Lee", 612])
+        sheet.write_row(2, 0, ["Bo"])
+    assert read_entrants(tmp_path / "entrants.xlsx").roster.players == ("Ann Lee", "Bo")
+
+
+@pytest.mark.parametrize(
     ("text", "line"),
-    [("Ann Lee\nann  lee\n", 2), ("Ann Lee,92\n", 1), ("player,rating\nAnn,high\n", 2)],
+    [
+        ("Ann Lee\nann  lee\n", 2),
+        ("Ann Lee,92,7\n", 1),
+        ("Spieler,Wertung\nAnn,92\n", 1),
+        ("Ann 92\nBo,x\nCy 61\nDi,3", 2),
+        ("player,rating\nAnn,high\n", 2),
+    ],
 )
 def test_what_cannot_be_meant_is_refused_with_its_line(written, text, line):
     with pytest.raises(DataError, match=f"entrants.txt:{line}: "):

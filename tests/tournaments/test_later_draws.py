@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers import tournament_night
+from evenbreak.answers.tournament_moves import happened
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.evening import moves
@@ -99,8 +100,10 @@ def test_a_correction_leaves_the_rounds_that_were_paired() -> None:
     night.play_round()
     night.draw()
     before = night.state.bracket
-    first = night.state.counted["R1.1"]
+    first, earlier = night.state.counted["R1.1"], night.state
     night.add(moves.correct(night.state, "R1.1", first.score[::-1]))
+    said = happened(earlier, night.state, night.state.events[-1])
+    assert "Round 2 was paired by the result as it stood before" in " ".join(said)
     assert night.state.bracket == before
     assert night.state.counted["R1.1"].winner == first.loser
     ahead = Outlook(night.state, AT)

@@ -34,6 +34,7 @@ def begun(director: Phone, players: list[str], **plan: object) -> None:
     asked = {
         "entrants": "\n".join(["player,rating", *rows]),
         "format": "double",
+        "races": "even",
         "race": 3,
         "losers_race": 2,
         "tables": 4,

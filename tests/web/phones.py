@@ -67,7 +67,7 @@ class Phone:
 
     def send_raw(self, path: str, fields: Mapping[str, object], **headers: str) -> Shown:
         """Send just these fields."""
-        body = urllib.parse.urlencode(fields).encode()
+        body = urllib.parse.urlencode(fields, doseq=True).encode()
         asked = urllib.request.Request(self.site.address + path, body, headers)  # noqa: S310
         return self._get(asked)
 

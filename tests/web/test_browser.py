@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.tournament_store import add_events
+from evenbreak.files.tournament_store import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from web.chromium import opened
@@ -22,7 +22,7 @@ axe_api = pytest.importorskip(
 
 PAGES = ("/", "/bracket", "/fair?a=Player+1&b=560&race=7", "/screen", "/pin", "/desk", "/new")
 MORE_PAGES = ("/players", "/prizes?fee=10", "/league")
-DESK_PAGES = ("/desk/codes", "/desk/history", "/nowhere")
+DESK_PAGES = ("/desk/codes", "/desk/history", "/desk/time", "/nowhere")
 AT = "2025-03-01T20:00:00"
 
 
@@ -106,6 +106,27 @@ def test_the_keyboard_alone_enters_a_result(browser: Any, hall: Hall) -> None:
     page.wait_for_selector(".said")
     assert hall.state.counted["W1.1"].score == (3, 0)
     page.context.close()
+
+
+def test_a_form_shows_and_sends_what_its_format_has(browser: Any, tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        page = opened(browser, site)
+        page.goto(f"{site.address}/new")
+        page.fill("[name=entrants]", "Ann,612\nBo,540\nCy 500\nDi 480")
+        page.fill("[name=losers_race]", "2")
+        assert not page.is_visible("[name=chips]")
+        page.select_option("[name=format]", "single")
+        assert not page.is_visible("[name=losers_race]")
+        page.click("summary")
+        page.check("[name=third_place]")
+        page.select_option("[name=races]", "fargo_r6_hot")
+        assert not page.is_visible("[name=race]")
+        page.click("text=Begin >> nth=-1")
+        page.wait_for_url("**/desk")
+        plan = read_tournament(site.path).plan
+        assert (plan.form, plan.losers_race, plan.third_place) == ("single", None, True)
+        assert plan.chart.name == "fargo_r6_hot"
+        page.context.close()
 
 
 def test_without_scripts_a_phone_scores_and_the_director_confirms(browser: Any, hall: Hall) -> None:

@@ -18,8 +18,8 @@ from evenbreak.files.tournament_store import (
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
-from web.conftest import PLAYERS, Hall, begun
-from web.phones import Phone, running
+from web.conftest import Hall
+from web.phones import Phone
 
 Decide = Callable[[Evening], object]
 
@@ -137,6 +137,21 @@ def test_a_page_is_small_and_needs_nothing_from_elsewhere(standing_hall: Hall, p
     assert "//" not in shown.text.replace("http://127.0.0.1", "").split("</script>")[-1]
 
 
+def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
+    asked = {"match": ["W1.1", "W1.2", "W1.3"], "table": [1, 2, 3]}
+    for _ in range(2):  # a double tap
+        shown = hall.director.send("/desk/call", **asked)
+        assert shown.status == 200
+        assert all(f"Table {n}: W1.{n}, " in shown.words for n in (1, 2, 3))
+    assert {name: one.call.table for name, one in hall.state.on_tables.items()} == {
+        f"W1.{n}": n for n in (1, 2, 3)
+    }
+    for taken in ([4, 4], [3, 4]):  # none is called then
+        assert hall.director.send("/desk/call", match=["W1.4", "W1.5"], table=taken).status == 400
+    assert hall.director.send("/desk/call", match=["W1.4"], table=[]).status == 400
+    assert len(hall.state.on_tables) == 3
+
+
 def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
     at = "2025-03-01T20:00:00"
     add_events(hall.site.path, lambda state: [Event(at, moves.result(state, "W1.1", (3, 2)))])
@@ -159,27 +174,3 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
     assert "128.00 for the winner" in shown
     assert hall.guest.open("/prizes", fee="-1").status == 400
     assert hall.guest.open("/prizes", fee="9", payout="all mine").status == 400
-
-
-@pytest.mark.parametrize("kind", ["chips", "swiss", "groups", "consolation", "king-of-the-hill"])
-def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
-    if kind == "swiss":
-        pytest.importorskip("caissify_pairings", reason="pairings of a Swiss need evenbreak[swiss]")
-    with running(tmp_path / "tonight.db") as site:
-        director = Phone(site, director=True)
-        begun(director, PLAYERS[:6], format=kind, losers_race="", chips="hoboken")
-        assert read_tournament(site.path).standing.to_play
-        shown = director.open("/desk").words
-        assert "Table" in shown
-
-
-def test_races_of_sides_that_a_format_does_not_have_are_refused(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
-        director = Phone(site, director=True)
-        asked = {"entrants": "Ann\nBo", "race": 3, "tables": 1, "discipline": "9-ball"}
-        asked |= {"seeding": "listed", "scale": "fargo"}
-        shown = director.send("/new", format="single", losers_race=2, **asked)
-        assert shown.status == 400
-        assert "no losers' side" in shown.words
-        assert director.send("/new", format="swiss", final_race=2, **asked).status == 400
-        assert not site.path.exists()

@@ -128,6 +128,7 @@ def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
             "/new",
             entrants=f"{one}\n{other}\nNew Ned",
             format="single",
+            races="even",
             scale="npl",
             league="yes",
             **asked,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.scale_words import NAMES
 from evenbreak.ratings.scale import Scale
@@ -16,6 +16,9 @@ USUAL = {"npl": (20, 130), "fargo": (200, 850)}
 
 FAR = 3.0
 """Doublings of the odds; the average of a league is nearer to the middle of its scale."""
+
+SCALE_OFF = 0.25
+"""How much the scale that a chart fits best may differ from that of the ratings."""
 
 APART = 6.0
 """Doublings of the odds; every player is nearer to the average of the league: 64 games to 1."""
@@ -140,4 +143,24 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         f"new players start at {scale.centre:g}, the middle of the "
         f"{NAMES.get(scale.name, scale.name)} scale, but the other ratings go from {least:g} to "
         f"{most:g}; give the rating of a new player with --starter"
+    ]
+
+
+def chart_doubts(chart: Any, scale: Scale) -> list[str]:
+    """Return a warning if the races of a chart fit another scale than that of the ratings.
+
+    What is not a chart of rating differences is not doubted.
+    """
+    from evenbreak.handicaps.charts.audit import audit
+    from evenbreak.handicaps.charts.chart import Chart
+
+    if not isinstance(chart, Chart):
+        return []
+    best, own = audit(chart, scale=scale).best_fit, scale.points_per_doubling
+    if best is None or abs(best.points_per_doubling / own - 1.0) <= SCALE_OFF:
+        return []
+    return [
+        f"the races of {chart.name} fit a scale on which about {best.points_per_doubling:.0f} "
+        f"points double the odds, but here {own:.4g} do; make sure that it is the chart for these "
+        "ratings"
     ]

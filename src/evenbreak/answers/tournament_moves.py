@@ -46,7 +46,22 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
     said = [f"{score_words(result)} in {result.match}."]
     if any(_leads_on(after, result.match)):
         said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
+    if result.corrects and after.plan.form == "swiss":
+        said += _kept_rounds(after, result.match)
     return [*said, *reopened(before, after, result.match)]
+
+
+def _kept_rounds(state: Evening, match: str) -> list[str]:
+    """Return which rounds of a Swiss had been paired with the result that was corrected."""
+    first = int(match[1:].partition(".")[0]) + 1
+    last = len(state.later)
+    if last < first:
+        return []
+    which = f"Round {first} was" if first == last else f"Rounds {first} to {last} were"
+    return [
+        f"{which} paired by the result as it stood before; the pairings stay as they are, and the "
+        "standings count the corrected result."
+    ]
 
 
 def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:

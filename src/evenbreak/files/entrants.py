@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,14 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import DataError
-from evenbreak.files.encoding import content_of, text_of
-from evenbreak.files.header import Header
 from evenbreak.files.known_names import KnownNames
-from evenbreak.files.player_names import clean_name, same_name
-from evenbreak.files.problems import Problems, quoted
+from evenbreak.files.problems import quoted
 from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
-from evenbreak.files.similar_names import similar_name_warnings, similar_names
-from evenbreak.files.text_table import read_table
+from evenbreak.files.typed_list import read_players
 from evenbreak.ratings.roster import Roster
 
 if TYPE_CHECKING:
@@ -29,17 +23,15 @@ if TYPE_CHECKING:
 PLAYER = {"player": REQUIRED["player"]}
 MORE = {"rating": REQUIRED["rating"], **OPTIONAL, **WRITTEN}
 
-_RATED = re.compile(r"[,;\t]\s*[-+]?[0-9]+([.,][0-9]+)?\s*$")
-"""The end of a line that has a rating after the name."""
-
 APART = 0.5
 """Points by which an entrant's stated rating may differ from the league's without a warning."""
 
 
 def read_entrants(path: str | Path) -> RosterFile:
-    r"""Read who has entered: a name on each line, or a CSV file with the columns of a roster.
+    r"""Read who has entered: a player on each line, or a table with the columns of a roster.
 
-    Lines without a name are skipped. In a CSV file all columns but the name may be missing.
+    A line is a name, or a name and a rating, such as `Ann Lee,612`; lines without a name are
+    skipped. In a table all columns but the name may be missing.
 
     Raises
     ------
@@ -50,49 +42,13 @@ def read_entrants(path: str | Path) -> RosterFile:
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "entrants.txt"
-    ...     _ = path.write_text("Ann Lee\n\n Bo  Diaz\n")
+    ...     _ = path.write_text("Ann Lee,612\n\n Bo  Diaz\n")
     ...     read_entrants(path).roster.players
     ('Ann Lee', 'Bo Diaz')
     """
     if str(path) == "-":
         raise DataError(["the entrants cannot come from standard input; name a file"])
-    source, content = content_of(path)
-    text = text_of(content, source)
-    lines = text.body.decode(text.encoding).splitlines()
-    if _has_header(lines):
-        return roster_of(read_table(path, PLAYER, MORE, rows="players"))
-    names: dict[str, tuple[int, str]] = {}
-    problems = Problems(source)
-    for number, line in enumerate(lines, 1):
-        name = clean_name(line)
-        first, _ = names.setdefault(same_name(name), (number, name))
-        if _RATED.search(line):
-            problems.add(
-                number, f"{quoted(name)} has a rating; write player,rating as the first line"
-            )
-        elif name and first != number:
-            problems.add(number, f"{quoted(name)} is already in line {first}; delete one of them")
-    names.pop("", None)
-    problems.raise_any()
-    listed = [name for _, name in names.values()]
-    similar = similar_name_warnings(similar_names(listed), source, "if so, keep one of them")
-    return RosterFile(
-        Roster(listed, np.full(len(listed), np.nan)),
-        np.array([number for number, _ in names.values()]),
-        source,
-        (*text.warnings, *similar),
-        hashlib.sha256(content).hexdigest(),
-    )
-
-
-def _has_header(lines: Sequence[str]) -> bool:
-    """Return whether the first line that is not empty has a title by which players are known."""
-    first = next((line for line in lines if line.strip()), "")
-    header = Header(PLAYER, MORE, {})
-    return any(
-        "player" in header.places(first.split(separator), 1, Problems(""))[0]
-        for separator in ",;\t"
-    )
+    return roster_of(read_players(path, PLAYER, MORE))
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from evenbreak.files.cells import numbers
 from evenbreak.files.player_names import clean_name
 from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
 from evenbreak.files.text_table import TextTable, read_table
+from evenbreak.files.typed_list import read_players
 
 _LEVELS = ("skill level", "handicap", "sl")
 COLUMNS = {"player": (*REQUIRED["player"], "team player")}
@@ -57,7 +58,8 @@ class TeamList:
 def read_team(path: str | Path) -> TeamList:
     r"""Read a team from a CSV file with the columns player, rating and level.
 
-    Either of rating and level may be missing. Other columns are those of a roster.
+    Either of rating and level may be missing. Other columns are those of a roster. Without a
+    header, each line is a name and the rating and the level if they are known.
 
     Raises
     ------
@@ -73,7 +75,7 @@ def read_team(path: str | Path) -> TeamList:
     >>> team.file.roster.rating, team.levels
     (array([612., 540.]), array([6., 5.]))
     """
-    return _team_of(read_table(path, COLUMNS, MORE, rows="players"))
+    return _team_of(read_players(path, COLUMNS, MORE, numbers=("rating", "level")))
 
 
 def read_squads(path: str | Path) -> dict[str, TeamList]:

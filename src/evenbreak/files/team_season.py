@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import compress
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.player_names import clean_name, same_name
 from evenbreak.files.problems import quoted
@@ -49,6 +52,11 @@ class TeamMatches:
     scores: Ints
     rounds: tuple[str, ...]
     warnings: tuple[str, ...]
+
+    def among(self, rows: NDArray[np.bool_]) -> TeamMatches:
+        """Return the matches in some rows."""
+        rounds = tuple(compress(self.rounds, rows))
+        return replace(self, pairs=self.pairs[rows], scores=self.scores[rows], rounds=rounds)
 
 
 @dataclass
@@ -106,8 +114,10 @@ def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
     return TeamNames(found.names, fixed=True), np.nan_to_num(points), table.warnings
 
 
-def read_team_results(path: str | Path, teams: TeamNames) -> TeamMatches:
-    r"""Read the matches that have been played: home, away and the sets that each won.
+def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, TeamMatches]:
+    r"""Read the matches that have been played, with the sets that each team won, and the others.
+
+    A match without a score, or with 0:0, has not been played.
 
     Raises
     ------
@@ -117,20 +127,26 @@ def read_team_results(path: str | Path, teams: TeamNames) -> TeamMatches:
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "results.csv"
-    ...     _ = path.write_text("home,away,home_score,away_score\nAcers,Bankers,3,2\n")
-    ...     played = read_team_results(path, TeamNames([]))
-    >>> played.pairs.tolist(), played.scores.tolist()
-    ([[0, 1]], [[3, 2]])
+    ...     rows = "home,away,home_score,away_score\nAcers,Bankers,3,2\nBankers,Acers,,\n"
+    ...     _ = path.write_text(rows)
+    ...     played, to_come = read_team_results(path, TeamNames([]))
+    >>> played.pairs.tolist(), played.scores.tolist(), to_come.pairs.tolist()
+    ([[0, 1]], [[3, 2]], [[1, 0]])
     """
     table = read_table(path, {**PAIR, **SCORES}, ROUND, rows="matches")
-    both = [whole_numbers(table, name) for name in SCORES]
-    scores = np.stack([one.values for one in both], axis=1)
-    if all(name in table for name in SCORES):
-        none = np.flatnonzero((scores.sum(axis=1) == 0) & both[0].good & both[1].good)
-        table.problems.add_rows(
-            table.lines, none, lambda _: "the score is 0:0; leave out matches not played"
-        )
-    return _matches(table, teams, scores)
+    home, away = (whole_numbers(table, name, may_be_empty=True) for name in SCORES)
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero(home.stated != away.stated),
+        lambda _: "one score is empty; write both, or neither where the match was not played",
+    )
+    scores = np.stack([home.values, away.values], axis=1)
+    unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
+    every = _matches(table, teams, scores)
+    if unplayed.all():
+        raise DataError([f"{table.source}: no match in it has been played; fill in the scores"])
+    to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
+    return every.among(~unplayed), replace(to_come, warnings=())
 
 
 def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:

@@ -26,8 +26,17 @@ CREATE TABLE event (
 """
 
 
-def new_tournament(path: str | Path, events: Sequence[Event]) -> Evening:
+def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
     """Write the first events of a tournament to a new file, or to that of a team night.
+
+    Parameters
+    ----------
+    path
+        the file.
+    events
+        what has happened so far.
+    in_place_of
+        how many events the tournament has that this one takes the place of; 0: there is none.
 
     Raises
     ------
@@ -48,8 +57,10 @@ def new_tournament(path: str | Path, events: Sequence[Event]) -> Evening:
     """
     state = evening(events)
     with begun(path) as base:
-        if has_table(base, TOURNAMENT):
+        if _count(base) != in_place_of:
             raise DataError([f"{path} is there already; give the new tournament another name"])
+        for table in (TOURNAMENT, "author", "proposal"):
+            base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         _write(base, 0, events)
     return state
@@ -109,6 +120,13 @@ def add_events(
         if by:
             _sign(base, len(earlier), len(added), by)
     return before, after
+
+
+def _count(base: sqlite3.Connection) -> int:
+    """Return how many events a file has."""
+    if not has_table(base, TOURNAMENT):
+        return 0
+    return int(base.execute("SELECT COUNT(*) FROM event").fetchone()[0])
 
 
 def _sign(base: sqlite3.Connection, count: int, added: int, by: str) -> None:

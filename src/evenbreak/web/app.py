@@ -17,10 +17,11 @@ from starlette.routing import Route
 from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
-from evenbreak.web.page import language, own_file, page, script_hash
+from evenbreak.web.page import language, own_file, page, reason, script_hash
 from evenbreak.web.pages import (
     bracket,
     desk,
+    desk_extras,
     entry,
     fair,
     home,
@@ -62,6 +63,7 @@ def make_app(site: Site) -> Starlette:
             *screen.ROUTES,
             *match.ROUTES,
             *desk.ROUTES,
+            *desk_extras.ROUTES,
             *entry.ROUTES,
             *team.ROUTES,
             *team_moves.ROUTES,
@@ -128,12 +130,11 @@ async def _style(_: Request) -> Response:
 
 async def _refused(request: Request, error: Exception) -> Response:
     assert isinstance(error, RefusalError)  # noqa: S101
-    words = say(language(request), error.key, **error.values)
-    return page(request, "refused.html", status=error.status, why=words)
+    return page(request, "refused.html", status=error.status, why=reason(request, error))
 
 
 async def _wrong(request: Request, error: Exception) -> Response:
-    return page(request, "refused.html", status=400, why=str(error))
+    return page(request, "refused.html", status=400, why=reason(request, error))
 
 
 async def _http(request: Request, error: Exception) -> Response:

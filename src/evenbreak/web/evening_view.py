@@ -103,7 +103,7 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
     if not state.drawn:
         return EveningView(state, _races(state), [], [], [], [], None, [], [], False)
     data: dict[str, Any] = known.data if known else {}
-    older = known is None or known.version < len(state.events)
+    older = known is None or known.of is not state
     called = {name: table for table, name in known.calls} if known and not older else {}
     playing: list[MatchView] = []
     calls: list[MatchView] = []

@@ -13,6 +13,10 @@ from evenbreak.web.sessions import check_form
 _MOST_FIELDS, _MOST_FILES = 60, 1
 _LONGEST = 200
 
+EVEN, FAIR = "even", "fair"
+RACES = {EVEN: "races_even", FAIR: "races_fair"}
+"""The races that are not those of a chart, with their words."""
+
 
 class Form:
     """The fields of a form.
@@ -29,19 +33,20 @@ class Form:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
-            raise RefusalError("refused_field", name=name)
+            raise RefusalError("refused_field", field=name)
         if len(value) > longest:
-            raise RefusalError("refused_long", name=name, longest=longest)
+            raise RefusalError("refused_long", field=name, longest=longest)
         return value.strip()
+
+    def texts(self, name: str) -> list[str]:
+        """Return the texts of all fields of a name, without the blanks around them."""
+        given = self.fields.getlist(name)
+        return [Form(FormData([(name, one)])).text(name) for one in given]
 
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
         """Return a whole number between two others."""
         text = self.text(name)
-        if not text and default is not None:
-            return default
-        if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
-            raise RefusalError("refused_whole", name=name, value=text, low=low, high=high)
-        return int(text)
+        return default if not text and default is not None else whole(name, text, low, high)
 
     def key(self, *more: str) -> str | None:
         """Return what a form is known by if it comes in again; None if it has no number.
@@ -62,8 +67,21 @@ class Form:
         """Return one of several words."""
         text = self.text(name)
         if text not in allowed:
-            raise RefusalError("refused_choice", name=name, value=text, allowed=", ".join(allowed))
+            raise RefusalError("refused_choice", field=name, value=text, allowed=", ".join(allowed))
         return text
+
+
+def whole(name: str, text: str, low: int, high: int) -> int:
+    """Return the whole number in a field, between two others.
+
+    >>> whole("race", "7", 1, 100)
+    7
+    """
+    if not text:
+        raise RefusalError("refused_empty", field=name, low=low, high=high)
+    if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
+        raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
+    return int(text)
 
 
 async def form_of(request: Request) -> Form:

@@ -17,6 +17,7 @@ from typing import Any
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
 from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
 from evenbreak.files.tournament_store import read_events
+from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.title import PlaceOdds
@@ -37,8 +38,8 @@ class Known:
 
     Parameters
     ----------
-    version
-        the number of events in that state.
+    of
+        that state.
     at
         when, in seconds of the event loop's clock.
     data
@@ -52,7 +53,7 @@ class Known:
         start; only of players who may still play.
     """
 
-    version: int
+    of: Evening
     at: float
     data: dict[str, Any]
     calls: list[tuple[int, str]]
@@ -76,7 +77,7 @@ class Night:
         self.path = path
         self.clock = clock
         self.known: Known | None = None
-        self._read: tuple[tuple[int, int, int], int, Evening] | None = None
+        self._read: tuple[tuple[int, int, int], list[Event], Evening] | None = None
         self._begun = False
         self._work: asyncio.Task[None] | None = None
         self.beside = Beside()
@@ -87,40 +88,45 @@ class Night:
         self._begun = self._begun or holds(self.path, TOURNAMENT)
         return self._begun and self.path.exists()
 
-    def state(self) -> tuple[int, Evening]:
-        """Return the number of events, and the state after them."""
+    @property
+    def begun_at(self) -> str:
+        """When the tournament was begun; '' if there is none."""
+        return self.state().events[0].at if self.exists else ""
+
+    def state(self) -> Evening:
+        """Return the state of the evening: the same object until something happens."""
         mark = mark_of(self.path)
         if self._read is None or self._read[0] != mark:
             events = read_events(self.path)
-            if self._read is None or self._read[1] != len(events):
-                self._read = mark, len(events), evening(events)
-            else:
-                self._read = mark, *self._read[1:]
-        return self._read[1:]
+            same = self._read is not None and self._read[1] == events
+            state = self._read[2] if self._read and same else evening(events)
+            self._read = mark, events, state
+        return self._read[2]
 
     async def outlook(self) -> Known | None:
         """Return what is known of the odds and the finish; None: not yet, or no draw."""
-        version, state = await asyncio.to_thread(self.state)
+        state = await asyncio.to_thread(self.state)
         if not state.drawn:
             return None
         clock = asyncio.get_running_loop().time()
-        fresh = self.known and self.known.version == version and clock - self.known.at < _STALE
+        fresh = self.known and self.known.of is state and clock - self.known.at < _STALE
         if not fresh:
             if self._work is None or self._work.done():
-                self._work = asyncio.create_task(self._work_out(version, state))
+                self._work = asyncio.create_task(self._work_out(state))
             await asyncio.wait({self._work}, timeout=_WAIT)
             if self._work.done():
                 self._work.result()  # raises what went wrong
-        return self.known
+        same_tournament = self.known and self.known.of.events[0] == state.events[0]
+        return self.known if same_tournament else None
 
-    async def _work_out(self, version: int, state: Evening) -> None:
+    async def _work_out(self, state: Evening) -> None:
         def work() -> Known:
             night = Outlook(state, self.clock())
             data = night_answer(night).to_dict()
             to_play = bool(state.standing.to_play)
             calls = next_calls(night) if to_play else []
             starts = _next_starts(night) if to_play else {}
-            return Known(version, 0.0, data, calls, begun_at(night), night.odds, starts)
+            return Known(state, 0.0, data, calls, begun_at(night), night.odds, starts)
 
         found = await self.beside.run(work)
         clock = asyncio.get_running_loop().time()

@@ -15,9 +15,11 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
+from evenbreak.web.forms import Form
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
-from evenbreak.web.words import LANGUAGES, language_of, say
+from evenbreak.web.words import LANGUAGES, catalogue, language_of, say
 from evenbreak.web.words.sentences import answer_in_language, in_language
 
 _LANGUAGE = "language"
@@ -124,6 +126,25 @@ def page(
         )
     )
     return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+
+
+def asked_again(
+    request: Request, template: str, form: Form, why: Exception, **values: Any
+) -> Response:
+    """Return a form that was refused as it was filled in, with the reason above it."""
+    entered = {name: text for name, text in form.fields.items() if isinstance(text, str)}
+    words = reason(request, why)
+    return page(request, template, status=400, entered=entered, why=words, **values)
+
+
+def reason(request: Request, why: Exception) -> str:
+    """Return why something is refused, in the reader's language."""
+    if isinstance(why, RefusalError):
+        values, words = dict(why.values), catalogue(language(request))
+        if "field" in values:
+            values["field"] = words.get(f"field_{values['field']}", values["field"])
+        return say(language(request), why.key, **values)
+    return in_language(language(request), str(why))
 
 
 def answer_shown(request: Request, answer: Answer) -> Markup:

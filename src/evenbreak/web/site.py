@@ -89,16 +89,19 @@ class Site:
 
     def captain_lot(self, night: int, team: int, number: int) -> str:
         """Return by what is drawn for a captain, if it is best to draw; a set has the same lot."""
-        return self.match_token(f"lot {night} {team} {number}")
+        return self._token(f"lot {night} {team} {number}")
 
     def captain_mark(self, night: int, team: int, again: int = 0) -> str:
         """Return what the session of a captain holds; with `again`, what their PIN is made of."""
-        return self.match_token(f"captain {night} {team} {again}")
+        return self._token(f"captain {night} {team} {again}")
 
     def match_token(self, match: str) -> str:
-        """Return the token by which a match is scored."""
+        """Return the token by which a match of this tournament is scored."""
+        return self._token(f"{self.night.begun_at} {match}")
+
+    def _token(self, what: str) -> str:
         key = self._secrets["match"].encode()
-        return hmac.new(key, match.encode(), hashlib.sha256).hexdigest()[:20]
+        return hmac.new(key, what.encode(), hashlib.sha256).hexdigest()[:20]
 
     def match_of(self, token: str, matches: list[str]) -> str | None:
         """Return the match that a token is for."""

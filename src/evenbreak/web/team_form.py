@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from codecs import BOM_UTF8
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +16,7 @@ from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
-from evenbreak.web.forms import Form
+from evenbreak.web.forms import FAIR, RACES, Form
 from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
@@ -35,14 +34,9 @@ ORDERS = {
 COUNT_WORDS = dict(zip(COUNTS, ("count_sets", "count_games", "count_points"), strict=True))
 """What decides the night, with its words."""
 
-EVEN, FAIR = "even", "fair"
-RACES = {EVEN: "races_even", FAIR: "races_fair"}
-"""The races that are not those of a chart, with their words."""
-
 MOST_SETS, LONGEST_RACE = 25, 100
 _NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
 _AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
-_ROW = re.compile(r"[^,;\t]*[^,;\t\d][^,;\t]*([,;\t])\s*\d*(\.\d+)?\s*(\1\s*\d*(\.\d+)?\s*)?")
 
 
 async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
@@ -92,33 +86,9 @@ async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
 def _read(content: bytes, name: str) -> TeamList:
     """Read the players of a team; the problems of the list name the team."""
     try:
-        return read_upload(with_header(content), read_team)
+        return read_upload(content, read_team)
     except DataError as error:
         raise DataError([f"{name}: {problem}" for problem in error.problems]) from None
-
-
-def with_header(content: bytes) -> bytes:
-    r"""Return a list with a header, if it begins with a player at once.
-
-    >>> with_header(b"Ann Lee,612\nBo,540").decode().split()[0]
-    'player,rating'
-    >>> with_header(b"Ann;612;6").decode().split()[0]
-    'player;rating;level'
-    >>> with_header(b"player,level\nAnn,6").decode().split()[0]
-    'player,level'
-    >>> with_header(b"Ann Lee\n\nBo").decode().splitlines()
-    ['player,rating', 'Ann Lee,', 'Bo,']
-    """
-    content = content.removeprefix(BOM_UTF8)
-    if content.strip() and not any(mark in content for mark in (b",", b";", b"\t", b"\0")):
-        names = [line.strip() for line in content.splitlines() if line.strip()]
-        return b"player,rating\n" + b"".join(name + b",\n" for name in names)
-    first = content.lstrip().split(b"\n")[0].decode("utf-8", "replace").strip()
-    found = _ROW.fullmatch(first)
-    if found is None:
-        return content
-    columns = ["player", "rating", "level"][: first.count(found[1]) + 1]
-    return f"{found[1].join(columns)}\n".encode() + content.lstrip()
 
 
 def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
@@ -176,7 +146,7 @@ def _number(form: Form, name: str) -> float | None:
     except ValueError:
         value = 0.0
     if not 0.0 < value < 1e6:
-        raise RefusalError("refused_number", name=name, value=text)
+        raise RefusalError("refused_number", field=name, value=text)
     return value
 
 

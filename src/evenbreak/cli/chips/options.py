@@ -11,12 +11,11 @@ from evenbreak.cli.kit.options import Command, scale_option, seed_option, with_o
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.tournaments.evening.opening import MOST_PLAYERS
 
 if TYPE_CHECKING:
     from evenbreak.answers.chips import ChipField
     from evenbreak.ratings.scale import Scale
-
-MOST_PLAYERS = 256
 
 
 def field_options(command: Command) -> Command:

@@ -7,14 +7,12 @@ from typing import Any
 import click
 
 from evenbreak import files, handicaps
+from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
-
-SCALE_OFF = 0.25
-"""How much the scale that a chart fits best may differ from the system's without a warning."""
 
 
 def read_system(name: str) -> handicaps.System:
@@ -128,20 +126,3 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
             "of rating differences, such as npl_10"
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]
-
-
-def chart_doubts(chart: Any, scale: Scale) -> list[str]:
-    """Return a warning if the races of a chart fit another scale than that of the ratings.
-
-    What is not a chart of rating differences is not doubted.
-    """
-    if not isinstance(chart, handicaps.Chart):
-        return []
-    best, own = handicaps.audit(chart, scale=scale).best_fit, scale.points_per_doubling
-    if best is None or abs(best.points_per_doubling / own - 1.0) <= SCALE_OFF:
-        return []
-    return [
-        f"the races of {chart.name} fit a scale on which about {best.points_per_doubling:.0f} "
-        f"points double the odds, but here {own:.4g} do; make sure that it is the chart for these "
-        "ratings"
-    ]

@@ -8,10 +8,10 @@ import click
 
 from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.systems import chart_doubts
 from evenbreak.cli.kit.values import LONGEST, SCORE, Whole, refuse
 from evenbreak.cli.team.lists import caps_of, race_of, scale_of_teams
 from evenbreak.cli.team.points import point_of

@@ -99,28 +99,37 @@ def command(
     """Find each team's chances of title, promotion and relegation, and what is at stake next.
 
     RESULTS.csv has the columns home, away, home_score and away_score (sets), SCHEDULE.csv home and
-    away, and a round if you like. How strong the teams are comes from the sets they have won.
+    away, and a round if you like. Without a schedule, the matches of RESULTS.csv without a score,
+    or at 0:0, are to come. How strong the teams are comes from the sets they have won.
     """
     import numpy as np
 
     from evenbreak.answers.team_season import team_season_answer
+    from evenbreak.answers.wording import count_of
 
-    if (schedule is None) == (round_robin is None):
-        refuse("say which matches are to come: give a schedule, or --round-robin K")
+    if schedule is not None and round_robin is not None:
+        refuse("a schedule and --round-robin exclude each other; give one")
     warnings: list[str] = []
     known, start = files.TeamNames([]), None
     if team_file is not None:
         known, start, lines = files.read_teams(team_file)
         warnings += lines
-    played = files.read_team_results(results, known)
+    played, ahead = files.read_team_results(results, known)
     warnings += played.warnings
-    rounds: tuple[str, ...] = ()
     if schedule is not None:
+        if unplayed := len(ahead.pairs):
+            left = count_of(unplayed, "match without a score", "matches without a score")
+            warnings.append(f"{results}: {left} left out; the schedule says what is to come")
         ahead = files.read_fixtures(schedule, known)
-        to_come, rounds = ahead.pairs, ahead.rounds
         warnings += ahead.warnings
-    else:
-        to_come = teams.still_to_play(known.names, round_robin or 1, played.pairs)
+    to_come, rounds = ahead.pairs, ahead.rounds
+    if round_robin is not None:
+        to_come, rounds = teams.still_to_play(known.names, round_robin, played.pairs), ()
+    elif not len(to_come):
+        refuse(
+            "say which matches are to come: give a schedule, or --round-robin K, or list them "
+            "in RESULTS.csv without a score"
+        )
     count = len(known.names)
     for name, many in (("--up", up), ("--down", down)):
         if many is not None and many >= count:

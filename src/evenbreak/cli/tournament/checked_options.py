@@ -5,38 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak.cli.kit.values import refuse
-
-_OPTIONS_OF = {
-    "--final": ("double",),
-    "--qualifiers": ("double", "groups", "pods"),
-    "--placement": ("double",),
-    "--drops": ("double", "pods"),
-    "--groups": ("groups",),
-    "--pod-size": ("pods",),
-    "--rounds": ("swiss",),
-    "--third-place": ("single",),
-    "--losers-race": ("double", "pods", "consolation"),
-    "--final-race": (
-        "double",
-        "single",
-        "pods",
-        "groups",
-        "consolation",
-        "king-of-the-hill",
-    ),
-    "--chips": ("chips",),
-}
-"""Which formats an option is for."""
+from evenbreak.tournaments.evening.opening import FORMATS_WITH
 
 
 def refuse_of_other_formats(form: str, given: set[str]) -> None:
-    """Refuse options that are for other formats, or exclude each other."""
-    for name, formats in _OPTIONS_OF.items():
+    """Refuse parts of a plan that are for other formats, or exclude each other."""
+    for name, formats in FORMATS_WITH.items():
         if name in given and form not in formats:
-            refuse(f"{name} is for --format {' or '.join(formats)}, not {form}")
-    if {"--qualifiers", "--final"} <= given:
+            option = f"--{name.replace('_', '-')}"
+            refuse(f"{option} is for --format {' or '.join(formats)}, not {form}")
+    if {"qualifiers", "final"} <= given:
         refuse("--qualifiers leads to one final; leave out --final")
-    if "--placement" in given and "--qualifiers" not in given:
+    if "placement" in given and "qualifiers" not in given:
         refuse("--placement is for qualifiers; give --qualifiers M, or leave it out")
 
 

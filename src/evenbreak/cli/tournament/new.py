@@ -57,10 +57,9 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     import numpy as np
 
     from evenbreak.files.tournament_store import new_tournament
-    from evenbreak.tournaments.brackets.swiss import swiss_round
-    from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened
+    from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
     from evenbreak.tournaments.evening.fold import ELIMINATIONS
-    from evenbreak.tournaments.evening.later_draws import swiss_of
+    from evenbreak.tournaments.evening.opening import opened
 
     plan = replace(entered.plan, tables=tables, discipline=discipline)
     roster, _, lines = entered.roster, "", None
@@ -68,15 +67,11 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
         if plan.form not in ELIMINATIONS:
             refuse(f"--seeding drawn is for eliminations, not {plan.form}")
         roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
-    if plan.form == "swiss":
-        swiss_round(swiss_of(plan, roster.players))  # refuses what cannot be paired
-    if plan.chips is not None:
-        plan.chips.chips(roster.rating)  # refuses ratings below the chart
     errors = np.nan_to_num(roster.standard_error).tolist()
     entrants = tuple(
         Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)
     )
-    events = [Event(at, Opened(plan, entrants))]
+    events: list[Event] = [Event(at, opened(plan, entrants))]
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = new_tournament(out, events)

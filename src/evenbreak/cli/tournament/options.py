@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from functools import update_wrapper
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -10,6 +9,7 @@ import click
 from click.core import ParameterSource
 
 from evenbreak import files, ratings, tournaments
+from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit.options import (
     Command,
     chart_option,
@@ -30,28 +30,16 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
+from evenbreak.tournaments.evening.opening import BYE, FORMATS, MOST_PLAYERS
 from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament import Tournament
     from evenbreak.ratings.scale import Scale
 
-FORMATS = (
-    "double",
-    "single",
-    "pods",
-    "groups",
-    "swiss",
-    "round-robin",
-    "consolation",
-    "king-of-the-hill",
-    "chips",
-)
 DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
 PLACEMENTS = {"half-shift": "half shift", "redraw": "redraw"}
 SEEDINGS = ("listed", "rating", "blind", "drawn")
-MOST_PLAYERS = 256
-BYE = re.compile(r"bye[\s\d]*", re.IGNORECASE)
 
 
 def _race_option(name: str, what: str) -> Any:
@@ -161,22 +149,23 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             race, seeding = 1, _order_of_the_line(seeding)
         races = _races(race, race_to, chart, losers_race, final_race)
         given = {
-            "--final": final,
-            "--qualifiers": qualifiers,
-            "--placement": placement,
-            "--drops": drops,
-            "--groups": groups,
-            "--pod-size": pod_size,
-            "--rounds": rounds,
-            "--third-place": third_place or None,
-            "--losers-race": losers_race,
-            "--final-race": final_race,
-            "--chips": chips,
+            "final": final,
+            "qualifiers": qualifiers,
+            "placement": placement,
+            "drops": drops,
+            "groups": groups,
+            "pod_size": pod_size,
+            "rounds": rounds,
+            "third_place": third_place or None,
+            "losers_race": losers_race,
+            "final_race": final_race,
+            "chips": chips,
         }
         refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
         check_qualifiers(form, qualifiers)
         file = files.read_entrants(entrants)
         points, warnings = _scale(file, scale, starter, "fargo" if chips else "npl")
+        warnings += chart_doubts(races.race, points)
         roster = with_starters(file.roster, points, starter, starter_sd)
         if not 2 <= len(roster) <= MOST_PLAYERS:
             refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")

@@ -29,8 +29,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.later_draws import draw_later
-
-MOST_PLAYERS = 256
+from evenbreak.tournaments.evening.opening import MOST_PLAYERS, refuse_bye
 
 
 def draw(state: Evening, rng: np.random.Generator) -> Drawn:
@@ -45,7 +44,7 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
         raise InputError("the draw has been made already; undo takes it back")
     names = list(state.entrants)
     if len(names) < 2:
-        raise InputError(f"{len(names)} players have entered; a tournament takes 2 to 256")
+        raise InputError(f"a tournament takes 2 to 256 players, and {len(names)} entered")
     if state.plan.seeding == "rating":
         names = by_rating(names, [state.entrants[name].rating for name in names])
     elif state.plan.seeding == "blind":
@@ -159,6 +158,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
     A bye is open as long as filling it changes no match that was played or called. In a chip
     tournament a late player goes to the end of the line, as long as two are still in.
     """
+    refuse_bye(entrant.name)
     names = {name.casefold(): name for name in state.entrants}
     if entrant.name.casefold() in names:
         raise InputError(f"{names[entrant.name.casefold()]} has entered already")

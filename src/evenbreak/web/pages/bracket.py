@@ -50,7 +50,7 @@ async def _drawn(request: Request) -> Evening:
     night = site_of(request).night
     if not night.exists:
         raise RefusalError("refused_no_tournament", status=404)
-    _, state = await asyncio.to_thread(night.state)
+    state = await asyncio.to_thread(night.state)
     if not state.drawn:
         raise RefusalError("refused_no_draw", status=404)
     return state

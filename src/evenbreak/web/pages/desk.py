@@ -4,39 +4,40 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from datetime import datetime
 from typing import Any
 
 import numpy as np
-import segno
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
+from evenbreak.answers.tournament import races_words
 from evenbreak.answers.tournament_moves import (
     draw_words,
-    event_words,
     forfeited,
     happened,
     reopened,
     tie_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
-from evenbreak.files.tournament_desk import authors, back_up, proposals
-from evenbreak.files.tournament_store import add_events, read_events
+from evenbreak.files.tournament_desk import proposals
+from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, What
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
 from evenbreak.web.evening_view import view_of
-from evenbreak.web.forms import Form, form_of
+from evenbreak.web.forms import Form, form_of, whole
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
+from evenbreak.web.words.sentences import in_language
 
 BY = "director's page"
+RACES_TO_CHANGE = ("race", "losers_race", "final_race")
 
 Decide = Callable[[Evening], Sequence[What]]
 Said = Callable[[Evening, Evening], Sequence[str]]
@@ -51,7 +52,7 @@ async def desk(request: Request) -> Response:
             return RedirectResponse("/team", status_code=303)
         raise RefusalError("refused_no_tournament", status=404)
     known = await site.night.outlook()
-    _, state = await asyncio.to_thread(site.night.state)
+    state = await asyncio.to_thread(site.night.state)
     shown: dict[str, Any] = {
         "view": view_of(state, known),
         "decided": [],
@@ -59,6 +60,7 @@ async def desk(request: Request) -> Response:
         "warnings": [],
         "tied": [],
         "drawable": False,
+        "changeable": _changeable(state),
     }
     if state.drawn:
         shown["decided"] = [name for name in state.counted if name in state.records]
@@ -70,6 +72,17 @@ async def desk(request: Request) -> Response:
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
     return page(request, "desk.html", live=False, **shown)
+
+
+def _changeable(state: Evening) -> dict[str, int]:
+    """Return what can be changed under way, with what it is now: the tables, and the races."""
+    plan = state.plan
+    found = {"tables": plan.tables}
+    if plan.chart is None and plan.form != "chips":
+        own = (plan.race, plan.losers_race or plan.race, plan.final_race or plan.race)
+        races = zip(RACES_TO_CHANGE, own, strict=True)
+        found |= {name: n for name, n in races if plan.form in FORMATS_WITH.get(name, FORMATS)}
+    return found
 
 
 async def _enter(request: Request, decide: Decide, said: Said, to: str = "/desk") -> Response:
@@ -103,20 +116,36 @@ async def draw(request: Request) -> Response:
 
 
 async def call(request: Request) -> Response:
-    """Call a match to a table."""
+    """Call matches to tables."""
     form = await _form(request)
-    match, table = form.text("match"), form.whole("table", 0, 1000, default=0)
+    matches, tables = form.texts("match"), form.texts("table")
+    if len(matches) != len(tables):
+        raise RefusalError("refused_calls")
+    calls = {
+        name: whole("table", table, 1, 1000) for name, table in zip(matches, tables, strict=True)
+    }
 
     def decide(state: Evening) -> list[What]:
-        on = state.on_tables.get(match)
-        if on is not None and table in (0, on.call.table):
-            return []  # the same tap again
-        return [moves.call(state, match, table or None)]
+        called: list[What] = []
+        for match, table in calls.items():
+            on = state.on_tables.get(match)
+            if on is None or on.call.table != table:  # else it is the same tap again
+                called.append(moves.call(state, match, table))
+                state = evening([*state.events, Event(site_of(request).clock(), called[-1])])
+        return called
 
     def said(_: Evening, after: Evening) -> list[str]:
-        one = after.on_tables[moves.known_match(after, match)].call
-        names = " – ".join(one.players)
-        return [say(language(request), "called", match=one.match, names=names, table=one.table)]
+        found = [after.on_tables[moves.known_match(after, match)].call for match in calls]
+        return [
+            say(
+                language(request),
+                "called",
+                match=one.match,
+                names=" – ".join(one.players),
+                table=one.table,
+            )
+            for one in found
+        ]
 
     return await _enter(request, decide, said)
 
@@ -164,6 +193,23 @@ async def drop(request: Request) -> Response:
     )
 
 
+async def change(request: Request) -> Response:
+    """Change the tables, or the races of the matches that have not begun."""
+    form = await _form(request)
+    tables = form.whole("tables", 0, 1000, default=0)
+    races = {name: form.whole(name, 0, 100, default=0) for name in RACES_TO_CHANGE}
+
+    def decide(state: Evening) -> list[What]:
+        asked = {name: n for name, n in ({"tables": tables} | races).items() if n}
+        return [moves.change(state, **asked)]
+
+    def said(_: Evening, after: Evening) -> list[str]:
+        words = in_language(language(request), races_words(after.races))
+        return [say(language(request), "changed", tables=after.plan.tables, races=words)]
+
+    return await _enter(request, decide, said)
+
+
 async def tiebreak(request: Request) -> Response:
     """Break the ties of a group whose matches are played."""
     await _form(request)
@@ -193,57 +239,10 @@ async def undo(request: Request) -> Response:
     return await _enter(request, decide, said)
 
 
-async def save(request: Request) -> Response:
-    """Write a copy of the file."""
-    await _form(request)
-    copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
-    return done(request, "/desk", say(language(request), "saved", name=copy.name))
-
-
-async def history(request: Request) -> Response:
-    """Show who entered what, and when."""
-    check_director(request)
-    path = site_of(request).path
-    if not path.exists():
-        raise RefusalError("refused_no_tournament", status=404)
-    found = await asyncio.to_thread(read_events, path)
-    by = await asyncio.to_thread(authors, path)
-    rows = [
-        (
-            number,
-            f"{datetime.fromisoformat(one.at):%H:%M:%S}",
-            event_words(one.what),
-            by.get(number, ""),
-        )
-        for number, one in enumerate(found, 1)
-    ]
-    return page(request, "history.html", rows=rows[::-1])
-
-
-async def codes(request: Request) -> Response:
-    """Show the QR codes: of the page, and of each match that can be played."""
-    check_director(request)
-    site = site_of(request)
-    shown = [("", site.address, _code(site.address))]
-    if site.night.exists:
-        _, state = await asyncio.to_thread(site.night.state)
-        for name in state.standing.to_play if state.drawn else ():
-            to = f"{site.address}/m/{site.match_token(name)}"
-            shown.append((f"{name}: {' – '.join(state.pair(name))}", to, _code(to)))
-    return page(request, "codes.html", codes=shown)
-
-
-def _code(text: str) -> str:
-    svg: str = segno.make(text, error="m").svg_inline(scale=4, border=2, dark="#000", light="#fff")
-    return svg
-
-
 ROUTES = [
     Route("/desk", desk),
-    Route("/desk/history", history),
-    Route("/desk/codes", codes),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
-        for one in (draw, call, result, forfeit, drop, tiebreak, undo, save)
+        for one in (draw, call, result, forfeit, drop, change, tiebreak, undo)
     ),
 ]

@@ -3,41 +3,39 @@
 from __future__ import annotations
 
 import asyncio
+from datetime import datetime
+from typing import Any, NamedTuple
 
 import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
+from evenbreak.answers.tournament import unrated_words
+from evenbreak.errors import EvenbreakError
+from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
 from evenbreak.files.roster import RosterFile
-from evenbreak.files.tournament_store import add_events, new_tournament
+from evenbreak.files.tournament_desk import back_up
+from evenbreak.files.tournament_store import add_events, new_tournament, read_events
+from evenbreak.handicaps.charts.chart import CHARTS, Chart
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
+from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.forms import Form, form_of
+from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH, opened
+from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
 from evenbreak.web.league import League
-from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.page import asked_again, done, language, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
+from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.web.words import say
 
-FORMATS = (
-    "double",
-    "single",
-    "round-robin",
-    "groups",
-    "swiss",
-    "consolation",
-    "king-of-the-hill",
-    "chips",
-)
-WITH_LOSERS = ("double", "consolation")
-WITH_FINAL = ("double", "single", "groups", "consolation", "king-of-the-hill")
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
@@ -45,26 +43,76 @@ DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 async def ask(request: Request) -> Response:
     """Show the form that begins a tournament."""
     check_director(request)
-    return page(
-        request,
-        "new.html",
-        formats=FORMATS,
-        seedings=SEEDINGS,
-        disciplines=DISCIPLINES,
-        scales=list(SCALES),
-        charts=list(CHIP_CHARTS),
-        league=site_of(request).league.sheet,
-    )
+    return page(request, "new.html", entered={}, why="", **await _choices(site_of(request)))
+
+
+async def _choices(site: Site) -> dict[str, Any]:
+    """Return what there is to choose from, and the tournament that there is already."""
+    return {
+        "there": await asyncio.to_thread(_there, site),
+        "formats": FORMATS,
+        "formats_with": FORMATS_WITH,
+        "races": RACES,
+        "charts": CHARTS,
+        "seedings": SEEDINGS,
+        "disciplines": DISCIPLINES,
+        "scales": list(SCALES),
+        "chip_charts": list(CHIP_CHARTS),
+        "league": site.league.sheet,
+    }
 
 
 async def begin(request: Request) -> Response:
-    """Begin a tournament."""
+    """Begin a tournament; a form that is refused comes back as it was filled in."""
     async with request.form(max_files=1, max_fields=40) as fields:
-        form = Form(fields)
-        content = await list_of(form, "entrants", "file")
         await form_of(request)
-    check_director(request)
-    site = site_of(request)
+        check_director(request)
+        form, site = Form(fields), site_of(request)
+        try:
+            event, warnings = await _begun(form, site)
+            before = await asyncio.to_thread(_put_aside, form, site)
+        except (RefusalError, EvenbreakError) as error:
+            return asked_again(request, "new.html", form, error, **await _choices(site))
+    await asyncio.to_thread(new_tournament, site.path, [event], in_place_of=before)
+    site.keep_secrets()
+    return done(request, "/desk", *warnings)
+
+
+class There(NamedTuple):
+    """A tournament that is there already: how many events it has, when it was begun, for whom."""
+
+    events: int
+    begun: str
+    players: int
+
+    @property
+    def name(self) -> str:
+        """What a form calls it."""
+        return f"{self.events} {self.begun}"
+
+
+def _there(site: Site) -> There | None:
+    """Return the tournament that is there already."""
+    if not site.night.exists:
+        return None
+    found = read_events(site.path)
+    return There(len(found), found[0].at, len(site.night.state().entrants))
+
+
+def _put_aside(form: Form, site: Site) -> int:
+    """Keep a copy of the tournament that is there already; return how many events it has."""
+    there = _there(site)
+    if there is None:
+        return 0
+    if form.text("in_place_of") != there.name:
+        raise RefusalError("refused_there", status=409)
+    back_up(site.path, datetime.now())
+    return there.events
+
+
+async def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
+    """Return what a form begins, and what its list makes doubtful."""
+    content = await list_of(form, "entrants", "file")
     if not content.strip():
         raise RefusalError("refused_nobody")
     file = await asyncio.to_thread(read_upload, content, read_entrants)
@@ -72,41 +120,56 @@ async def begin(request: Request) -> Response:
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
-    plan = _plan(form, scale)
-    opened = Opened(plan, _entrants(file, scale, league))
-    if plan.chips is not None:
-        plan.chips.chips([one.rating for one in opened.entrants])  # refuses those below the chart
-    if not 2 <= len(opened.entrants) <= moves.MOST_PLAYERS:
-        raise RefusalError("refused_players", players=len(opened.entrants))
-    event = Event(site.clock(), opened)
-    await asyncio.to_thread(new_tournament, site.path, [event])
-    site.keep_secrets()
-    return done(request, "/desk", *warnings_of(file))
+    plan, rows = _plan(form, scale), _entrants(file, scale, league)
+    known = league is not None
+    doubts = [] if known else league_doubts(scale, file.roster.rating, "is it the right scale?")
+    doubts += chart_doubts(plan.chart, scale)
+    new = [one.name for one in rows if one.standard_error == plan.starter_error]
+    if new:
+        doubts.append(unrated_words(new, plan.starter, plan.starter_error))
+    return Event(site.clock(), opened(plan, rows)), [*warnings_of(file), *doubts]
 
 
 def _plan(form: Form, scale: Scale) -> Plan:
-    """Return what is played, by the fields of the form."""
+    """Return what is played, by the fields of the form; those left empty are not set."""
     kind = form.one_of("format", FORMATS)
-    chips = kind == "chips"
-    losers, final = (form.whole(name, 0, 100, default=0) for name in ("losers_race", "final_race"))
-    if losers and kind not in WITH_LOSERS:
-        raise RefusalError("refused_no_losers")
-    if final and kind not in WITH_FINAL:
-        raise RefusalError("refused_no_final")
+    races = EVEN if kind == "chips" else form.one_of("races", (*RACES, *CHARTS))
+    given = _given(form)
+    for name in given:
+        if kind not in FORMATS_WITH[name]:
+            raise RefusalError(f"refused_{name}")
+    if {"final", "qualifiers"} <= given.keys():
+        raise RefusalError("refused_final_of_qualifiers")
+    if races in CHARTS and given.keys() & {"losers_race", "final_race"}:
+        raise RefusalError("refused_chart_races")
     return Plan(
         kind,
-        1 if chips else form.whole("race", 1, 100),
-        losers_race=losers or None,
-        final_race=final or None,
-        handicapped=bool(form.text("handicapped")) and not chips,
+        1 if kind == "chips" or races in CHARTS else form.whole("race", 1, 100),
+        handicapped=races == FAIR,
+        chart=_chart(races) if races in CHARTS else None,
         seeding=form.one_of("seeding", SEEDINGS),
         scale=scale.text,
         starter=scale.centre,
         starter_error=scale.points_per_doubling,
         tables=form.whole("tables", 1, 1000),
         discipline=form.one_of("discipline", DISCIPLINES),
-        chips=CHIP_CHARTS[form.one_of("chips", tuple(CHIP_CHARTS))] if chips else None,
+        chips=CHIP_CHARTS[form.one_of("chips", tuple(CHIP_CHARTS))] if kind == "chips" else None,
+        **given,
     )
+
+
+def _chart(name: str) -> Chart:
+    found = find_chart(name)
+    assert isinstance(found, Chart)  # noqa: S101
+    return found
+
+
+def _given(form: Form) -> dict[str, Any]:
+    """Return the parts of a plan that only some formats have, if they were filled in."""
+    numbers = ("losers_race", "final_race", "groups", "pod_size", "qualifiers", "rounds")
+    parts: dict[str, Any] = {name: form.whole(name, 1, 256, default=0) for name in numbers}
+    parts |= {"final": form.text("final"), "third_place": bool(form.text("third_place"))}
+    return {name: value for name, value in parts.items() if value}
 
 
 def _entrants(file: RosterFile, scale: Scale, league: League | None) -> tuple[Entrant, ...]:

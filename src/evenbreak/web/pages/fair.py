@@ -35,13 +35,13 @@ async def fair(request: Request) -> Response:
     """Show the form and, once both players are named, the fairest race."""
     asked = {name: request.query_params.get(name, "").strip()[:80] for name in ("a", "b")}
     night = site_of(request).night
-    state = (await asyncio.to_thread(night.state))[1] if night.exists else None
+    state = await asyncio.to_thread(night.state) if night.exists else None
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
     scale = _scale(request, state, league)
     length = request.query_params.get("race", "7")
     if not length.isdigit() or not 1 <= int(length[:4]) <= 100:
-        raise RefusalError("refused_whole", name="race", value=length[:20], low=1, high=100)
+        raise RefusalError("refused_whole", field="race", value=length[:20], low=1, high=100)
     shown: dict[str, Any] = {
         "asked": asked,
         "length": int(length),

@@ -102,7 +102,7 @@ def _propose(
     site, code = site_of(request), language(request)
     if not me:
         raise RefusalError("refused_who")
-    _, state = site.night.state()
+    state = site.night.state()
     moves.result(state, name, score)  # refuses what cannot be a result
     games = dict(zip(pair, score, strict=True))
     phone = phone_of(request)
@@ -129,7 +129,7 @@ async def _match(request: Request) -> tuple[str, Evening]:
     site = site_of(request)
     if not site.night.exists:
         raise RefusalError("refused_no_tournament", status=404)
-    _, state = await asyncio.to_thread(site.night.state)
+    state = await asyncio.to_thread(site.night.state)
     if not state.drawn:
         raise RefusalError("refused_no_draw", status=404)
     name = site.match_of(request.path_params["token"], list(state.bracket.by_name))

@@ -54,7 +54,7 @@ async def players(request: Request) -> Response:
     if not night.exists:
         raise RefusalError("refused_no_tournament", status=404)
     known = await night.outlook()
-    _, state = await asyncio.to_thread(night.state)
+    state = await asyncio.to_thread(night.state)
     return page(request, "players.html", live=True, players=_views(state, known))
 
 
@@ -89,13 +89,13 @@ async def prizes(request: Request) -> Response:
         raise RefusalError("refused_no_tournament", status=404)
     form = Form(request.query_params)
     fee, added = (form.whole(name, 0, MOST_MONEY, default=0) for name in ("fee", "added"))
-    _, state = await asyncio.to_thread(night.state)
+    state = await asyncio.to_thread(night.state)
     usual = "70/30" if len(state.entrants) < 8 else "40/30/20/10"
     payout = form.one_of("payout", tuple(PAYOUTS)) if form.text("payout") else usual
     shown = ""
     if pot := fee * len(state.entrants) + added:
         known = await night.outlook()
-        odds = known.odds if known and known.version == len(state.events) else None
+        odds = known.odds if known and known.of is state else None
         answer = tournament_prizes_answer(
             state, payout_table(payout), float(pot), odds, source=site_of(request).path.stem
         )

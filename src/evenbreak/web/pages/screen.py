@@ -24,7 +24,7 @@ async def screen(request: Request) -> Response:
         return page(request, "team_screen.html", live=True, **shown)
     if night.exists:
         known = await night.outlook()
-        _, state = await asyncio.to_thread(night.state)
+        state = await asyncio.to_thread(night.state)
         view = view_of(state, known)
     return page(request, "screen.html", live=True, view=view)
 

@@ -6,11 +6,13 @@ import asyncio
 import secrets
 from collections.abc import Sequence
 from functools import partial
+from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.errors import EvenbreakError
 from evenbreak.files.team_night_store import add_team_events
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.scale import SCALES
@@ -18,38 +20,46 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, What
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import check_plan
-from evenbreak.web.forms import Form, form_of
-from evenbreak.web.page import done, page, site_of
+from evenbreak.web.forms import RACES, Form, form_of
+from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.pages.desk import BY
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
-from evenbreak.web.team_form import COUNT_WORDS, ORDERS, RACES, plan_of
+from evenbreak.web.site import Site
+from evenbreak.web.team_form import COUNT_WORDS, ORDERS, plan_of
 
 
 async def ask(request: Request) -> Response:
     """Show the form that begins a team night."""
     check_director(request)
-    return page(
-        request,
-        "team_new.html",
-        on=await site_of(request).teams.now(),
-        orders=ORDERS,
-        races=RACES,
-        charts=CHARTS,
-        counts=COUNT_WORDS,
-        scales=list(SCALES),
-        once=secrets.token_urlsafe(9),
-    )
+    return page(request, "team_new.html", entered={}, why="", **await _choices(site_of(request)))
+
+
+async def _choices(site: Site) -> dict[str, Any]:
+    """Return what there is to choose from, and what the page warns of."""
+    return {
+        "on": await site.teams.now(),
+        "orders": ORDERS,
+        "races": RACES,
+        "charts": CHARTS,
+        "counts": COUNT_WORDS,
+        "scales": list(SCALES),
+        "once": secrets.token_urlsafe(9),
+    }
 
 
 async def begin(request: Request) -> Response:
-    """Begin a team night."""
+    """Begin a team night; a form that is refused comes back as it was filled in."""
     site = site_of(request)
     async with request.form(max_files=2, max_fields=40) as fields:
         await form_of(request)
         check_director(request)
         form = Form(fields)
-        plan, warnings = await plan_of(form, site.league)
-    await site.night.beside.run(partial(check_plan, plan))
+        try:
+            plan, warnings = await plan_of(form, site.league)
+            await site.night.beside.run(partial(check_plan, plan))
+        except (RefusalError, EvenbreakError) as error:
+            return asked_again(request, "team_new.html", form, error, **await _choices(site))
 
     def decide(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
         return moves.begin(state, plan)

@@ -1,5 +1,14 @@
 "use strict";
 (() => {
+  const live = "live" in document.currentScript.dataset;
+  // A field for other kinds of tournaments is neither shown nor sent.
+  const fit = () => document.querySelectorAll("[data-for]").forEach((one) => {
+    const kind = document.querySelector(`[name=${one.dataset.by}]`).value;
+    one.hidden = !one.dataset.for.split(" ").includes(kind);
+    one.querySelectorAll("input, select").forEach((field) => { field.disabled = one.hidden; });
+  });
+  addEventListener("DOMContentLoaded", () => { fit(); addEventListener("change", fit); });
+  if (!live) return;
   let seen = null, waiting = false;
   // A form that somebody has begun to fill in is left alone.
   const begun = () =>

@@ -107,7 +107,9 @@ def _part(language: str, part: Part) -> Part:
     if isinstance(part, str):
         return in_language(language, part)
     if isinstance(part, Table):
-        columns = [_named(language, one) for one in part.columns]
-        return replace(part, columns=columns, title=in_language(language, part.title))
-    of = [_named(language, one) for one in part.of]
+        kept = [k for k, one in enumerate(part.columns) if not one.detail]
+        columns = [_named(language, part.columns[k]) for k in kept]
+        rows = [[row[k] for k in kept] for row in part.rows]
+        return replace(part, columns=columns, rows=rows, title=in_language(language, part.title))
+    of = [_named(language, one) for one in part.of if not one.detail]
     return replace(part, of=of, title=in_language(language, part.title))

@@ -1,0 +1,88 @@
+"""The beginning of an evening: the formats there are, and what goes with each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.swiss import swiss_round
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
+from evenbreak.tournaments.evening.later_draws import swiss_of
+
+FORMATS = (
+    "double",
+    "single",
+    "pods",
+    "groups",
+    "swiss",
+    "round-robin",
+    "consolation",
+    "king-of-the-hill",
+    "chips",
+)
+"""The formats that a tournament can be begun in."""
+
+FORMATS_WITH: Mapping[str, tuple[str, ...]] = {
+    "final": ("double",),
+    "qualifiers": ("double", "groups", "pods"),
+    "placement": ("double",),
+    "drops": ("double", "pods"),
+    "groups": ("groups",),
+    "pod_size": ("pods",),
+    "rounds": ("swiss",),
+    "third_place": ("single",),
+    "losers_race": ("double", "pods", "consolation"),
+    "final_race": ("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
+    "chips": ("chips",),
+}
+"""For the parts of a plan that only some formats have: which."""
+
+MOST_PLAYERS = 256
+
+BYE = re.compile(r"byes?[\s\d]*", re.IGNORECASE)
+"""How a bye is written on a list."""
+
+
+def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
+    """Begin an evening, if what is planned can be played by those who have entered.
+
+    Parameters
+    ----------
+    plan
+        what is played.
+    entrants
+        who has entered; more may enter later.
+
+    Raises
+    ------
+    InputError
+        if there are too few or too many players for the plan, or one of them is a bye.
+
+    >>> two = [Entrant("Ann", 600.0), Entrant("Bo", 500.0)]
+    >>> opened(Plan("single", 5), two).plan.form
+    'single'
+    >>> opened(Plan("double", 5, qualifiers=4), two)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: qualifiers is 4; give a power of 2, at most 2 for this bracket
+    """
+    names = tuple(one.name for one in entrants)
+    if not 2 <= len(names) <= MOST_PLAYERS:
+        raise InputError(f"a tournament takes 2 to 256 players, and {len(names):,} entered")
+    for name in names:
+        refuse_bye(name)
+    if plan.chips is not None:
+        plan.chips.chips([one.rating for one in entrants])  # refuses ratings below the chart
+    elif plan.form == "swiss":
+        swiss_round(swiss_of(plan, names))  # refuses what cannot be paired
+    else:
+        bracket_of(plan, names, None)
+    return Opened(plan, tuple(entrants))
+
+
+def refuse_bye(name: str) -> None:
+    """Refuse a bye in place of a player."""
+    if BYE.fullmatch(name):
+        raise InputError(f"{name!r} is a bye and no player; leave it out, the draw gives the byes")

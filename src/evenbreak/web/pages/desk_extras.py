@@ -1,0 +1,94 @@
+"""What else a director looks up: when it ends, who entered what, the QR codes; and copies."""
+
+from __future__ import annotations
+
+import asyncio
+from datetime import datetime
+
+import segno
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.answer import Answer
+from evenbreak.answers.tournament_moves import event_words
+from evenbreak.answers.tournament_under_way import time_under_way
+from evenbreak.files.tournament_desk import authors, back_up
+from evenbreak.files.tournament_store import read_events
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.web.forms import form_of
+from evenbreak.web.page import answer_shown, done, language, page, site_of
+from evenbreak.web.refusals import RefusalError
+from evenbreak.web.sessions import check_director
+from evenbreak.web.words import say
+
+
+async def save(request: Request) -> Response:
+    """Write a copy of the file."""
+    await form_of(request)
+    check_director(request)
+    copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
+    return done(request, "/desk", say(language(request), "saved", name=copy.name))
+
+
+async def time(request: Request) -> Response:
+    """Show when it ends, and what would change that."""
+    check_director(request)
+    site = site_of(request)
+    if not site.night.exists:
+        raise RefusalError("refused_no_tournament", status=404)
+    state = await asyncio.to_thread(site.night.state)
+    if not state.drawn:
+        raise RefusalError("refused_not_drawn", status=409)
+
+    def work() -> Answer:
+        return time_under_way(Outlook(state, site.clock()), source=site.path.stem)
+
+    answer = await site.night.beside.run(work)
+    return page(request, "time.html", answer=answer_shown(request, answer))
+
+
+async def history(request: Request) -> Response:
+    """Show who entered what, and when."""
+    check_director(request)
+    path = site_of(request).path
+    if not path.exists():
+        raise RefusalError("refused_no_tournament", status=404)
+    found = await asyncio.to_thread(read_events, path)
+    by = await asyncio.to_thread(authors, path)
+    rows = [
+        (
+            number,
+            f"{datetime.fromisoformat(one.at):%H:%M:%S}",
+            event_words(one.what),
+            by.get(number, ""),
+        )
+        for number, one in enumerate(found, 1)
+    ]
+    return page(request, "history.html", rows=rows[::-1])
+
+
+async def codes(request: Request) -> Response:
+    """Show the QR codes: of the page, and of each match that can be played."""
+    check_director(request)
+    site = site_of(request)
+    shown = [("", site.address, _code(site.address))]
+    if site.night.exists:
+        state = await asyncio.to_thread(site.night.state)
+        for name in state.standing.to_play if state.drawn else ():
+            to = f"{site.address}/m/{site.match_token(name)}"
+            shown.append((f"{name}: {' – '.join(state.pair(name))}", to, _code(to)))
+    return page(request, "codes.html", codes=shown)
+
+
+def _code(text: str) -> str:
+    svg: str = segno.make(text, error="m").svg_inline(scale=4, border=2, dark="#000", light="#fff")
+    return svg
+
+
+ROUTES = [
+    Route("/desk/time", time),
+    Route("/desk/history", history),
+    Route("/desk/codes", codes),
+    Route("/desk/save", save, methods=["POST"]),
+]

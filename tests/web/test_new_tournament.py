@@ -1,0 +1,157 @@
+"""A tournament begun through the page, begun again, and changed under way."""
+
+from pathlib import Path
+
+import pytest
+
+from evenbreak.files.tournament_store import read_tournament
+from evenbreak.tournaments.evening.opening import FORMATS
+from web.conftest import PLAYERS, Hall, begun
+from web.phones import Phone, running
+
+ASKED = {
+    "entrants": "Ann,612\nBo,540\nCy,500\nDi,480",
+    "format": "double",
+    "races": "even",
+    "race": 3,
+    "tables": 2,
+    "discipline": "9-ball",
+    "seeding": "listed",
+    "scale": "fargo",
+}
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
+    if kind == "swiss":
+        pytest.importorskip("caissify_pairings", reason="pairings of a Swiss need evenbreak[swiss]")
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        size = {"pod_size": 4} if kind == "pods" else {}
+        begun(director, PLAYERS[:6], format=kind, losers_race="", chips="hoboken", **size)
+        assert read_tournament(site.path).standing.to_play
+        assert "Table" in director.open("/desk").words
+
+
+def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        for given, wanted in (
+            ({"final": "single"}, {"final": "single"}),
+            ({"qualifiers": 2}, {"qualifiers": 2}),
+            ({"format": "single", "third_place": "yes"}, {"third_place": True}),
+            ({"format": "groups", "groups": 1, "qualifiers": 3}, {"groups": 1, "qualifiers": 3}),
+            ({"format": "round-robin", "races": "fair"}, {"handicapped": True, "race": 3}),
+            ({"losers_race": 2, "final_race": 4}, {"losers_race": 2, "final_race": 4}),
+        ):
+            assert director.send("/new", **ASKED | given | again(director)).status == 200
+            plan = read_tournament(site.path).plan
+            assert {name: getattr(plan, name) for name in wanted} == wanted
+        shown = director.send("/new", **ASKED | {"races": "npl_8"} | again(director))
+        assert "about 30 points double the odds, but here 100 do" in shown.words
+        assert read_tournament(site.path).plan.chart.name == "npl_8"
+        assert director.send("/desk/draw").status == 200
+
+
+def again(director: Phone) -> dict[str, str]:
+    """Return the field that lets a new tournament take the place of the one that there is."""
+    name = director.open("/new").text.partition('name="in_place_of" value="')[2].split('"')[0]
+    return {"in_place_of": name} if name else {}
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ({"format": "single", "losers_race": 2}, "no losers' side"),
+        ({"format": "swiss", "final_race": 2}, "no final"),
+        ({"format": "single", "rounds": 2}, "Only a Swiss"),
+        ({"qualifiers": 3}, "2, 4, 8"),
+        ({"qualifiers": 2, "final": "single"}, "one final"),
+        ({"format": "groups", "groups": 3}, "too many for 4 players"),
+        ({"format": "pods"}, "too few"),
+        ({"races": "npl_8", "losers_race": 2}, "sets all races"),
+        ({"races": "nobody's"}, "choose one of"),
+        ({"race": ""}, "The race is empty"),
+        ({"tables": "nan"}, "The number of tables is 'nan'"),
+        ({"entrants": "Ann,612"}, "2 to 256"),
+        ({"entrants": "Ann,612\nann,600"}, "Line 2"),
+        ({"entrants": "Ann,612\nBo,high"}, "Line 2"),
+        ({"entrants": "Ann,612\nBYE 2"}, "no player"),
+        ({"entrants": " \n "}, "Nobody is named"),
+    ],
+)
+def test_a_form_that_is_refused_comes_back_as_it_was(
+    tmp_path: Path, given: dict[str, object], why: str
+) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        asked = ASKED | {"tables": 7} | given
+        shown = director.send("/new", **asked)
+        assert shown.status == 400
+        assert why in shown.words
+        assert str(asked["entrants"]).strip() in shown.text
+        assert f'name="tables" value="{asked["tables"]}"' in shown.text
+        assert f'<option value="{asked["format"]}" selected>' in shown.text
+        assert not site.path.exists()
+
+
+def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        shown = director.send("/new", **ASKED | {"scale": "npl"})
+        assert "is it the right scale?" in shown.words
+        new = ASKED | {"entrants": "Ann,612\nBo"} | again(director)
+        assert "1 player without a rating (Bo)" in director.send("/new", **new).words
+
+
+def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: Path) -> None:
+    token = hall.site.match_token("W1.1")
+    hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new")
+    hall.guest.open("/")
+    shown = hall.director.send("/new", **ASKED)
+    assert shown.status == 400
+    assert "already" in shown.words
+    assert len(hall.state.entrants) == 16
+    seen = again(hall.director)
+    hall.director.send("/desk/result", match="W1.2", a=3, b=1, how="new")
+    assert hall.director.send("/new", **ASKED | seen).status == 400  # somebody has played on
+    hall.site.clock = lambda: "2031-03-01T19:30:00"
+    assert hall.director.send("/new", **ASKED | again(hall.director)).status == 200
+    assert list(hall.state.entrants) == ["Ann", "Bo", "Cy", "Di"]
+    copies = [read_tournament(copy) for copy in tmp_path.glob("*.backup.db")]
+    assert set(max((one.counted for one in copies), key=len)) == {"W1.1", "W1.2"}
+    hall.director.send("/desk/draw")
+    words = hall.guest.open("/").words
+    assert "Player 1" not in words
+    assert "Ann" in words
+    assert hall.guest.open(f"/m/{token}").status == 404
+    assert "Ann" in hall.guest.open(f"/m/{hall.site.match_token('W1.1')}").words
+
+
+def test_the_desk_changes_tables_and_races(hall: Hall) -> None:
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    shown = hall.director.send("/desk/change", tables=3, race=2)
+    assert "3 tables. Races to 2" in shown.words
+    assert hall.state.plan.tables == 3
+    assert hall.state.needed("W1.1", hall.state.pair("W1.1")) == (3, 3)
+    assert hall.state.needed("W1.2", hall.state.pair("W1.2")) == (2, 2)
+    assert hall.director.send("/desk/change").status == 400
+    assert hall.guest.send("/desk/change", tables=9).status == 403
+
+
+def test_the_desk_says_what_would_end_it_sooner(hall: Hall) -> None:
+    shown = hall.director.open("/desk/time")
+    assert shown.status == 200
+    assert "with one more table" in shown.words.lower()
+    assert hall.guest.open("/desk/time").status == 403
+
+
+def test_odds_are_those_of_the_moment_after_an_undo(hall: Hall) -> None:
+    hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new")
+    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    for _ in range(200):
+        words = hall.guest.open("/prizes", fee="20", payout="40/30/20/10").words
+        if "Expected" in words or "expect" in words:
+            break
+        hall.guest.open("/")
+    assert "expect" in words.lower()
