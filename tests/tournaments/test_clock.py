@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -315,6 +317,25 @@ def test_calling_a_match_before_its_round_costs_little_while_others_are_under_wa
     assert all(0.0 <= call.later <= 2 * a_match for call in calls.values())
     rows = [found.names.index(name) for name in calls]
     for row in rows:
-        start = found._room.on_the_first(20).planned(row).start
+        start = found._room.on_the_first(20).planned([found.names[row]]).start
         assert (start[found._room.on_the_first(20).evenings.needed] >= 0.0).all()
         assert (start[:, row] == 5.0).all()
+
+
+def test_two_tables_are_filled_together_and_not_each_as_if_the_other_were_free() -> None:
+    """A late match of the round that all wait for is called before one of the next round."""
+    bracket = double_elimination(8)
+    results = {"W1.1": "1", "W1.2": "4", "W1.3": "2"}
+    found = finish(
+        bracket, laws_of(bracket), tables=2, pace=EXACT, turnover=AT_ONCE, results=results
+    )
+    ends = {
+        pair: float(found._room.ends(found._room.planned(pair)).mean())
+        for pair in itertools.permutations(found.standing.to_play, 2)
+    }
+    one_by_one = [call.match for call in found.calls()[:2]]
+    together = [call.match for call in found.calls(2)[:2]]
+    assert "W1.4" not in one_by_one
+    assert "W1.4" in together
+    assert ends[tuple(together)] < min(ends.values()) + 1.0
+    assert ends[tuple(one_by_one)] > ends[tuple(together)] + 5.0

@@ -143,8 +143,7 @@ def _what_is_next(
     """Return in words and as a table what is played next and when it ends."""
     state, tied = night.state, tied_groups(night.state)
     words: list[str] = []
-    found = night.finish()
-    calls = found.calls()
+    found, calls = night.as_things_are, night.calls
     tables = _tables(state, calls)
     if tied:
         words.append(
@@ -255,7 +254,7 @@ def _tables(state: Evening, options: Sequence[Call]) -> list[tuple[int | None, s
 
 def next_calls(night: Outlook) -> list[tuple[int, str]]:
     """Return which matches to call to which of the free tables."""
-    tables = _tables(night.state, night.finish().calls())
+    tables = _tables(night.state, night.calls)
     return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
 
 

@@ -94,7 +94,7 @@ def _to_draw(state: Evening) -> str:
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     """Return what the matches that can be played change for the title, prizes and the finish."""
     decided = stakes(outlook, prizes)
-    found = outlook.finish() if decided else None
+    found = outlook.as_things_are if decided else None
     rows: list[list[Any]] = []
     for name, stake in decided.items():
         first, second = found.if_won(name) if found else (np.nan, np.nan)

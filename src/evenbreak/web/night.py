@@ -137,7 +137,7 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
     """Return when the next match of each player who does not play now begins."""
     if night.state.plan.form == "chips":
         return {}
-    found, starts = night.finish(), {}
+    found, starts = night.as_things_are, {}
     busy = {name for one in night.state.on_tables.values() for name in one.call.players}
     for name in night.state.order:
         start = found.next_start(name)

@@ -23,6 +23,7 @@ from evenbreak.tournaments.odds.races import PairOdds
 QUANTILES = (0.1, 0.5, 0.9)
 _TRIED, _FEWEST_TRIED = 500, 60  # evenings on which each call is tried; fewer of large brackets
 _CALLS = 12  # calls that are tried
+_CHOSEN = 4  # free tables for which they are tried one after another
 _WORK = 7e7  # what trying them may cost: calls x evenings x matches x matches
 
 
@@ -126,20 +127,37 @@ class Finish:
         ]
         return means[0], means[1]
 
-    def calls(self) -> list[Call]:
+    def calls(self, tables: int = 1) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 
         All are tried on the same evenings, some of those played out, so that small differences
         are real. Of many matches those with the longest remaining path are tried; the others
         follow in that order, with NaN for what was not tried.
+
+        Parameters
+        ----------
+        tables
+            how many are free: the second match is the best with the first on a table, and so on.
         """
         ready = [name for name in self.standing.to_play if name not in self._room.on_tables]
         tried, untried = self._most_urgent(ready)
-        if not tried:
-            return []
-        runs = int(_WORK / (len(tried) * len(self.names) ** 2))
+        chosen: list[Call] = []
+        last = min(tables, _CHOSEN, len(tried))
+        for k in range(last):
+            called = [call.match for call in chosen]
+            left = [name for name in tried if name not in called]
+            ranked = self._ranked(left, called, last)
+            chosen += ranked if k == last - 1 else ranked[:1]
+        return chosen + [Call(name, np.nan, np.nan, np.nan) for name in untried]
+
+    def _ranked(self, tried: Sequence[str], called: Sequence[str], times: int) -> list[Call]:
+        """Return matches to call after some others, the one with the soonest finish first.
+
+        This is asked so many times, which are given less work each.
+        """
+        runs = int(_WORK / (times * len(tried) * len(self.names) ** 2))
         room = self._room.on_the_first(min(_TRIED, max(_FEWEST_TRIED, runs)))
-        ends = {name: room.ends(room.planned(self.names.index(name))) for name in tried}
+        ends = {name: room.ends(room.planned([*called, name])) for name in tried}
         best = min(ends, key=lambda name: float(ends[name].mean()))
         calls = []
         for name, end in ends.items():
@@ -149,8 +167,7 @@ class Finish:
             later = end - ends[best]
             error = float(later.std() / np.sqrt(len(later)))
             calls.append(Call(name, float(end.mean()), float(later.mean()), error))
-        calls.sort(key=lambda call: call.later)
-        return calls + [Call(name, np.nan, np.nan, np.nan) for name in untried]
+        return sorted(calls, key=lambda call: call.later)
 
     def _most_urgent(self, ready: Sequence[str]) -> tuple[list[str], list[str]]:
         """Return the matches to try calling, and the others, those that matter most first."""
@@ -184,8 +201,8 @@ class _Room:
         """The matches under way."""
         return tuple(match.match for match in self.playing)
 
-    def planned(self, first: int | None = None) -> Schedule:
-        """Return the schedule, with one match called first if it is given."""
+    def planned(self, first: Sequence[str] = ()) -> Schedule:
+        """Return the schedule, with some matches called first."""
         evenings = self.evenings
         runs = len(evenings.minutes)
         return schedule(
@@ -195,7 +212,7 @@ class _Room:
             evenings.turnover,
             np.tile(self.tables, (runs, 1)),
             now=self.now,
-            first=first,
+            first=[evenings.names.index(name) for name in first],
             under_way=[evenings.names.index(name) for name in self.on_tables],
         )
 

@@ -52,7 +52,7 @@ def schedule(
     *,
     now: float = 0.0,
     priority: Floats | None = None,
-    first: int | None = None,
+    first: Sequence[int] = (),
     under_way: Sequence[int] = (),
 ) -> Schedule:
     """Return when each match begins and ends.
@@ -74,8 +74,8 @@ def schedule(
     priority
         which match comes first, the largest number; None: by the longest remaining path.
     first
-        the match that begins first of all, by position, even if its round would still wait;
-        None: by priority.
+        the matches that begin first of all, by position and in this order, even if their rounds
+        would still wait.
     under_way
         the matches that are on the first tables now, by position.
     """
@@ -88,8 +88,6 @@ def schedule(
     # Of matches of the same priority the first of the list.
     order = np.lexsort((-np.arange(count), priority))
     rank[order] = np.arange(count, dtype=float)
-    if first is not None:
-        rank[first] = count
     missing = np.tile(waits.after.sum(axis=0), (runs, 1))
     ready = np.full((runs, count), now)
     open_ = np.ones((runs, count), dtype=bool)
@@ -107,17 +105,19 @@ def schedule(
 
     for k, match in enumerate(under_way):
         take(np.full(runs, match), np.full(runs, k), np.full(runs, now))
-    if first is not None:  # its round does not matter, only players of a group who are busy
-        busy = [match for match in under_way if waits.shared[match, first]]
-        missing[:, first] = 0
-        ready[:, first] = end[:, busy].max(axis=1, initial=now)
-    for _ in range(count - len(under_way)):
+    for match in first:  # the round does not matter, only players of a group who are busy
+        busy = [other for other in under_way if waits.shared[other, match]]
+        ready[:, match] = end[:, busy].max(axis=1, initial=now)
+    for match in first:
+        table = free.argmin(axis=1)
+        moment = np.maximum(free[row, table], ready[:, match])
+        each = np.full(runs, match)
+        take(each, table, np.where(needed[:, match], moment, ready[:, match]))
+    for _ in range(count - len(under_way) - len(first)):
         can = open_ & (missing == 0)
         table = free.argmin(axis=1)
         at = np.where(can, ready, np.inf)
         moment = np.maximum(free[row, table], at.min(axis=1))
-        if first is not None and open_[0, first]:
-            moment = np.maximum(free[row, table], ready[row, first])
         waiting = can & (ready <= moment[:, None])
         match = np.where(waiting, rank, -1.0).argmax(axis=1)
         take(match, table, np.where(needed[row, match], moment, ready[row, match]))

@@ -21,7 +21,7 @@ from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.chips.racks import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
-from evenbreak.tournaments.clock.finish import Finish, finish
+from evenbreak.tournaments.clock.finish import Call, Finish, finish
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
@@ -249,6 +249,17 @@ class Outlook:
             return leverages(state.bracket, win, payouts=payouts, results=state.results)
         except InputError:
             return []
+
+    @cached_property
+    def as_things_are(self) -> Finish:
+        """When it ends if nothing is changed."""
+        return self.finish()
+
+    @cached_property
+    def calls(self) -> list[Call]:
+        """The matches to call to the free tables, the best first, then those that wait."""
+        free = self.state.plan.tables - len(self.state.on_tables)
+        return self.as_things_are.calls(max(1, free))
 
     def finish(
         self,

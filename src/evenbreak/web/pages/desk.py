@@ -71,7 +71,7 @@ async def desk(request: Request) -> Response:
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
-    return page(request, "desk.html", live=False, **shown)
+    return page(request, "desk.html", live=True, **shown)
 
 
 def _changeable(state: Evening) -> dict[str, int]:

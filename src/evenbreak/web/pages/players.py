@@ -32,8 +32,8 @@ class PlayerView(NamedTuple):
         the chance of the title; None: not known.
     match, other
         the match that they play now or can play next, and whom they meet; '' if not known.
-    table
-        where they play; None: they do not.
+    table, called
+        where they play, or will be called to next; None: they do not, or will not.
     starts
         when their next match begins: early, in the middle and late, such as 20:40; None: no match.
     """
@@ -45,6 +45,7 @@ class PlayerView(NamedTuple):
     match: str
     other: str
     table: int | None
+    called: int | None
     starts: tuple[str, ...] | None
 
 
@@ -61,6 +62,7 @@ async def players(request: Request) -> Response:
 def _views(state: Evening, known: Known | None) -> list[PlayerView]:
     listed = (known.data.get("odds") or known.data.get("players", [])) if known else []
     titles = {one["name"]: one["p_title"] for one in listed}
+    calls = {name: at for at, name in known.calls} if known and known.of is state else {}
     playing: dict[str, str] = {}
     if state.drawn:
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
@@ -76,7 +78,15 @@ def _views(state: Evening, known: Known | None) -> list[PlayerView]:
         title = titles.get(name)
         views.append(
             PlayerView(
-                name, entrant.rating, entrant.standard_error, title, match, other, table, starts
+                name,
+                entrant.rating,
+                entrant.standard_error,
+                title,
+                match,
+                other,
+                table,
+                calls.get(match),
+                starts,
             )
         )
     return sorted(views, key=lambda one: -one.rating)
