@@ -152,6 +152,18 @@ def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
     assert len(hall.state.on_tables) == 3
 
 
+def test_a_match_moves_to_another_table_and_keeps_its_start(hall: Hall) -> None:
+    hall.site.clock = lambda: "2025-03-01T20:00:00"
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    hall.site.clock = lambda: "2025-03-01T20:20:00"
+    assert hall.director.send("/desk/call", match="W1.1", table=3).status == 200
+    moved = hall.state.on_tables["W1.1"]
+    assert (moved.call.table, moved.at) == (3, "2025-03-01T20:00:00")
+    hall.director.send("/desk/call", match="W1.2", table=1)
+    assert hall.director.send("/desk/call", match="W1.1", table=1).status == 400  # taken
+    assert list(hall.state.on_tables) == ["W1.1", "W1.2"]
+
+
 def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
     at = "2025-03-01T20:00:00"
     add_events(hall.site.path, lambda state: [Event(at, moves.result(state, "W1.1", (3, 2)))])
