@@ -4,6 +4,7 @@ import random
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -150,6 +151,22 @@ def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
         assert hall.director.send("/desk/call", match=["W1.4", "W1.5"], table=taken).status == 400
     assert hall.director.send("/desk/call", match=["W1.4"], table=[]).status == 400
     assert len(hall.state.on_tables) == 3
+
+
+def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None:
+    enter = partial(hall.director.send, "/desk/result")
+    for name in ("W1.1", "W1.2"):
+        enter(match=name, a=3, b=1, how="new")
+    enter(match="W2.1", a=3, b=0, how="new")
+    played = hall.state.counted["W2.1"]
+    shown = enter(match="W1.1", a=1, b=3, how="correct")
+    assert "W2.1" not in hall.state.counted
+    assert "Let W2.1 stand" in shown.words
+    assert hall.director.send("/desk/stand", match="W1.2").status == 400
+    assert hall.guest.send("/desk/stand", match="W2.1").status == 403
+    assert hall.director.send("/desk/stand", match="W2.1").status == 200
+    assert hall.state.counted["W2.1"] == played
+    assert hall.state.counted["W1.1"].score == (1, 3)
 
 
 def test_a_match_moves_to_another_table_and_keeps_its_start(hall: Hall) -> None:

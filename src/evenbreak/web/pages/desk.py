@@ -17,6 +17,7 @@ from evenbreak.answers.tournament_moves import (
     forfeited,
     happened,
     reopened,
+    settled_words,
     tie_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
@@ -27,7 +28,7 @@ from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
-from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
+from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
 from evenbreak.web.page import done, language, page, site_of
@@ -223,6 +224,17 @@ async def tiebreak(request: Request) -> Response:
     return await _enter(request, decide, lambda _, __: tie_words(found[-1]))
 
 
+async def let_stand(request: Request) -> Response:
+    """Let a match stand that was played before a correction sent somebody else into it."""
+    form = await _form(request)
+    match = form.text("match")
+    return await _enter(
+        request,
+        lambda state: stand(state, match),
+        lambda before, after: [*settled_words(before, after), *reopened(before, after)],
+    )
+
+
 async def undo(request: Request) -> Response:
     """Take back what happened last, if nothing has come in since the page was made."""
     form = await _form(request)
@@ -241,6 +253,7 @@ async def undo(request: Request) -> Response:
 
 ROUTES = [
     Route("/desk", desk),
+    Route("/desk/stand", let_stand, methods=["POST"]),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
         for one in (draw, call, result, forfeit, drop, change, tiebreak, undo)
