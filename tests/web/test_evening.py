@@ -61,7 +61,7 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
             wrong = "W1.1"
             games = hall.state.counted[wrong].score
             shown = hall.director.send(
-                "/desk/result", match=wrong, a=games[1], b=games[0], how="correct"
+                "/desk/result", match=wrong, a=games[1], b=games[0], how="correct", sure="yes"
             )
             assert shown.status == 200
             done.append(lambda state, g=games: moves.correct(state, "W1.1", g[::-1]))
@@ -160,6 +160,10 @@ def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None
     enter(match="W2.1", a=3, b=0, how="new")
     played = hall.state.counted["W2.1"]
     shown = enter(match="W1.1", a=1, b=3, how="correct")
+    assert "Is that meant?" in shown.words
+    assert "Open again: W2.1" in shown.words
+    assert hall.state.counted["W2.1"] == played
+    shown = enter(match="W1.1", a=1, b=3, how="correct", sure="yes")
     assert "W2.1" not in hall.state.counted
     assert "Let W2.1 stand" in shown.words
     assert hall.director.send("/desk/stand", match="W1.2").status == 400

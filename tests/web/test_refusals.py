@@ -112,7 +112,9 @@ NASTY = [SCRIPT, "Robert'); DROP TABLE event;--", "../../x", "=cmd|' /C calc'!A0
 
 def test_names_are_text_everywhere(hall: Hall) -> None:
     for name in NASTY:
-        shown = hall.director.send("/desk/drop", player=f"Player {16 - NASTY.index(name)}")
+        shown = hall.director.send(
+            "/desk/drop", player=f"Player {16 - NASTY.index(name)}", sure="yes"
+        )
         assert shown.status == 200
     hall.director.send("/desk/undo", seen=len(hall.state.events))
     for page in ("/", "/desk", "/bracket", "/screen", "/desk/history"):

@@ -157,7 +157,7 @@ def mark_of(path: Path) -> tuple[int, int, int]:
 
 
 def version_of(path: Path) -> int:
-    """Return the number of all events in the file; 0 if there is no file yet."""
+    """Return a number that changes with every event and proposal; 0 if there is no file yet."""
     if not path.exists():
         return 0
     try:
@@ -166,8 +166,10 @@ def version_of(path: Path) -> int:
         return 0
     try:
         there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
-        asked = "SELECT COALESCE(MAX(number), 0) FROM "
-        return sum(int(base.execute(asked + table).fetchone()[0]) for table in there)
+        asked = [f"SELECT COALESCE(MAX(number), 0) FROM {table}" for table in there]  # noqa: S608
+        if has_table(base, "proposal"):
+            asked.append("SELECT COALESCE(MAX(rowid), 0) FROM proposal")
+        return sum(int(base.execute(one).fetchone()[0]) for one in asked)
     except sqlite3.Error:
         return 0
     finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import urllib.parse
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -135,6 +136,15 @@ def asked_again(
     entered = {name: text for name, text in form.fields.items() if isinstance(text, str)}
     words = reason(request, why)
     return page(request, template, status=400, entered=entered, why=words, **values)
+
+
+def refused(request: Request, why: Exception | str, status: int) -> Response:
+    """Return why a request is refused, with the way back to the page that it came from."""
+    words = why if isinstance(why, str) else reason(request, why)
+    came = urllib.parse.urlsplit(request.headers.get("referer", ""))
+    own = came.netloc == request.headers.get("host") and not came.path.startswith("//")
+    back = came._replace(scheme="", netloc="").geturl() if own else "/"
+    return page(request, "refused.html", status=status, why=words, back=back)
 
 
 def reason(request: Request, why: Exception) -> str:

@@ -30,6 +30,7 @@ from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, language, page, site_of
 from evenbreak.web.pages.desk import BY
+from evenbreak.web.ratings_entered import rating_doubts, rating_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
@@ -122,7 +123,10 @@ async def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         scale = league.sheet.ratings.scale
     plan, rows = _plan(form, scale), _entrants(file, scale, league)
     known = league is not None
-    doubts = [] if known else league_doubts(scale, file.roster.rating, "is it the right scale?")
+    read = file.roster
+    doubts = (
+        [] if known else league_doubts(scale, read.rating, "is it the right scale?", read.players)
+    )
     doubts += chart_doubts(plan.chart, scale)
     new = [one.name for one in rows if one.standard_error == plan.starter_error]
     if new:
@@ -192,11 +196,7 @@ async def late(request: Request) -> Response:
     site, name = site_of(request), " ".join(form.text("name", longest=80).split())
     if not name:
         raise RefusalError("refused_nobody")
-    stated = form.text("rating").replace(",", ".")
-    try:
-        rating = float(stated) if stated else None
-    except ValueError:
-        raise RefusalError("refused_rating", value=stated) from None
+    rating = rating_of(form)
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan
@@ -207,8 +207,9 @@ async def late(request: Request) -> Response:
         )
         return [Event(site.clock(), moves.late(state, entrant))]
 
-    await asyncio.to_thread(add_events, site.path, decide, by=BY)
-    return done(request, "/desk", say(language(request), "entered", name=name))
+    _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
+    said = say(language(request), "entered", name=name)
+    return done(request, "/desk", said, *rating_doubts(after))
 
 
 ROUTES = [

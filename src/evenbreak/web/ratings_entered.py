@@ -1,0 +1,31 @@
+"""A rating as it is entered, and what is doubtful about those of tonight."""
+
+from __future__ import annotations
+
+from evenbreak.answers.scale_doubts import far_doubts
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.forms import Form
+from evenbreak.web.refusals import RefusalError
+
+_LARGEST = 1e6
+
+
+def rating_of(form: Form) -> float | None:
+    """Return the rating in a form; None: the field was left empty."""
+    stated = form.text("rating", longest=12).replace(",", ".")
+    if not stated:
+        return None
+    try:
+        rating = float(stated)
+    except ValueError:
+        raise RefusalError("refused_rating", value=stated) from None
+    if not abs(rating) <= _LARGEST:
+        raise RefusalError("refused_rating", value=stated)
+    return rating
+
+
+def rating_doubts(state: Evening) -> list[str]:
+    """Return whose ratings are far from those of all others."""
+    entrants = state.entrants.values()
+    ratings = [one.rating for one in entrants]
+    return far_doubts(state.scale, ratings, [one.name for one in entrants])
