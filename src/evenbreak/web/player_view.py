@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from evenbreak.answers.times_of_day import time_of_day
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.night import Known
@@ -18,6 +20,8 @@ class PlayerView(NamedTuple):
         the rating and how far off it may be.
     p_title
         the chance of the title; None: not known.
+    place
+        where they finished; '' if that is open.
     match, other
         the match that they play now or can play next, and whom they meet; '' if not known.
     table, called
@@ -30,6 +34,7 @@ class PlayerView(NamedTuple):
     rating: float
     error: float
     p_title: float | None
+    place: str
     match: str
     other: str
     table: int | None
@@ -50,6 +55,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     listed = (known.data.get("odds") or known.data.get("players", [])) if known else []
     titles = {one["name"]: one["p_title"] for one in listed}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
+    places = _decided(known) if known and known.of is state else {}
     playing: dict[str, str] = {}
     if state.drawn:
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
@@ -69,6 +75,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
                 entrant.rating,
                 entrant.standard_error,
                 title,
+                places.get(name, ""),
                 match,
                 other,
                 table,
@@ -77,3 +84,12 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
             )
         )
     return sorted(views, key=lambda one: -one.rating)
+
+
+def _decided(known: Known) -> dict[str, str]:
+    """Return the places that are decided, by player."""
+    odds = known.odds
+    seats, places = np.nonzero(odds.p_place > 1.0 - 1e-12)
+    names = odds.bracket.players
+    both = zip(seats.tolist(), places.tolist(), strict=True)
+    return {names[seat]: str(odds.bracket.places[place]) for seat, place in both}

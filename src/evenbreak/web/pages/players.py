@@ -42,9 +42,7 @@ async def prizes(request: Request) -> Response:
     if pot := fee * len(state.entrants) + added:
         known = await night.outlook()
         odds = known.odds if known and known.of is state else None
-        answer = tournament_prizes_answer(
-            state, payout_table(payout), float(pot), odds, source=site_of(request).path.stem
-        )
+        answer = tournament_prizes_answer(state, payout_table(payout), float(pot), odds)
         shown = answer_shown(request, answer)
     asked = {"fee": fee, "added": added, "payout": payout}
     return page(request, "prizes.html", asked=asked, payouts=list(PAYOUTS), answer=shown)
