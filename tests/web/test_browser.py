@@ -76,6 +76,20 @@ def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hal
     page.context.close()
 
 
+def test_a_bracket_of_groups_scrolls_in_its_own_frame(browser: Any, tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(
+            director, [f"A Rather Long Name {k}" for k in range(9)], format="groups", losers_race=""
+        )
+        for name in read_tournament(site.path).standing.to_play[:3]:
+            director.send("/desk/result", match=name, a=3, b=1, how="new")
+        page = opened(browser, site)
+        page.goto(f"{site.address}/bracket")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        page.context.close()
+
+
 def test_a_page_asks_at_most_twice_and_shows_changes_by_itself(browser: Any, hall: Hall) -> None:
     page = browser.new_page()
     asked: list[str] = []

@@ -207,4 +207,7 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
     shown = hall.guest.open("/prizes", fee="20", payout="40/30/20/10").words
     assert "128.00 for the winner" in shown
     assert hall.guest.open("/prizes", fee="-1").status == 400
-    assert hall.guest.open("/prizes", fee="9", payout="all mine").status == 400
+    shown = hall.guest.open("/prizes", fee="20", payout="50/30/20").words
+    assert "160.00 for the winner" in shown
+    for wrong in ("all mine", "60/50", "0/0", "50/-10", "nan"):
+        assert hall.guest.open("/prizes", fee="9", payout=wrong).status == 400

@@ -202,7 +202,8 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
     """
     (m, n), (a, b) = needs, (whole(games, "score") for games in score)
     if (a == m) == (b == n) or a > m or b > n:
-        raise InputError(f"{a}:{b} does not end a race {m}:{n}")
+        race = f"to {m}" if m == n else f"{m}:{n}"
+        raise InputError(f"{a}:{b} does not end a race {race}")
     if count == "games":
         return a, b
     won = a == m

@@ -12,6 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
+from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament import unrated_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
@@ -57,8 +58,8 @@ async def _choices(site: Site) -> dict[str, Any]:
         "charts": CHARTS,
         "seedings": SEEDINGS,
         "disciplines": DISCIPLINES,
-        "scales": list(SCALES),
-        "chip_charts": list(CHIP_CHARTS),
+        "scales": NAMES,
+        "chip_charts": CHIP_CHARTS,
         "league": site.league.sheet,
     }
 

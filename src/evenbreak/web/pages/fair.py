@@ -9,6 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.scale_words import NAMES
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
@@ -47,7 +48,7 @@ async def fair(request: Request) -> Response:
         "length": int(length),
         "lengths": LENGTHS,
         "scale": scale.text,
-        "scales": list(SCALES),
+        "scales": NAMES,
         "names": list(dict.fromkeys([*(state.entrants if state else ()), *in_league])),
         "races": [],
         "sides": None,

@@ -15,6 +15,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament_matches import tournament_matches_answer
 from evenbreak.ratings.scale import SCALES
 from evenbreak.tournaments.evening.fold import Evening
@@ -72,7 +73,7 @@ async def league(request: Request) -> Response:
         live=found.progress is not None,
         league=found,
         rows=rows[:_MOST_LISTED],
-        scales=list(SCALES),
+        scales=NAMES,
         quick=found.progress is not None,
     )
 
