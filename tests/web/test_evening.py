@@ -160,7 +160,7 @@ def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None
     enter(match="W2.1", a=3, b=0, how="new")
     played = hall.state.counted["W2.1"]
     shown = enter(match="W1.1", a=1, b=3, how="correct")
-    assert "Is that meant?" in shown.words
+    assert "Please confirm" in shown.words
     assert "Open again: W2.1" in shown.words
     assert hall.state.counted["W2.1"] == played
     shown = enter(match="W1.1", a=1, b=3, how="correct", sure="yes")

@@ -180,7 +180,7 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
 def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/drop", player="Player 1")
-    assert "Is that meant?" in shown.words
+    assert "Please confirm" in shown.words
     assert "Player 1 forfeited to Player 16 in W1.1" in shown.words
     assert not hall.state.dropped
     shown = hall.director.send("/desk/drop", player="Player 1", sure="yes")

@@ -116,7 +116,8 @@ def lineup(folder: Path, *words: str) -> dict:
 def offered(shown: Shown) -> list[tuple[str, str]]:
     """Return the picks that a captain's page offers, each with its chance."""
     found = re.findall(
-        r'<bdi class="pair">([^<]+)</bdi> <span class="worth">([^<]+)</span>', shown.text
+        r'<bdi class="pair">([^<]+)</bdi>(?: \(\d+\))? <span class="worth">([^<]+)</span>',
+        shown.text,
     )
     return [(name, chance) for name, chance in found]
 
@@ -151,7 +152,9 @@ def test_the_advice_is_that_of_the_command(night: Night, tmp_path: Path) -> None
 def test_a_cap_keeps_out_who_would_break_it(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", cap="15") as night:
         free = lineup(tmp_path, "--order", "ABA", "--cap", "15")
-        assert offered(night.captains[0].open("/team")) == asked_for(free)
+        shown = night.captains[0].open("/team")
+        assert offered(shown) == asked_for(free)
+        assert re.search(r"Ann</bdi> \(\d+\)", shown.text)  # what she counts under the cap
         for side, name in ((0, "Ann"), (1, "Wim"), (1, "Vic"), (0, "Bo")):
             assert night.put(side, name).status == 200
         words = night.captains[0].open("/team").words

@@ -58,6 +58,8 @@ class OptionView(NamedTuple):
         the other side's best reply; '' if there is none to come.
     mix
         how often to pick it, where both teams pick unseen.
+    counts
+        what it counts under a cap, such as 6; '' if there is none.
     """
 
     value: str
@@ -65,6 +67,7 @@ class OptionView(NamedTuple):
     worth: float | None = None
     reply: str = ""
     mix: float | None = None
+    counts: str = ""
 
 
 def set_views(seen: TeamEvening) -> list[SetView]:
@@ -92,6 +95,15 @@ def pick_value(state: TeamEvening, team: int, pick: Pick) -> str:
     return ",".join(str(squad.place(name)) for name in pick)
 
 
+def _counts(state: TeamEvening, team: int, pick: Pick) -> str:
+    """Return what a pick counts under a cap."""
+    if state.plan.cap is None and state.plan.at_most is None:
+        return ""
+    sheet = state.plan.teams[team]
+    by_name = dict(zip(sheet.players, sheet.weights, strict=True))
+    return f"{sum(by_name[name] for name in pick):g}"
+
+
 def advised_options(state: TeamEvening, team: int, found: Advice) -> list[OptionView]:
     """Return what a captain can pick, the best first."""
     return [
@@ -101,6 +113,7 @@ def advised_options(state: TeamEvening, team: int, found: Advice) -> list[Option
             option.worth,
             "" if found.blind else _names(option.answer),
             option.mix if found.blind else None,
+            _counts(state, team, option.names),
         )
         for option in found.options
     ]
@@ -144,6 +157,8 @@ def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[st
 def plain_options(state: TeamEvening, team: int) -> list[OptionView]:
     """Return what a team can pick, in the order of its list."""
     return [
-        OptionView(pick_value(state, team, pick), names_words(pick))
+        OptionView(
+            pick_value(state, team, pick), names_words(pick), counts=_counts(state, team, pick)
+        )
         for pick in choices(state, team).picks
     ]
