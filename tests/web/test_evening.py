@@ -1,5 +1,6 @@
 """A whole evening through the page: by the director and by players' phones, as by commands."""
 
+import os
 import random
 import threading
 import time
@@ -18,8 +19,9 @@ from evenbreak.files.tournament_store import (
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
-from web.conftest import Hall
-from web.phones import Phone
+from evenbreak.web.night import mark_of, version_of
+from web.conftest import Hall, begun
+from web.phones import Phone, running
 
 Decide = Callable[[Evening], object]
 
@@ -175,3 +177,20 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
     assert "128.00 for the winner" in shown
     assert hall.guest.open("/prizes", fee="-1").status == 400
     assert hall.guest.open("/prizes", fee="9", payout="all mine").status == 400
+
+
+def test_pages_follow_a_file_of_any_name(tmp_path: Path) -> None:
+    path = tmp_path / "pool #3 50%?.db"
+    assert version_of(path) == 0
+    with running(path) as site:
+        begun(Phone(site, director=True), ["Ann", "Bo"])
+    assert version_of(path) == 2
+    assert [one.name for one in tmp_path.iterdir() if not one.name.startswith(path.name)] == []
+
+
+def test_what_was_just_written_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    path.write_bytes(b"x")
+    assert mark_of(path) != mark_of(path)  # it may change again within a tick of the clock
+    os.utime(path, (1e9, 1e9))
+    assert mark_of(path) == mark_of(path)

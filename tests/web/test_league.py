@@ -78,6 +78,12 @@ def test_files_to_take_along(director: Phone, name: str) -> None:
     assert content.startswith(begins[name.rpartition(".")[2]])
 
 
+def test_results_of_more_than_a_megabyte_can_be_pasted(director: Phone) -> None:
+    again = SMALL + "\n" * (1 << 20)
+    shown = director.send_files("/league", {}, results=again, scale="no such scale", race=7)
+    assert "no such scale" in shown.words  # it was read: only the scale is refused
+
+
 def test_only_the_director_gives_results(director: Phone) -> None:
     assert Phone(director.site).send("/league", results=SMALL, scale="fargo").status == 403
 

@@ -73,6 +73,13 @@ def test_a_forged_cookie_makes_no_director(standing_hall: Hall) -> None:
     assert phone.open("/desk").status == 403
 
 
+@pytest.mark.parametrize("length", ["0007100", "101", "²", "٧", "-1", "1e2", "7.5"])
+def test_a_guest_cannot_ask_for_a_race_without_end(standing_hall: Hall, length: str) -> None:
+    shown = standing_hall.guest.open("/fair", a="600", b="500", race=length)
+    assert shown.status == 400
+    assert "from 1 to 100" in shown.words
+
+
 def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
     size = str(guard.MOST_BYTES + 1)
     status, text = raw(standing_hall, "POST", "/pin", Content_Length=size)

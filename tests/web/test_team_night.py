@@ -456,6 +456,16 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
         assert night.state.due == (1,)
 
 
+def test_each_team_may_come_in_a_file(tmp_path: Path) -> None:
+    teams = {"file_a": listed(RACKS).encode(), "file_b": listed(CUES).encode()}
+    with running(tmp_path / "tonight.db") as site:
+        asked = fields(players_a="", players_b="")
+        shown = Phone(site, director=True).send_files("/team/new", teams, **asked)
+        assert shown.status == 200, shown.words
+        state = team_evening(read_team_events(site.path))
+        assert [sheet.players for sheet in state.plan.teams] == [tuple(RACKS), tuple(CUES)]
+
+
 def test_players_without_a_rating_have_that_of_the_league(tmp_path: Path) -> None:
     names = ["Ann", "Bo", "Cleo", "Dan", "Uli", "Vic"]
     rows = [

@@ -8,6 +8,8 @@ from evenbreak.answers.scale_words import NAMES
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
 
 
@@ -83,6 +85,16 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
             f"these average about {middle:.0f}; {remedy}"
         )
     return doubts + far_doubts(scale, known)
+
+
+def late_doubts(scale: Scale, known: Sequence[float], rating: float) -> list[str]:
+    """Return a warning if one more rating is very far from those known, none of which is.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> late_doubts(SCALES["fargo"], [580, 612], 600), len(late_doubts(SCALES["fargo"], [580], 9e4))
+    ([], 1)
+    """
+    return [] if far_doubts(scale, known) else far_doubts(scale, [*known, rating])
 
 
 def far_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:

@@ -41,6 +41,7 @@ _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
 _MOST_CONNECTIONS = 1000
 _MOST_HEAD = 32 << 10  # bytes of the lines above a body
+_HTTP = {400: "refused_unreadable", 404: "refused_missing"}
 
 
 def make_app(site: Site) -> Starlette:
@@ -139,7 +140,9 @@ async def _wrong(request: Request, error: Exception) -> Response:
 
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
-    key = "refused_missing" if error.status_code == 404 else "refused_method"
+    key = {400: "refused_unreadable", 404: "refused_missing"}.get(
+        error.status_code, "refused_method"
+    )
     words = say(language(request), key)
     return page(request, "refused.html", status=error.status_code, why=words)
 

@@ -39,7 +39,7 @@ _NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
 _AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
 
-async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
+def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     """Return the plan that a form asks for, and what its lists make doubtful.
 
     Players without a rating have that of the league, if it knows them.
@@ -49,7 +49,7 @@ async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         raise RefusalError("refused_teams")
     lists = []
     for side, name in zip("ab", names, strict=True):
-        content = await list_of(form, f"players_{side}", f"file_{side}")
+        content = list_of(form, f"players_{side}", f"file_{side}")
         if not content.strip():
             raise RefusalError("refused_nobody")
         lists.append(_read(content, name))

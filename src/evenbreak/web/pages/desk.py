@@ -71,6 +71,9 @@ async def desk(request: Request) -> Response:
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
+        if known and known.problem:
+            why = in_language(language(request), known.problem)
+            shown["warnings"] = [say(language(request), "not_worked_out", why=why)]
     return page(request, "desk.html", live=True, **shown)
 
 

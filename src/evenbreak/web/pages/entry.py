@@ -11,12 +11,14 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
+from evenbreak.answers.scale_doubts import chart_doubts, late_doubts, league_doubts
 from evenbreak.answers.tournament import unrated_words
+from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.player_names import clean_name, is_name
+from evenbreak.files.roster import LARGEST, RosterFile
 from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
@@ -28,13 +30,12 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH, opened
 from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
 from evenbreak.web.league import League
-from evenbreak.web.page import asked_again, done, language, page, site_of
+from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
-from evenbreak.web.words import say
 
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
@@ -64,15 +65,13 @@ async def _choices(site: Site) -> dict[str, Any]:
 
 async def begin(request: Request) -> Response:
     """Begin a tournament; a form that is refused comes back as it was filled in."""
-    async with request.form(max_files=1, max_fields=40) as fields:
-        await form_of(request)
-        check_director(request)
-        form, site = Form(fields), site_of(request)
-        try:
-            event, warnings = await _begun(form, site)
-            before = await asyncio.to_thread(_put_aside, form, site)
-        except (RefusalError, EvenbreakError) as error:
-            return asked_again(request, "new.html", form, error, **await _choices(site))
+    form, site = await form_of(request), site_of(request)
+    check_director(request)
+    try:
+        event, warnings = await asyncio.to_thread(_begun, form, site)
+        before = await asyncio.to_thread(_put_aside, form, site)
+    except (RefusalError, EvenbreakError) as error:
+        return asked_again(request, "new.html", form, error, **await _choices(site))
     await asyncio.to_thread(new_tournament, site.path, [event], in_place_of=before)
     site.keep_secrets()
     return done(request, "/desk", *warnings)
@@ -110,12 +109,12 @@ def _put_aside(form: Form, site: Site) -> int:
     return there.events
 
 
-async def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
+def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     """Return what a form begins, and what its list makes doubtful."""
-    content = await list_of(form, "entrants", "file")
+    content = list_of(form, "entrants", "file")
     if not content.strip():
         raise RefusalError("refused_nobody")
-    file = await asyncio.to_thread(read_upload, content, read_entrants)
+    file = read_upload(content, read_entrants)
     scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
@@ -189,14 +188,7 @@ async def late(request: Request) -> Response:
     """Let a late player in."""
     form = await form_of(request)
     check_director(request)
-    site, name = site_of(request), " ".join(form.text("name", longest=80).split())
-    if not name:
-        raise RefusalError("refused_nobody")
-    stated = form.text("rating").replace(",", ".")
-    try:
-        rating = float(stated) if stated else None
-    except ValueError:
-        raise RefusalError("refused_rating", value=stated) from None
+    site, name, rating = site_of(request), _name(form), _rating(form)
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan
@@ -207,8 +199,32 @@ async def late(request: Request) -> Response:
         )
         return [Event(site.clock(), moves.late(state, entrant))]
 
-    await asyncio.to_thread(add_events, site.path, decide, by=BY)
-    return done(request, "/desk", say(language(request), "entered", name=name))
+    before, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
+    known = [entrant.rating for entrant in before.entrants.values()]
+    doubts = [] if rating is None else late_doubts(after.scale, known, rating)
+    return done(request, "/desk", entry_words(after, name), *doubts)
+
+
+def _name(form: Form) -> str:
+    """Return the name of a late player, as it is read from a list."""
+    name = clean_name(form.text("name", longest=80))
+    if not name:
+        raise RefusalError("refused_nobody")
+    if not is_name(name):
+        raise RefusalError("refused_name", value=name)
+    return name
+
+
+def _rating(form: Form) -> float | None:
+    """Return a rating such as a list may have; None if the field was left empty."""
+    text = form.text("rating").replace(",", ".")
+    try:
+        rating = float(text) if text else None
+    except ValueError:
+        rating = np.nan
+    if rating is not None and not abs(rating) <= LARGEST:
+        raise RefusalError("refused_rating", value=text)
+    return rating
 
 
 ROUTES = [
