@@ -95,6 +95,59 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     assert hall.state.counted["W1.1"].winner == pair[0]
 
 
+def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -> None:
+    scored_by_phones(hall, "W1.1", (3, 1))
+    assert "W1.1" in hall.state.counted
+    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    assert "says:" not in hall.director.open("/desk").words
+    token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
+    phone = Phone(hall.site)
+    phone.send(f"/m/{token}/me", me=0)
+    assert "counts once" in phone.send(f"/m/{token}/score", a=3, b=1, **asked).words
+    assert "W1.1" not in hall.state.counted
+
+
+def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) -> None:
+    for match in ("W1.1", "W1.2"):
+        hall.director.send("/desk/result", match=match, a=3, b=0, how="new")
+    token, phones = hall.site.match_token("W2.1"), [Phone(hall.site), Phone(hall.site)]
+    phones[0].send(f"/m/{token}/me", me=0)
+    phones[0].send(f"/m/{token}/score", a=3, b=1, **players_of(hall, "W2.1"))
+    hall.director.send("/desk/result", match="W1.2", a=1, b=3, how="correct")
+    phones[1].send(f"/m/{token}/me", me=1)
+    shown = phones[1].send(f"/m/{token}/score", a=0, b=3, **players_of(hall, "W2.1"))
+    assert "counts once" in shown.words
+
+
+def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
+    matches, codes = [f"W1.{k}" for k in range(1, 9)], []
+    for match in matches:
+        token, asked = hall.site.match_token(match), players_of(hall, match)
+        phones = [Phone(hall.site), Phone(hall.site)]
+        for k, phone in enumerate(phones):
+            phone.send(f"/m/{token}/me", me=k)
+        together = threading.Barrier(2)
+
+        def enter(
+            phone: Phone, token: str = token, asked: dict = asked, at: threading.Barrier = together
+        ) -> None:
+            at.wait()
+            codes.append(phone.send(f"/m/{token}/score", a=3, b=1, **asked).status)
+
+        threads = [threading.Thread(target=enter, args=(phone,)) for phone in phones]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert set(codes) <= {200, 409}  # 409: the match was over already
+    assert set(hall.state.counted) == set(matches)
+
+
+def players_of(hall: Hall, match: str) -> dict[str, str]:
+    """Return the fields that say whose games a form counts."""
+    return dict(zip(("player_a", "player_b"), hall.state.pair(match), strict=True))
+
+
 def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
     token = hall.site.match_token("W1.1")
     asked = dict(zip(("player_a", "player_b"), hall.state.pair("W1.1"), strict=True))

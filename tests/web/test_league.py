@@ -11,6 +11,7 @@ import pytest
 
 from evenbreak.files.results import read_results
 from evenbreak.files.tournament_store import read_tournament
+from evenbreak.ratings import usual
 from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import usual_ratings
 from places import DATA
@@ -160,3 +161,13 @@ def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_end
         assert "won" in rows[0]
         assert "3:4" in rows[1]
         assert "won" in rows[1]
+
+
+def test_whatever_goes_wrong_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ArithmeticError("the ratings did not settle")
+
+    monkeypatch.setattr(usual, "usual_ratings", fail)
+    with running(tmp_path / "tonight.db") as site:
+        shown = rated(Phone(site, director=True), SMALL)
+        assert "The ratings did not settle" in shown.words

@@ -55,6 +55,27 @@ def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
         assert director.send("/desk/draw").status == 200
 
 
+def test_a_second_tap_on_begin_leads_to_the_same_tournament(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        for _ in range(2):
+            shown = director.send("/new", **ASKED)
+            assert (shown.status, shown.url.endswith("/desk")) == (200, True)
+        assert len(read_tournament(site.path).events) == 1
+
+
+def test_what_is_said_fits_into_a_cookie_in_every_script(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director, sizes = Phone(site, director=True), []
+        keep = director.jar.set_cookie
+        monkeypatch.setattr(director.jar, "set_cookie", lambda one: sizes.append(one) or keep(one))
+        names = "\n".join(letter * 150 for letter in "жшщю")
+        assert director.send("/new", **ASKED | {"entrants": names}).status == 200
+        assert max((len(one.value) for one in sizes), default=0) < 3800
+
+
 def test_players_come_in_a_file(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import socket
 
@@ -75,7 +76,7 @@ def make_app(site: Site) -> Starlette:
             Middleware(
                 SessionMiddleware,
                 secret_key=site.cookie_key,
-                session_cookie="evenbreak",
+                session_cookie=cookie_name(site),
                 max_age=_COOKIE_DAYS * 86400,
                 same_site="lax",
             ),
@@ -90,6 +91,14 @@ def make_app(site: Site) -> Starlette:
     app.state.site = site
     app.state.closing = False
     return app
+
+
+def cookie_name(site: Site) -> str:
+    """Return the name of the sessions' cookie, another one for each file.
+
+    Cookies know no ports: two pages on one computer would overwrite each other's sessions.
+    """
+    return f"evenbreak-{hashlib.sha256(site.cookie_key.encode()).hexdigest()[:8]}"
 
 
 def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
@@ -107,6 +116,10 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
         app,
         host=host,
         port=port,
+        http="h11",
+        ws="none",
+        lifespan="off",
+        proxy_headers=False,
         log_level="error",
         access_log=False,
         server_header=False,

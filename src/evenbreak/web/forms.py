@@ -13,7 +13,8 @@ from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_form
 
 _MOST_FIELDS, _MOST_FILES = 1000, 2
-_LONGEST = 200
+LONGEST = 200
+"""Characters of a field, if nothing else is said."""
 
 EVEN, FAIR = "even", "fair"
 RACES = {EVEN: "races_even", FAIR: "races_fair"}
@@ -35,7 +36,7 @@ class Form:
     def __init__(self, fields: Fields | QueryParams) -> None:
         self.fields = fields
 
-    def text(self, name: str, *, longest: int = _LONGEST) -> str:
+    def text(self, name: str, *, longest: int = LONGEST) -> str:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -23,6 +24,8 @@ from evenbreak.web.uploads import ending_of, read_upload
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
     from evenbreak.answers.sheet import Sheet
+
+_LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -112,6 +115,9 @@ class League:
             sheet = await self._thread.run(lambda: self._rated(asked))
         except EvenbreakError as error:
             problem = str(error)
+        except Exception as error:
+            _LOG.exception("the league could not be rated", exc_info=error)
+            problem = str(error) or type(error).__name__
         else:
             if asked == self._asked:
                 self.sheet, self.progress = sheet, None

@@ -69,6 +69,8 @@ async def begin(request: Request) -> Response:
     check_director(request)
     try:
         event, warnings = await asyncio.to_thread(_begun, form, site)
+        if await asyncio.to_thread(_is_there, site, event):  # the same tap again
+            return done(request, "/desk")
         before = await asyncio.to_thread(_put_aside, form, site)
     except (RefusalError, EvenbreakError) as error:
         return asked_again(request, "new.html", form, error, **await _choices(site))
@@ -96,6 +98,11 @@ def _there(site: Site) -> There | None:
         return None
     found = read_events(site.path)
     return There(len(found), found[0].at, len(site.night.state().entrants))
+
+
+def _is_there(site: Site, event: Event) -> bool:
+    """Return whether the tournament that there is has begun just so, and nothing else happened."""
+    return site.night.exists and [one.what for one in read_events(site.path)] == [event.what]
 
 
 def _put_aside(form: Form, site: Site) -> int:

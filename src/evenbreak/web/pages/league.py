@@ -171,7 +171,7 @@ def _made(name: str) -> Callable[[Sheet], bytes]:
 async def download(request: Request, name: str) -> Response:
     """Return the sheet, or its tables, as a file."""
     content = await asyncio.to_thread(_made(name), _sheet(request))
-    saved = {"content-disposition": f'attachment; filename="{name}"', "cache-control": "no-store"}
+    saved = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=saved)
 
 
