@@ -16,7 +16,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import NamedTuple
 
-from evenbreak.web.app import server_of
+from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
 

@@ -2,6 +2,7 @@
 
 import http.client
 import socket
+from contextlib import ExitStack
 from html import unescape
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -9,7 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 from starlette.requests import Request
 
-from evenbreak.web import guard
+from evenbreak.web import guard, server
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_tries
@@ -102,7 +103,7 @@ def test_the_language_is_chosen_where_the_reader_is(standing_hall: Hall) -> None
 
 
 def test_nothing_of_the_evening_is_kept_by_a_browser(standing_hall: Hall) -> None:
-    for path in ("/", "/desk", "/desk/codes", "/bracket.pdf", "/cards.pdf", "/missing"):
+    for path in ("/", "/desk/codes", "/bracket.pdf", "/missing"):
         assert standing_hall.director.open(path).headers["cache-control"] == "no-store"
 
 
@@ -142,6 +143,29 @@ def test_a_slow_body_is_cut_off(standing_hall: Hall, monkeypatch: pytest.MonkeyP
         head = f"POST /pin HTTP/1.1\r\nHost: {place.netloc}\r\nContent-Length: 50\r\n"
         line.sendall(f"{head}Content-Type: application/x-www-form-urlencoded\r\n\r\nc".encode())
         assert b" 408 " in line.recv(200)
+
+
+def test_connections_that_ask_for_nothing_are_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "_IDLE", 2)
+    with running(tmp_path / "tonight.db") as site:
+        place = urlsplit(site.address)
+        asked = f"GET /events HTTP/1.1\r\nHost: {place.netloc}\r\n".encode()
+        with ExitStack() as ends:
+            nothing, half, whole = (
+                ends.enter_context(socket.create_connection((place.hostname, place.port), 5))
+                for _ in range(3)
+            )
+            half.sendall(asked)
+            whole.sendall(asked + b"\r\n")
+            stream = ends.enter_context(whole.makefile("rb"))
+            assert stream.readline().startswith(b"HTTP/1.1 200")
+            assert (nothing.recv(9), half.recv(9)) == (b"", b"")
+            assert any(line.startswith(b"data:") for line in stream)  # a stream goes on
+            director = Phone(site, director=True)
+            begun(director, ["Ann", "Bo"])
+            assert any(line.startswith(b"data: 2") for line in stream)
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import socket
 
-import uvicorn
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -40,8 +38,6 @@ from evenbreak.web.words import say
 
 _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
-_MOST_CONNECTIONS = 1000
-_MOST_HEAD = 32 << 10  # bytes of the lines above a body
 _HTTP = {400: "refused_unreadable", 404: "refused_missing"}
 
 
@@ -99,42 +95,6 @@ def cookie_name(site: Site) -> str:
     Cookies know no ports: two pages on one computer would overwrite each other's sessions.
     """
     return f"evenbreak-{hashlib.sha256(site.cookie_key.encode()).hexdigest()[:8]}"
-
-
-def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
-    """Return the server of a site; it ends the streams of its pages before it ends itself.
-
-    Parameters
-    ----------
-    site
-        what is served.
-    host, port
-        where it listens.
-    """
-    app = make_app(site)
-    config = uvicorn.Config(
-        app,
-        host=host,
-        port=port,
-        http="h11",
-        ws="none",
-        lifespan="off",
-        proxy_headers=False,
-        log_level="error",
-        access_log=False,
-        server_header=False,
-        timeout_keep_alive=20,
-        timeout_graceful_shutdown=3,
-        limit_concurrency=_MOST_CONNECTIONS,
-        h11_max_incomplete_event_size=_MOST_HEAD,
-    )
-
-    class Server(uvicorn.Server):
-        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-            app.state.closing = True
-            await super().shutdown(sockets)
-
-    return Server(config)
 
 
 async def _style(_: Request) -> Response:
