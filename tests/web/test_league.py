@@ -1,7 +1,9 @@
 """The league on the page: results in, ratings and files out, why a race is fair."""
 
+import asyncio
 import csv
 import io
+import threading
 import time
 import zipfile
 from collections.abc import Iterator
@@ -14,6 +16,7 @@ from evenbreak.files.tournament_store import read_tournament
 from evenbreak.ratings import usual
 from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import usual_ratings
+from evenbreak.web.league import League
 from places import DATA
 from web.phones import Phone, Shown, running
 
@@ -171,3 +174,21 @@ def test_whatever_goes_wrong_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyP
     with running(tmp_path / "tonight.db") as site:
         shown = rated(Phone(site, director=True), SMALL)
         assert "The ratings did not settle" in shown.words
+
+
+def test_whoever_asks_for_many_pairs_holds_nobody_up(tmp_path: Path) -> None:
+    league, begun, go_on = League(tmp_path / "tonight.db", sheet=object()), [], threading.Event()
+
+    def work(_: object, pair: tuple[int, int]) -> tuple[int, int]:
+        begun.append(pair)
+        go_on.wait(10)
+        return pair
+
+    async def ask() -> list[object]:
+        for k in range(60):
+            assert await league.why((0, k), work, 0.0) is None
+        go_on.set()
+        return [await league.why((0, k), work, 5.0) for k in range(4)]
+
+    assert asyncio.run(ask()) == [(0, k) for k in range(4)]
+    assert len(begun) == 4

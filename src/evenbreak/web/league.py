@@ -92,10 +92,15 @@ class League:
     async def why(
         self, pair: tuple[int, int], work: Callable[[Sheet, tuple[int, int]], Answer], wait: float
     ) -> Answer | None:
-        """Return what is worked out about two players of the sheet; None: not ready yet."""
+        """Return what is worked out about two players of the sheet; None: not ready yet.
+
+        Only a few pairs wait at once, so that whoever asks for many does not hold up the ratings.
+        """
         sheet = self.sheet
         assert sheet is not None  # noqa: S101 - asked of a sheet that is shown
         if pair not in self._whys:
+            if sum(not one.done() for one in self._whys.values()) >= _MOST_WAITING:
+                return None
             if len(self._whys) >= _MOST_WHYS:
                 self._whys.clear()
             self._whys[pair] = asyncio.ensure_future(self._thread.run(lambda: work(sheet, pair)))
@@ -166,5 +171,5 @@ class League:
         return self.beside.with_name(f"{self.beside.stem}.league.{ending}")
 
 
-_MOST_WHYS = 50
+_MOST_WHYS, _MOST_WAITING = 50, 4
 _TASKS: set[asyncio.Task[None]] = set()
