@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench browser \
+.PHONY: check check-rest check-beside lint types test lowest layers docs reports drift bench browse browser \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -15,7 +15,7 @@ check:            ## what CI runs, on the last commit, in new virtual environmen
 
 check-rest: check-beside drift   ## what CI checks after the tests
 
-check-beside: lowest docs lint types   ## those of them that may run side by side
+check-beside: lowest docs lint types browse   ## those of them that may run side by side
 
 lint:
 	$(PYTHON) -m ruff format --check .
@@ -58,10 +58,11 @@ drift: reports    ## fail if what is committed is not what the scripts make
 	git diff --exit-code -- reports data $(DRAWN)
 	test -z "$$(git status --porcelain -- reports data $(DRAWN))"
 
-browser:          ## the page in a real browser; installs Chromium where there is none
-	command -v chromium || apt-get install --yes chromium
-	$(PYTHON) -m pip install -q -e '.[browser]'
-	$(PYTHON) -m pytest -q tests/web/test_browser*.py
+browse:           ## the page in a real browser, where there is one or it may be installed
+	PYTHON=$(PYTHON) .ci/browse tests/web/test_browser.py
+
+browser:          ## the same with whole evenings, by phones with and without JavaScript
+	PYTHON=$(PYTHON) .ci/browse tests/web/test_browser*.py
 
 page-pictures:    ## the tutorial's pictures of the page, in a real browser
 	$(PYTHON) docs/images/page_pictures.py

@@ -127,7 +127,7 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     clock.at = "19:00"
     press(desk, desk.get_by_role("button", name="Make the draw"))
     settled(desk, site, "/desk")
-    kept(desk, folder / "call.png", first="h1", last="details")
+    kept(desk, folder / "call.png", first="h1", last="details.card")
 
     clock.at = "19:05"
     call_all(desk, site)
@@ -153,7 +153,8 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     desk.goto(f"{site.address}/desk")
     desk.get_by_text("Correct a result").click()
     press(desk, result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5)))
-    kept(desk, folder / "correct.png", first=".said", last=".said")
+    kept(desk, folder / "correct.png", first="h1", last="main form")
+    press(desk, desk.get_by_role("button", name="Yes, do it"))
     settled(desk, site, "/desk")
     press(desk, desk.get_by_role("button", name="Undo the last entry"))
 

@@ -93,6 +93,8 @@ class Director:
         else:
             self.fills(form, score)
         clicks(self.page, form.get_by_role("button"))
+        if (sure := self.page.get_by_role("button", name="Yes, do it")).count():
+            clicks(self.page, sure)
         word = "result" if how == "new" else "correct"
         self.commands.append(f"{word} {match} {score[0]}:{score[1]}")
 

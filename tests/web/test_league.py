@@ -18,6 +18,7 @@ from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import usual_ratings
 from evenbreak.web.league import League
 from places import DATA
+from web.conftest import Hall
 from web.phones import Phone, Shown, running
 
 RUDE = "=1+1<script>alert(1)</script>"
@@ -33,6 +34,11 @@ def rated(phone: Phone, content: str, **fields: object) -> Shown:
     """Give results and wait for the ratings."""
     shown = phone.send("/league", results=content, scale="fargo", race=7, **fields)
     assert shown.status == 200, shown.words
+    return worked_out(phone)
+
+
+def worked_out(phone: Phone) -> Shown:
+    """Wait for the ratings."""
     for _ in range(200):
         shown = phone.open("/league")
         if "data-older" not in shown.text:
@@ -192,3 +198,28 @@ def test_whoever_asks_for_many_pairs_holds_nobody_up(tmp_path: Path) -> None:
 
     assert asyncio.run(ask()) == [(0, k) for k in range(4)]
     assert len(begun) == 4
+
+
+def test_an_evening_is_added_to_the_league_once(hall: Hall) -> None:
+    director, league = hall.director, hall.site.league
+    assert director.send("/league/tonight").status == 409  # nothing has been played
+    for k in range(1, 9):
+        director.send("/desk/result", match=f"W1.{k}", a=3, b=k % 3, how="new")
+    assert hall.guest.send("/league/tonight").status == 403
+    shown = hall.guest.open("/results.csv")
+    assert len(shown.text.splitlines()) == 9
+    assert director.send("/league/tonight").status == 200
+    worked_out(director)
+    assert (len(league.sheet.file.results), len(league.sheet.ratings.players)) == (8, 16)
+    director.send("/desk/result", match="W1.1", a=2, b=3, how="correct")
+    director.send("/league/tonight")  # again: in place of what was added before
+    worked_out(director)
+    assert len(league.sheet.file.results) == 8
+    assert len(league.paths) == 1
+    rated(director, "player_a,player_b,score_a,score_b\nPlayer 1,New Ned,7,2\n")
+    assert len(league.sheet.file.results) == 1  # a new file takes the place of all
+    assert [path.suffix for path in league.beside.parent.glob("*.league-*")] == [".replaced"]
+    director.send("/league/tonight")
+    worked_out(director)
+    assert len(league.sheet.file.results) == 9
+    assert "New Ned" in hall.guest.open("/league").words

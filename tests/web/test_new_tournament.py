@@ -221,3 +221,40 @@ def test_odds_that_fail_leave_the_director_a_desk(tmp_path: Path) -> None:
             time.sleep(0.02)
         assert "cannot be worked out" in shown.words
         assert director.send("/desk/call", match="W1.1", table=1).status == 200
+
+
+def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        director.send("/new", **ASKED)
+        assert director.send("/desk/entrant", player="Bo", name="Bo Lee").status == 200
+        shown = director.send("/desk/entrant", player="Cy", rating="5000")
+        assert "1 of 4 ratings (Cy: 5000) is more than 600 points" in shown.words
+        found = read_tournament(site.path).entrants
+        assert {name: one.rating for name, one in found.items()} == {
+            "Ann": 612,
+            "Di": 480,
+            "Bo Lee": 540,
+            "Cy": 5000,
+        }
+        for wrong in (
+            {"player": "Nobody"},
+            {"name": "Bo\x07"},
+            {"player": "Cy", "name": "ann"},
+            {"rating": "nan"},
+        ):
+            assert director.send("/desk/entrant", **{"player": "Cy"} | wrong).status == 400
+        director.send("/desk/draw")
+        assert director.send("/desk/entrant", player="Ann", rating="600").status == 409
+
+
+def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
+    hall.director.send("/desk/call", match="W1.1", table=1)
+    shown = hall.director.send("/desk/drop", player="Player 1")
+    assert "Is that meant?" in shown.words
+    assert "Player 1 forfeited to Player 16 in W1.1" in shown.words
+    assert not hall.state.dropped
+    shown = hall.director.send("/desk/drop", player="Player 1", sure="yes")
+    assert "Player 1 has dropped out." in shown.words
+    assert "Player 1" in hall.state.dropped
+    assert hall.director.send("/desk/drop", player="").status == 400

@@ -405,7 +405,6 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
         ({"team_b": "Cu\x07es"}, "can be printed"),
         ({"team_b": "rac\u200bks"}, "both teams are called"),
         ({"players_b": ""}, "Nobody is named"),
-        ({"players_b": "Uli,500\nANN,500\nVic,480"}, "in both teams"),
         ({"players_b": "player,rating\nUli,high"}, "Cues: line 2: rating 'high'"),
         ({"cap": "5"}, "no line-up"),
         ({"cap": "-1"}, "number above 0"),

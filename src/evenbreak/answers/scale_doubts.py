@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.scale_words import NAMES
+from evenbreak.answers.wording import some_of
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import ArrayLike
 
 
@@ -52,7 +52,9 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
     ]
 
 
-def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
+def league_doubts(
+    scale: Scale, ratings: ArrayLike, remedy: str, names: Sequence[str] = ()
+) -> list[str]:
     """Return a warning for each thing that is unusual in the ratings of a league.
 
     Parameters
@@ -63,6 +65,8 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
         NaN is no rating.
     remedy
         what to do if they are ratings of another scale.
+    names
+        of the players, to name those who are far from the others.
 
     >>> from evenbreak.ratings import SCALES
     >>> league_doubts(SCALES["npl"], [560, 600, 640], "say which with --scale")
@@ -73,8 +77,8 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
     """
     import numpy as np
 
-    known = np.asarray(ratings, dtype=float)
-    known = known[~np.isnan(known)]
+    given = np.asarray(ratings, dtype=float)
+    known = given[~np.isnan(given)]
     if not len(known):
         return []
     doubts = []
@@ -84,20 +88,10 @@ def league_doubts(scale: Scale, ratings: ArrayLike, remedy: str) -> list[str]:
             f"{NAMES.get(scale.name, scale.name)} ratings average about {scale.centre:g}, but "
             f"these average about {middle:.0f}; {remedy}"
         )
-    return doubts + far_doubts(scale, known)
+    return doubts + far_doubts(scale, given, names)
 
 
-def late_doubts(scale: Scale, known: Sequence[float], rating: float) -> list[str]:
-    """Return a warning if one more rating is very far from those known, none of which is.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> late_doubts(SCALES["fargo"], [580, 612], 600), len(late_doubts(SCALES["fargo"], [580], 9e4))
-    ([], 1)
-    """
-    return [] if far_doubts(scale, known) else far_doubts(scale, [*known, rating])
-
-
-def far_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
+def far_doubts(scale: Scale, ratings: ArrayLike, names: Sequence[str] = ()) -> list[str]:
     """Return a warning if some ratings are very far from the others, as after a slip.
 
     Parameters
@@ -106,23 +100,28 @@ def far_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         of the ratings.
     ratings
         NaN is no rating.
+    names
+        of the players, to name those who are far from the others.
 
     >>> from evenbreak.ratings import SCALES
-    >>> far_doubts(SCALES["fargo"], [580, 5800, 612])
-    ['1 of 3 ratings is more than 600 points from the median of 612; are they all on the same
-    scale?']
+    >>> far_doubts(SCALES["fargo"], [580, 5800, 612], ["Ann", "Bo", "Cy"])
+    ['1 of 3 ratings (Bo: 5800) is more than 600 points from the median of 612; are they all on the
+    same scale?']
     """
     import numpy as np
 
-    known = np.asarray(ratings, dtype=float)
-    known = known[~np.isnan(known)]
+    given = np.asarray(ratings, dtype=float)
+    known = given[~np.isnan(given)]
     edge = APART * scale.points_per_doubling
     middle = float(np.median(known)) if len(known) else 0.0
-    apart = int((np.abs(known - middle) > edge).sum())
+    far = np.flatnonzero(np.abs(given - middle) > edge)
+    apart = len(far)
     if not apart:
         return []
+    named = [f"{names[k]}: {given[k]:g}" for k in far.tolist()] if names else []
+    who = f" ({some_of(named)})" if named else ""
     return [
-        f"{apart:,} of {len(known):,} ratings {'is' if apart == 1 else 'are'} more than "
+        f"{apart:,} of {len(known):,} ratings{who} {'is' if apart == 1 else 'are'} more than "
         f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
     ]
 

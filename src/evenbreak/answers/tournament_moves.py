@@ -74,6 +74,15 @@ def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
     )
 
 
+def settled_words(before: Evening, after: Evening) -> list[str]:
+    """Return in words the results that count otherwise since a match was let stand."""
+    return [
+        f"{score_words(result)} in {name}."
+        for name, result in after.counted.items()
+        if before.counted.get(name, result) != result
+    ]
+
+
 def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
     """Return in words which matches are open again, and which results count again.
 

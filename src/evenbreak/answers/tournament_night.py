@@ -144,7 +144,7 @@ def _what_is_next(
     state, tied = night.state, tied_groups(night.state)
     words: list[str] = []
     found, calls = night.as_things_are, night.calls
-    tables = _tables(state, calls)
+    tables = _tables(night)
     if tied:
         words.append(
             f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
@@ -230,31 +230,20 @@ def waits_for(state: Evening, match: str) -> str:
     return " and ".join(dict.fromkeys(sources))
 
 
-def _tables(state: Evening, options: Sequence[Call]) -> list[tuple[int | None, str]]:
+def _tables(night: Outlook) -> list[tuple[int | None, str]]:
     """Return the matches on tables, those to call to the free tables, then those that wait."""
+    state = night.state
     playing: list[tuple[int | None, str]] = sorted(
         (one.call.table, name) for name, one in state.on_tables.items()
     )
-    free = free_tables(state)
-    calls = [call.match for call in options if call.match in state.standing.to_play]
-    grouped = {name for group in state.bracket.groups for name in group.matches}
-    calls.sort(key=lambda name: state.bracket.match(name).round if name in grouped else 0)
-    now: list[str] = []
-    later: list[tuple[None, str]] = []
-    busy = {player for one in state.on_tables.values() for player in one.call.players}
-    for name in calls:
-        pair = set(state.pair(name))
-        if len(now) < len(free) and not pair & busy:
-            busy |= pair
-            now.append(name)
-        else:
-            later.append((None, name))
-    return [*playing, *zip(free, now, strict=False), *later]
+    waiting = [call.match for call in night.calls if call.match not in night.to_call]
+    called = zip(free_tables(state), night.to_call, strict=False)
+    return [*playing, *called, *((None, name) for name in waiting)]
 
 
 def next_calls(night: Outlook) -> list[tuple[int, str]]:
     """Return which matches to call to which of the free tables."""
-    tables = _tables(night.state, night.calls)
+    tables = _tables(night)
     return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
 
 

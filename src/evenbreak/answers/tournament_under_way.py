@@ -159,6 +159,8 @@ def time_under_way(
     races = state.races
     found = outlook.finish(tables=usual, turnover=turnover)
     changes = what_if(found, ask, state.whole, usual, races, taken=len(state.on_tables))
+    if tables is None and turnover is None:
+        found = outlook.as_things_are
     begun = begun_at(outlook)
     early, middle, late = found.bands
     keys = ("finish_p10", "finish_p50", "finish_p90")

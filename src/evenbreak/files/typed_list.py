@@ -20,6 +20,7 @@ from evenbreak.files.text_table import Texts, TextTable, read_table
 _NUMBER = re.compile(r"[-+]?[0-9]+(?:[.,][0-9]+)?", re.ASCII)
 _AFTER_BLANKS = re.compile(r"(.*?[^\s0-9].*?)((?:\s+[0-9]+(?:[.,][0-9]+)?)+)", re.ASCII)
 _RATED = re.compile(rf"[,;\t]\s*{_NUMBER.pattern}\s*", re.ASCII)
+_NUMBERED = re.compile(r"\s*([0-9]+)[.)]\s+", re.ASCII)
 _RATING_DIGITS = 3
 """A number after a blank that is as long as this is a rating rather than part of a name."""
 
@@ -75,7 +76,9 @@ def read_players(
     if _has_header(lines, header):
         return read_table(path, required, optional, rows="players")
     problems = Problems(source)
-    found = [_line(number, line, len(numbers)) for number, line in enumerate(lines, 1)]
+    found = [
+        _line(number, line, len(numbers)) for number, line in enumerate(_without_numbers(lines), 1)
+    ]
     rows = _with_numbers_after_blanks([one for one in found if one.name], len(numbers))
     _refuse_other_text(rows, problems)
     if not rows:
@@ -104,6 +107,15 @@ def _has_header(lines: Sequence[str], header: Header) -> bool:
         "player" in header.places(first.split(separator), 1, Problems(""))[0]
         for separator in ",;\t"
     )
+
+
+def _without_numbers(lines: Sequence[str]) -> list[str]:
+    """Return the lines without 1., 2., ... in front, if all that are not empty have them."""
+    numbered = [_NUMBERED.match(line) for line in lines if line.strip()]
+    counts = [int(found[1]) if found else None for found in numbered]
+    if counts != list(range(1, len(counts) + 1)):
+        return list(lines)
+    return [_NUMBERED.sub("", line) for line in lines]
 
 
 def _line(number: int, text: str, most: int) -> _Line:

@@ -16,7 +16,7 @@ from starlette.routing import Route
 from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
-from evenbreak.web.page import language, own_file, page, reason, script_hash
+from evenbreak.web.page import language, own_file, refused, script_hash
 from evenbreak.web.pages import (
     bracket,
     desk,
@@ -104,20 +104,17 @@ async def _style(_: Request) -> Response:
 
 async def _refused(request: Request, error: Exception) -> Response:
     assert isinstance(error, RefusalError)  # noqa: S101
-    return page(request, "refused.html", status=error.status, why=reason(request, error))
+    return refused(request, error, error.status)
 
 
 async def _wrong(request: Request, error: Exception) -> Response:
-    return page(request, "refused.html", status=400, why=reason(request, error))
+    return refused(request, error, 400)
 
 
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
-    key = {400: "refused_unreadable", 404: "refused_missing"}.get(
-        error.status_code, "refused_method"
-    )
-    words = say(language(request), key)
-    return page(request, "refused.html", status=error.status_code, why=words)
+    words = say(language(request), _HTTP.get(error.status_code, "refused_method"))
+    return refused(request, words, error.status_code)
 
 
 async def _failed(request: Request, error: Exception) -> Response:

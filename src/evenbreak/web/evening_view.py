@@ -132,7 +132,11 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         [one for one in odds if one[1] > 0.0],
         places,
         older,
-        [one for one in data.get("players", []) if one["chips"]],
+        [
+            one
+            for one in data.get("players", [])
+            if one["chips"] and one["name"] not in state.dropped
+        ],
     )
 
 

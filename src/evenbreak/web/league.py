@@ -1,17 +1,20 @@
 """The league's results beside the tournament's file: kept there, rated in a thread, shown.
 
 The results are a plain file, such as tonight.league.csv beside tonight.db, so that commands read
-it too. Whoever puts it there by hand has it read at the next start. What reads and rates it is
+it too. Whoever puts it there by hand has it read at the next start. Evenings that were added since
+are files beside it, such as tonight.league-20250301-193000.csv. What reads and rates it is
 loaded only then: a page without a league needs half the memory.
 """
 
 from __future__ import annotations
 
 import asyncio
+import glob
 import json
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -56,13 +59,32 @@ class League:
     _whys: dict[tuple[int, int], asyncio.Future[Answer]] = field(default_factory=dict)
 
     @property
-    def path(self) -> Path | None:
-        """The file of results; None if there is none."""
-        named = (self._named(ending) for ending in ("csv", "xlsx"))
-        return next((path for path in named if path.exists()), None)
+    def paths(self) -> list[Path]:
+        """The files of results: the league's, if there is one, and the evenings added since."""
+        named = [self._named(ending) for ending in ("csv", "xlsx")]
+        return [path for path in named if path.exists()][:1] + self._evenings
+
+    @property
+    def _evenings(self) -> list[Path]:
+        folder = self.beside.parent
+        return sorted(folder.glob(f"{glob.escape(self.beside.stem)}.league-*.csv"))
+
+    def add_evening(self, content: bytes, begun: datetime) -> None:
+        """Add the results of an evening; if it was added before, they take the place of those.
+
+        Raises
+        ------
+        DataError
+            with every problem of the results.
+        """
+        from evenbreak.files.results import read_results
+
+        read_upload(content, read_results)
+        name = f"{self.beside.stem}.league-{begun:%Y%m%d-%H%M%S}.csv"
+        write_files(self.beside.parent, {name: content})
 
     def keep(self, content: bytes, scale: str, race: int) -> None:
-        """Keep results, and how they are shown, in place of earlier ones; refuse unreadable ones.
+        """Keep results, and how they are shown, in place of all before; refuse unreadable ones.
 
         Raises
         ------
@@ -78,6 +100,8 @@ class League:
         write_files(self.beside.parent, written)
         for other in {"csv", "xlsx"} - {ending}:
             self._named(other).unlink(missing_ok=True)
+        for evening in self._evenings:
+            evening.rename(evening.with_suffix(".replaced"))
 
     def known(self, name: str) -> tuple[str, float, float] | None:
         """Return a player's name, rating and standard error; None: not in the league."""
@@ -136,11 +160,11 @@ class League:
         from evenbreak.answers.chosen_players import most_active
         from evenbreak.answers.offered_races import OfferedRaces
         from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
-        from evenbreak.files.results import read_results
+        from evenbreak.files.several_results import read_seasons
         from evenbreak.ratings.usual import usual_ratings
 
-        path = self.path
-        if path is None:
+        paths = self.paths
+        if not paths:
             raise DataError(["there are no results"])
         scale, race = self._shown()
 
@@ -153,7 +177,8 @@ class League:
             return told
 
         at("league_reading")
-        file = replace(read_results(path), source=path.name)
+        file = read_seasons(paths)
+        file = replace(file, source=file.source.replace(f"{self.beside.parent}/", ""))
         ratings, choice = usual_ratings(file.results, scale=scale, progress=at("league_rating"))
         at("league_pairing")
         offered = OfferedRaces(race_to=race)

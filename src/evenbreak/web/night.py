@@ -172,7 +172,7 @@ def mark_of(path: Path) -> tuple[int, int, int]:
 
 
 def version_of(path: Path) -> int:
-    """Return the number of all events in the file; 0 if there is no file yet."""
+    """Return a number that changes with every event and proposal; 0 if there is no file yet."""
     if not path.exists():
         return 0
     try:
@@ -181,8 +181,11 @@ def version_of(path: Path) -> int:
         return 0
     try:
         there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
-        asked = "SELECT COALESCE(MAX(number), 0) FROM "
-        return sum(int(base.execute(asked + table).fetchone()[0]) for table in there)
+        asked = [f"SELECT COALESCE(MAX(number), 0) FROM {table}" for table in there]  # noqa: S608
+        events = sum(int(base.execute(one).fetchone()[0]) for one in asked)
+        last = "SELECT COALESCE(MAX(rowid), 0) FROM proposal"
+        sent = int(base.execute(last).fetchone()[0]) if has_table(base, "proposal") else 0
+        return (events << 20) + sent  # proposals are forgotten as soon as an event comes of them
     except sqlite3.Error:
         return 0
     finally:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import urllib.parse
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -116,7 +117,7 @@ def page(
             language=code,
             languages=LANGUAGES,
             here=request.url.path,
-            back=_back(request),
+            return_to=_return_to(request),
             site=site_of(request),
             director=is_director(request),
             csrf=form_token(request),
@@ -139,6 +140,15 @@ def asked_again(
     return page(request, template, status=400, entered=entered, why=words, **values)
 
 
+def refused(request: Request, why: Exception | str, status: int) -> Response:
+    """Return why a request is refused, with the way back to the page that it came from."""
+    words = why if isinstance(why, str) else reason(request, why)
+    came = urllib.parse.urlsplit(request.headers.get("referer", ""))
+    own = came.netloc == request.headers.get("host") and not came.path.startswith("//")
+    back = came._replace(scheme="", netloc="").geturl() if own else "/"
+    return page(request, "refused.html", status=status, why=words, back=back)
+
+
 def reason(request: Request, why: Exception) -> str:
     """Return why something is refused, in the reader's language."""
     if isinstance(why, RefusalError):
@@ -159,7 +169,7 @@ def answer_shown(request: Request, answer: Answer) -> Markup:
     return Markup(shown.replace("<table>", '<table tabindex="0">'))  # noqa: S704
 
 
-def _back(request: Request) -> str:
+def _return_to(request: Request) -> str:
     """Return where the reader comes back to who has chosen a language."""
     if request.method != "GET":
         return "/"

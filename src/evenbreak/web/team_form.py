@@ -9,6 +9,7 @@ import numpy as np
 
 from evenbreak.answers.scale_doubts import league_doubts
 from evenbreak.answers.starters import starters_words
+from evenbreak.answers.wording import some_of
 from evenbreak.errors import DataError
 from evenbreak.files.player_names import clean_name, is_name
 from evenbreak.files.team_list import TeamList, read_team
@@ -79,6 +80,9 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     warnings = [
         line for name, one in zip(names, lists, strict=True) for line in warnings_of(one.file, name)
     ]
+    both = [name for name in sheets[0].players if name in sheets[1].players]
+    if both:
+        warnings.append(f"{some_of(both)} is on the lists of both teams; are they two people?")
     for one in lists:
         filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling)
         warnings += filter(None, [starters_words(one.file.roster, filled)])

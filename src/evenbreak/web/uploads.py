@@ -53,9 +53,13 @@ def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
             raise DataError([_of_list(problem, place) for problem in error.problems]) from None
 
 
-def warnings_of(file: RosterFile, name: str = "list") -> list[str]:
-    """Return the warnings about a list that came in, which they call by a name."""
-    return [line.replace(file.source, name) for line in file.warnings]
+def warnings_of(file: RosterFile, name: str = "") -> list[str]:
+    """Return the warnings about a list that came in, with its name in place of the file's."""
+    start, found = f"{name}, " if name else "", []
+    for text in file.warnings:
+        with_line = re.sub(rf"^{re.escape(file.source)}:(\d+): ", rf"{start}line \1: ", text)
+        found.append(with_line.replace(file.source, name or "the list"))
+    return found
 
 
 def _of_list(problem: str, place: Path) -> str:

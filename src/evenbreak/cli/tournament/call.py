@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @at_option
 @faces()
 def command(*, match: str | None, table: int | None, file: str, at: str) -> Answer:
-    """Call a match to a table; without MATCH, the next matches to all free tables.
+    """Call a match to a table, or move it; without MATCH, call the next to all free tables.
 
     In a chip tournament players come to the tables by themselves, in the order of the line.
 

@@ -32,7 +32,7 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
     """
     from dataclasses import replace
 
-    from evenbreak.answers.scale_doubts import late_doubts
+    from evenbreak.answers.scale_doubts import far_doubts
     from evenbreak.answers.tournament_moves import entry_words
     from evenbreak.files.player_names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
@@ -51,6 +51,6 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
     before, state = add(file, at, decide)
     answer = answer_of(file, state, at, [entry_words(state, name)])
     known = [entrant.rating for entrant in before.entrants.values()]
-    if rating is None:
+    if rating is None or far_doubts(state.scale, known):
         return answer
-    return replace(answer, warnings=[*late_doubts(state.scale, known, rating), *answer.warnings])
+    return replace(answer, warnings=[*far_doubts(state.scale, [*known, rating]), *answer.warnings])

@@ -19,14 +19,8 @@ def command(*, match: str, file: str, at: str) -> Answer:
 
     The corrected score is kept, but those who have played on stay where they are.
     """
-    from evenbreak.answers.tournament_moves import reopened
-    from evenbreak.tournaments.evening.moves import score_words
+    from evenbreak.answers.tournament_moves import reopened, settled_words
     from evenbreak.tournaments.evening.settling import stand
 
     before, state = add(file, at, lambda state: stand(state, match))
-    settled = [
-        f"{score_words(result)} in {name}."
-        for name, result in state.counted.items()
-        if before.counted.get(name, result) != result
-    ]
-    return answer_of(file, state, at, [*settled, *reopened(before, state)])
+    return answer_of(file, state, at, [*settled_words(before, state), *reopened(before, state)])

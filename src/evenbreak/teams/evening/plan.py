@@ -11,7 +11,6 @@ from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import scale_of
-from evenbreak.ratings.spellings import folded
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.order import order_of
 from evenbreak.teams.sealed import sealed
@@ -150,10 +149,6 @@ def check_plan(plan: NightPlan) -> None:
     first, second = (team.name for team in plan.teams)
     if first.casefold() == second.casefold():
         raise InputError(f"both teams are called {first}; give them two names")
-    ours = {folded(name): name for name in plan.teams[0].players}
-    for name in plan.teams[1].players:
-        if folded(name) in ours:
-            raise InputError(f"{name} is in both teams; leave them out of one, or add to the name")
     meeting = meeting_of(plan)
     night = meeting.night()
     if meeting.order == SEALED:

@@ -127,6 +127,17 @@ class Finish:
         ]
         return means[0], means[1]
 
+    def after_calls(self, names: Sequence[str]) -> Finish:
+        """Return when it ends and each match begins if some matches are called now."""
+        if not names:
+            return self
+        room = self._room
+        planned = room.planned(names)
+        starts = np.where(room.evenings.needed, planned.start, np.nan)
+        for match in room.playing:
+            starts[:, self.names.index(match.match)] = match.started
+        return replace(self, finishes=room.ends(planned), starts=starts)
+
     def calls(self, tables: int = 1) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 

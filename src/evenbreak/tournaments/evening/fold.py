@@ -295,8 +295,13 @@ def evening(events: Iterable[Event]) -> Evening:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
             case Called() as call:
-                calls.pop(call.match, None)  # so that the calls are in the order of time
-                calls[call.match] = OnTable(call, event.at)
+                earlier = calls.pop(call.match, None)  # so that they are in the order of time
+                moved = (
+                    earlier is not None
+                    and earlier.call.players == call.players
+                    and call.match not in records
+                )
+                calls[call.match] = OnTable(call, earlier.at if earlier and moved else event.at)
             case Changed() as change:
                 begun = {*records, *calls, *scores}
                 drawn_up = tuple(order), None if lines is None else tuple(lines)

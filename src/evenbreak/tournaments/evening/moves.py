@@ -187,13 +187,14 @@ def late(state: Evening, entrant: Entrant) -> Late:
 
 
 def call(state: Evening, match: str, table: int | None) -> Called:
-    """Call a match to a table; None: the first that is free."""
+    """Call a match to a table, or move it to another; None: the first that is free."""
     name = known_match(state, match)
     if name in state.counted:
         raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
     _refuse_waiting(state, name)
-    if name in state.on_tables:
-        raise InputError(f"{name} is on table {state.on_tables[name].call.table} already")
+    on = state.on_tables.get(name)
+    if on is not None and table in (None, on.call.table):
+        raise InputError(f"{name} is on table {on.call.table} already")
     free = free_tables(state)
     if table is None and not free:
         raise InputError(f"no table is free; there are {state.plan.tables}")
@@ -204,7 +205,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
         there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
         raise InputError(f"table {chosen} is taken by {there}")
     for there, one in state.on_tables.items():
-        for player in set(state.pair(name)) & set(one.call.players):
+        for player in set(state.pair(name)) & set(one.call.players) if there != name else ():
             raise InputError(f"{player} is playing {there} on table {one.call.table}")
     return Called(name, chosen, state.pair(name))
 

@@ -252,14 +252,40 @@ class Outlook:
 
     @cached_property
     def as_things_are(self) -> Finish:
-        """When it ends if nothing is changed."""
+        """When it ends if nothing is changed, and the matches that are to be called now are."""
+        return self._uncalled.after_calls(self.to_call)
+
+    @cached_property
+    def _uncalled(self) -> Finish:
         return self.finish()
 
     @cached_property
     def calls(self) -> list[Call]:
-        """The matches to call to the free tables, the best first, then those that wait."""
-        free = self.state.plan.tables - len(self.state.on_tables)
-        return self.as_things_are.calls(max(1, free))
+        """The matches that can be called, the best first; of a group round by round."""
+        state = self.state
+        free = state.plan.tables - len(state.on_tables)
+        found = [
+            call
+            for call in self._uncalled.calls(max(1, free))
+            if call.match in state.standing.to_play
+        ]
+        grouped = {name for group in state.bracket.groups for name in group.matches}
+        found.sort(key=lambda c: state.bracket.match(c.match).round if c.match in grouped else 0)
+        return found
+
+    @cached_property
+    def to_call(self) -> tuple[str, ...]:
+        """The matches to call now, one for each free table as far as their players are free."""
+        state = self.state
+        free = state.plan.tables - len(state.on_tables)
+        busy = {player for one in state.on_tables.values() for player in one.call.players}
+        found: list[str] = []
+        for call in self.calls:
+            pair = set(state.pair(call.match))
+            if len(found) < free and not pair & busy:
+                busy |= pair
+                found.append(call.match)
+        return tuple(found)
 
     def finish(
         self,

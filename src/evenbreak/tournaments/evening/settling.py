@@ -35,8 +35,12 @@ def stand(state: Evening, match: str) -> list[Result]:
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:
-        waiting = f"; {' and '.join(played)} can" if played else ""
-        raise InputError(f"{name} was not played by the wrong players, so it cannot stand{waiting}")
+        if not played:
+            raise InputError(f"{name} was not played by the wrong players, so it cannot stand")
+        raise InputError(
+            f"{name} was not played by the wrong players, so it cannot stand; "
+            f"{' and '.join(played)} can"
+        )
     wanted = set(played[name].players)
     found = []
     seats = [

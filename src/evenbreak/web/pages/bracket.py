@@ -9,18 +9,27 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.answer import Answer
 from evenbreak.answers.bracket_view import bracket_panels
 from evenbreak.answers.score_cards import score_cards
 from evenbreak.answers.tournament import races_words
+from evenbreak.answers.tournament_swiss import swiss_table
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.page import page, site_of
+from evenbreak.web.page import answer_shown, page, site_of
 from evenbreak.web.refusals import RefusalError
 
 
 async def bracket(request: Request) -> Response:
     """Show the bracket."""
     state = await _drawn(request)
-    return page(request, "bracket.html", live=True, panels=bracket_panels(state))
+    standings = (
+        [answer_shown(request, Answer("", [one])) for one in swiss_table(state)]
+        if state.plan.form == "swiss"
+        else []
+    )
+    return page(
+        request, "bracket.html", live=True, panels=bracket_panels(state), standings=standings
+    )
 
 
 async def bracket_on_paper(request: Request) -> Response:

@@ -14,20 +14,23 @@ from starlette.routing import Route
 from evenbreak.answers.tournament import races_words
 from evenbreak.answers.tournament_moves import (
     draw_words,
+    event_words,
     forfeited,
     happened,
     reopened,
+    settled_words,
     tie_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
 from evenbreak.files.tournament_desk import proposals
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Event, What
+from evenbreak.tournaments.evening.events import Entrant, Event, Result, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
-from evenbreak.tournaments.evening.settling import TieBreak, break_ties, tied_groups
+from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
+from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
 from evenbreak.web.page import done, language, page, site_of
@@ -61,9 +64,11 @@ async def desk(request: Request) -> Response:
         "tied": [],
         "drawable": False,
         "changeable": _changeable(state),
+        "last": event_words(state.events[-1].what) if len(state.events) > 1 else "",
     }
     if state.drawn:
-        shown["decided"] = [name for name in state.counted if name in state.records]
+        entered = [one.what.match for one in state.events if isinstance(one.what, Result)]
+        shown["decided"] = [one for one in dict.fromkeys(entered[::-1]) if one in state.counted]
         ready = {name: set(state.pair(name)) for name in state.standing.to_play}
         found = await asyncio.to_thread(proposals, site.path)
         shown["proposed"] = [p for p in found if ready.get(p.match) == set(p.score)]
@@ -99,6 +104,27 @@ async def _enter(request: Request, decide: Decide, said: Said, to: str = "/desk"
 
     before, after = await asyncio.to_thread(work)
     return done(request, to, *said(before, after))
+
+
+async def _ask_first(
+    request: Request, form: Form, decide: Decide, said: Said, *, always: bool = False
+) -> Response | None:
+    """Return the question whether something is meant that takes back what was played.
+
+    None: there is nothing to ask, or it was answered.
+    """
+    if form.text("sure"):
+        return None
+    site = site_of(request)
+    before = await asyncio.to_thread(site.night.state)
+    at = site.clock()
+    after = evening([*before.events, *(Event(at, what) for what in decide(before))])
+    gone = set(before.counted) - set(after.counted) if before.drawn else set()
+    if not (gone or always):
+        return None
+    fields = {name: text for name, text in form.fields.items() if name != "csrf"}
+    lines = [in_language(language(request), line) for line in said(before, after)]
+    return page(request, "sure.html", fields=fields, lines=lines)
 
 
 async def _form(request: Request) -> Form:
@@ -175,25 +201,50 @@ async def result(request: Request) -> Response:
             return [say(language(request), "there_already")]
         return happened(before, after, after.events[-1])
 
-    return await _enter(request, decide, said)
+    asked = await _ask_first(request, form, decide, said) if correct else None
+    return asked or await _enter(request, decide, said)
 
 
 async def forfeit(request: Request) -> Response:
     """Let a player forfeit the match that they can play."""
     form = await _form(request)
     player = form.text("player")
-    return await _enter(
-        request, lambda state: [moves.forfeit(state, player)], lambda b, a: forfeited(b, a)
-    )
+
+    def decide(state: Evening) -> list[What]:
+        return [moves.forfeit(state, player)]
+
+    asked = await _ask_first(request, form, decide, forfeited, always=True)
+    return asked or await _enter(request, decide, forfeited)
 
 
 async def drop(request: Request) -> Response:
     """Let a player go home."""
     form = await _form(request)
     player = form.text("player")
-    return await _enter(
-        request, lambda state: [moves.drop(state, player)], lambda b, a: reopened(b, a)
-    )
+
+    def decide(state: Evening) -> list[What]:
+        return [moves.drop(state, player)]
+
+    asked = await _ask_first(request, form, decide, forfeited, always=True)
+    return asked or await _enter(request, decide, forfeited)
+
+
+async def entrant(request: Request) -> Response:
+    """Correct a name or a rating before the draw."""
+    form = await _form(request)
+    player, name, stated = form.text("player"), name_of(form), rating_of(form)
+
+    def decide(state: Evening) -> list[What]:
+        if state.drawn:
+            raise RefusalError("refused_drawn", status=409)
+        gone = moves.drop(state, player)
+        before = state.entrants[gone.name]
+        without = evening([*state.events, Event(site_of(request).clock(), gone)])
+        error = before.standard_error if stated is None else 0.0
+        rating = before.rating if stated is None else stated
+        return [gone, moves.late(without, Entrant(name or gone.name, rating, error))]
+
+    return await _enter(request, decide, lambda _, after: rating_doubts(after))
 
 
 async def change(request: Request) -> Response:
@@ -226,6 +277,17 @@ async def tiebreak(request: Request) -> Response:
     return await _enter(request, decide, lambda _, __: tie_words(found[-1]))
 
 
+async def let_stand(request: Request) -> Response:
+    """Let a match stand that was played before a correction sent somebody else into it."""
+    form = await _form(request)
+    match = form.text("match")
+    return await _enter(
+        request,
+        lambda state: stand(state, match),
+        lambda before, after: [*settled_words(before, after), *reopened(before, after)],
+    )
+
+
 async def undo(request: Request) -> Response:
     """Take back what happened last, if nothing has come in since the page was made."""
     form = await _form(request)
@@ -244,8 +306,9 @@ async def undo(request: Request) -> Response:
 
 ROUTES = [
     Route("/desk", desk),
+    Route("/desk/stand", let_stand, methods=["POST"]),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
-        for one in (draw, call, result, forfeit, drop, change, tiebreak, undo)
+        for one in (draw, call, result, forfeit, drop, entrant, change, tiebreak, undo)
     ),
 ]

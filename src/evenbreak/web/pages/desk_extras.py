@@ -42,7 +42,7 @@ async def time(request: Request) -> Response:
         raise RefusalError("refused_not_drawn", status=409)
 
     def work() -> Answer:
-        return time_under_way(Outlook(state, site.clock()), source=site.path.stem)
+        return time_under_way(Outlook(state, site.clock()))
 
     answer = await site.night.beside.run(work)
     return page(request, "time.html", answer=answer_shown(request, answer))

@@ -11,14 +11,13 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.scale_doubts import chart_doubts, late_doubts, league_doubts
+from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
 from evenbreak.answers.tournament import unrated_words
 from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
-from evenbreak.files.player_names import clean_name, is_name
-from evenbreak.files.roster import LARGEST, RosterFile
+from evenbreak.files.roster import RosterFile
 from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
@@ -28,6 +27,7 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH, opened
+from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, page, site_of
@@ -128,7 +128,10 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         scale = league.sheet.ratings.scale
     plan, rows = _plan(form, scale), _entrants(file, scale, league)
     known = league is not None
-    doubts = [] if known else league_doubts(scale, file.roster.rating, "is it the right scale?")
+    read = file.roster
+    doubts = (
+        [] if known else league_doubts(scale, read.rating, "is it the right scale?", read.players)
+    )
     doubts += chart_doubts(plan.chart, scale)
     new = [one.name for one in rows if one.standard_error == plan.starter_error]
     if new:
@@ -195,7 +198,9 @@ async def late(request: Request) -> Response:
     """Let a late player in."""
     form = await form_of(request)
     check_director(request)
-    site, name, rating = site_of(request), _name(form), _rating(form)
+    site, name, rating = site_of(request), name_of(form), rating_of(form)
+    if not name:
+        raise RefusalError("refused_nobody")
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan
@@ -206,32 +211,8 @@ async def late(request: Request) -> Response:
         )
         return [Event(site.clock(), moves.late(state, entrant))]
 
-    before, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
-    known = [entrant.rating for entrant in before.entrants.values()]
-    doubts = [] if rating is None else late_doubts(after.scale, known, rating)
-    return done(request, "/desk", entry_words(after, name), *doubts)
-
-
-def _name(form: Form) -> str:
-    """Return the name of a late player, as it is read from a list."""
-    name = clean_name(form.text("name", longest=80))
-    if not name:
-        raise RefusalError("refused_nobody")
-    if not is_name(name):
-        raise RefusalError("refused_name", value=name)
-    return name
-
-
-def _rating(form: Form) -> float | None:
-    """Return a rating such as a list may have; None if the field was left empty."""
-    text = form.text("rating").replace(",", ".")
-    try:
-        rating = float(text) if text else None
-    except ValueError:
-        rating = np.nan
-    if rating is not None and not abs(rating) <= LARGEST:
-        raise RefusalError("refused_rating", value=text)
-    return rating
+    _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
+    return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
 
 
 ROUTES = [

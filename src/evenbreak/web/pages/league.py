@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from datetime import datetime
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,13 +13,17 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.faces.to_csv import to_csv
+from evenbreak.answers.tournament_matches import tournament_matches_answer
 from evenbreak.ratings.scale import SCALES
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
+from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of
 from evenbreak.web.words import say
 
@@ -58,7 +63,7 @@ class Played(NamedTuple):
 async def league(request: Request) -> Response:
     """Show the ratings, how far they are, or why they cannot be made."""
     found = _league(request)
-    if found.path is not None and not (found.sheet or found.problem or found.progress):
+    if found.paths and not (found.sheet or found.problem or found.progress):
         found.begin()
     rows = await asyncio.to_thread(_rows, found.sheet) if found.sheet else []
     return page(
@@ -85,6 +90,41 @@ async def give(request: Request) -> Response:
     await asyncio.to_thread(found.keep, content, scale, race)
     found.begin()
     return done(request, "/league", say(language(request), "league_taken"))
+
+
+async def add_tonight(request: Request) -> Response:
+    """Add the results of tonight's tournament to the league's."""
+    await form_of(request)
+    check_director(request)
+    site = site_of(request)
+    state = await asyncio.to_thread(tournament_of, site)
+    begun = datetime.fromisoformat(state.events[0].at)
+    content = matches_csv(state, site.path.stem)
+    await asyncio.to_thread(site.league.add_evening, content, begun)
+    site.league.begin()
+    return done(request, "/league", say(language(request), "league_added"))
+
+
+async def results(request: Request) -> Response:
+    """Return the matches that were played tonight, as a file."""
+    site = site_of(request)
+    state = await asyncio.to_thread(tournament_of, site)
+    return saved(matches_csv(state, site.path.stem), "results.csv")
+
+
+def tournament_of(site: Site) -> Evening:
+    """Return tonight's tournament, of which something has been played."""
+    if not site.night.exists:
+        raise RefusalError("refused_no_tournament", status=404)
+    state = site.night.state()
+    if not state.counted:
+        raise RefusalError("refused_nothing_played", status=409)
+    return state
+
+
+def matches_csv(state: Evening, event: str) -> bytes:
+    """Return the matches that were played, as the commands that rate read them."""
+    return "".join(to_csv(tournament_matches_answer(state, event))).encode()
 
 
 async def player(request: Request) -> Response:
@@ -156,11 +196,11 @@ def _matches(sheet: Sheet, seat: int) -> list[Played]:
 def _made(name: str) -> Callable[[Sheet], bytes]:
     """Return what makes a file of the sheet."""
     from evenbreak import sheets
-    from evenbreak.files.csv_writer import to_csv
+    from evenbreak.files.csv_writer import to_csv as frame_csv
 
     makers: dict[str, Callable[[Sheet], bytes]] = {
-        "ratings.csv": lambda sheet: to_csv(sheet.rated),
-        "matchups.csv": lambda sheet: to_csv(sheet.paired),
+        "ratings.csv": lambda sheet: frame_csv(sheet.rated),
+        "matchups.csv": lambda sheet: frame_csv(sheet.paired),
         "sheet.pdf": sheets.sheet_pdf,
         "sheet.html": sheets.sheet_html,
         "sheet.xlsx": lambda sheet: sheets.workbook_bytes(sheets.report_tables(sheet)),
@@ -170,9 +210,13 @@ def _made(name: str) -> Callable[[Sheet], bytes]:
 
 async def download(request: Request, name: str) -> Response:
     """Return the sheet, or its tables, as a file."""
-    content = await asyncio.to_thread(_made(name), _sheet(request))
-    saved = {"content-disposition": f'attachment; filename="{name}"'}
-    return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=saved)
+    return saved(await asyncio.to_thread(_made(name), _sheet(request)), name)
+
+
+def saved(content: bytes, name: str) -> Response:
+    """Return a file to be kept."""
+    head = {"content-disposition": f'attachment; filename="{name}"'}
+    return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=head)
 
 
 def _league(request: Request) -> League:
@@ -191,6 +235,8 @@ FILES = ("ratings.csv", "matchups.csv", "sheet.pdf", "sheet.html", "sheet.xlsx")
 ROUTES = [
     Route("/league", league, methods=["GET"]),
     Route("/league", give, methods=["POST"]),
+    Route("/league/tonight", add_tonight, methods=["POST"]),
+    Route("/results.csv", results),
     Route("/league/player", player),
     *(Route(f"/league/{name}", partial(download, name=name)) for name in FILES),
 ]

@@ -19,6 +19,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import MatchView, match_view
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import phone_of
 from evenbreak.web.words import say
@@ -31,7 +32,13 @@ async def match(request: Request) -> Response:
     name, state = await _match(request)
     shown: dict[str, Any] = {"name": name, "token": request.path_params["token"]}
     if name not in state.standing.to_play:
-        shown |= {"one": None, "result": state.counted.get(name), "state": state}
+        result, mine = state.counted.get(name), _me(request, name)
+        known = await site_of(request).night.outlook()
+        views = player_views(state, known)
+        whose = [mine] if mine else list(result.players) if result else []
+        shown |= {"one": None, "result": result}
+        shown["nexts_known"] = known is not None and known.of is state
+        shown["nexts"] = [view for who in whose for view in views if view.name == who]
         return page(request, "match.html", live=True, **shown)
     one = match_view(state, name)
     seats = [state.order.index(player) for player in one.players]
@@ -82,6 +89,8 @@ async def tap(request: Request) -> Response:
     if (form.text("player_a"), form.text("player_b")) != pair:
         raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
+    if form.text("me") and not _me(request, name):
+        request.session[_ME] = {name: pair[form.whole("me", 0, 1)]}
     if score[0] == needs[0] or score[1] == needs[1]:
         said = await asyncio.to_thread(_propose, request, name, pair, score, _me(request, name))
         return done(request, to, said)
@@ -102,7 +111,7 @@ def _propose(
     """Keep a proposed result, and enter it if the opponent proposed the same."""
     site, code = site_of(request), language(request)
     if not me:
-        raise RefusalError("refused_who")
+        return say(code, "refused_who")
     state = site.night.state()
     moves.result(state, name, score)  # refuses what cannot be a result
     games = dict(zip(pair, score, strict=True))

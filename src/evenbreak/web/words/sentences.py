@@ -21,6 +21,7 @@ from evenbreak.answers.parts import Column, Part, Quantity, Table
 Named = TypeVar("Named", Column, Quantity)
 
 _SENTENCE_ENDS = re.compile(r"(?<=[.!?]) (?=[A-Z0-9])")
+_PAIR = " - "
 _LIST_ENDS = re.compile(r"(, | and |; )")
 
 
@@ -60,6 +61,8 @@ def in_language(language: str, text: str) -> str:
 
 
 def _line(language: str, line: str) -> str:
+    if _PAIR in line and not line.endswith("."):  # who plays whom
+        return _PAIR.join(_line(language, one) for one in line.split(_PAIR))
     sentences = _SENTENCE_ENDS.split(line)
     if len(sentences) > 1:
         each = [_said(language, sentence) for sentence in sentences]
