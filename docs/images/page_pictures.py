@@ -23,7 +23,7 @@ from typing import Any
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
-from evenbreak.web.app import server_of
+from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
 HERE = Path(__file__).resolve().parent

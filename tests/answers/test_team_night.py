@@ -1,5 +1,7 @@
 """How a team night stands, in words; what is unseen is not said."""
 
+from dataclasses import replace
+
 import pytest
 
 from evenbreak.answers.team_night import (
@@ -78,3 +80,12 @@ def test_an_unseen_pick_is_not_said_even_once_it_is_undone():
             assert "Ann" not in " ".join([*history_words(events, state), last_words(state)])
     shown = after(NAMED[0], NAMED[1], order="blind")
     assert last_words(shown) == "Cues put up Wim in set 1"
+
+
+def test_a_night_that_an_undo_brings_back_has_its_own_names_again():
+    first, second = plan(), replace(plan(), teams=plan().teams[::-1])
+    what = [Begun(first), Begun(second), Undone(), PutUp(0, 1, ("Ann",))]
+    events = [Event(AT, one) for one in what]
+    lines = history_words(events, team_evening(events))
+    assert lines[1] == "Cues against Racks begun"
+    assert lines[3] == "Racks put up Ann in set 1"

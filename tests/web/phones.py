@@ -16,7 +16,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import NamedTuple
 
-from evenbreak.web.app import server_of
+from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
 
@@ -71,6 +71,18 @@ class Phone:
         asked = urllib.request.Request(self.site.address + path, body, headers)  # noqa: S310
         return self._get(asked)
 
+    def send_files(self, path: str, files: Mapping[str, bytes], **fields: object) -> Shown:
+        """Send a form of this phone with files."""
+        parts = {"csrf": self.token(), **fields}
+        edge, body = "edge-of-a-part", b""
+        for name, content in parts.items():
+            body += _part(edge, f'name="{name}"', str(content).encode())
+        for name, file in files.items():
+            body += _part(edge, f'name="{name}"; filename="../{name}.csv"', file)
+        kind = {"Content-Type": f"multipart/form-data; boundary={edge}"}
+        end = f"--{edge}--\r\n".encode()
+        return self._get(urllib.request.Request(self.site.address + path, body + end, kind))  # noqa: S310
+
     def _get(self, asked: urllib.request.Request) -> Shown:
         try:
             with self.opener.open(asked, timeout=20) as got:
@@ -80,6 +92,11 @@ class Phone:
         except urllib.error.HTTPError as error:
             text = error.read().decode("utf-8", "replace")
             return Shown(error.code, text, error.url or "", error.headers)
+
+
+def _part(edge: str, named: str, content: bytes) -> bytes:
+    head = f"--{edge}\r\nContent-Disposition: form-data; {named}\r\n\r\n"
+    return head.encode() + content + b"\r\n"
 
 
 def free_port() -> int:

@@ -1,5 +1,6 @@
 """A whole evening through the page: by the director and by players' phones, as by commands."""
 
+import os
 import random
 import threading
 import time
@@ -19,8 +20,9 @@ from evenbreak.files.tournament_store import (
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
-from web.conftest import Hall
-from web.phones import Phone
+from evenbreak.web.night import mark_of, version_of
+from web.conftest import Hall, begun
+from web.phones import Phone, running
 
 Decide = Callable[[Evening], object]
 
@@ -92,6 +94,59 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     assert hall.director.open("/desk").words.count("says:") == 2
     assert hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new").status == 200
     assert hall.state.counted["W1.1"].winner == pair[0]
+
+
+def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -> None:
+    scored_by_phones(hall, "W1.1", (3, 1))
+    assert "W1.1" in hall.state.counted
+    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    assert "says:" not in hall.director.open("/desk").words
+    token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
+    phone = Phone(hall.site)
+    phone.send(f"/m/{token}/me", me=0)
+    assert "counts once" in phone.send(f"/m/{token}/score", a=3, b=1, **asked).words
+    assert "W1.1" not in hall.state.counted
+
+
+def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) -> None:
+    for match in ("W1.1", "W1.2"):
+        hall.director.send("/desk/result", match=match, a=3, b=0, how="new")
+    token, phones = hall.site.match_token("W2.1"), [Phone(hall.site), Phone(hall.site)]
+    phones[0].send(f"/m/{token}/me", me=0)
+    phones[0].send(f"/m/{token}/score", a=3, b=1, **players_of(hall, "W2.1"))
+    hall.director.send("/desk/result", match="W1.2", a=1, b=3, how="correct")
+    phones[1].send(f"/m/{token}/me", me=1)
+    shown = phones[1].send(f"/m/{token}/score", a=0, b=3, **players_of(hall, "W2.1"))
+    assert shown.status == 200
+    assert "another result" not in shown.words
+
+
+def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
+    matches, codes = [f"W1.{k}" for k in range(1, 6)], []
+    for match in matches:
+        token, asked = hall.site.match_token(match), players_of(hall, match)
+        phones = [Phone(hall.site), Phone(hall.site)]
+        for k, phone in enumerate(phones):
+            phone.send(f"/m/{token}/me", me=k)
+        together = threading.Barrier(2)
+
+        def enter(phone: Phone, to: str, sent: dict, at: threading.Barrier) -> None:
+            at.wait()
+            codes.append(phone.send(to, **sent).status)
+
+        said = f"/m/{token}/score", {"a": 3, "b": 1, **asked}, together
+        threads = [threading.Thread(target=enter, args=(phone, *said)) for phone in phones]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert set(codes) <= {200, 409}  # 409: the match was over already
+    assert set(hall.state.counted) == set(matches)
+
+
+def players_of(hall: Hall, match: str) -> dict[str, str]:
+    """Return the fields that say whose games a form counts."""
+    return dict(zip(("player_a", "player_b"), hall.state.pair(match), strict=True))
 
 
 def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
@@ -211,3 +266,20 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
     assert "160.00 for the winner" in shown
     for wrong in ("all mine", "60/50", "0/0", "50/-10", "nan"):
         assert hall.guest.open("/prizes", fee="9", payout=wrong).status == 400
+
+
+def test_pages_follow_a_file_of_any_name(tmp_path: Path) -> None:
+    path = tmp_path / "pool #3 50%?.db"
+    assert version_of(path) == 0
+    with running(path) as site:
+        begun(Phone(site, director=True), ["Ann", "Bo"])
+    assert version_of(path) > 0
+    assert [one.name for one in tmp_path.iterdir() if not one.name.startswith(path.name)] == []
+
+
+def test_what_was_just_written_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    path.write_bytes(b"x")
+    assert mark_of(path) != mark_of(path)  # it may change again within a tick of the clock
+    os.utime(path, (1e9, 1e9))
+    assert mark_of(path) == mark_of(path)

@@ -1,7 +1,9 @@
 """The league on the page: results in, ratings and files out, why a race is fair."""
 
+import asyncio
 import csv
 import io
+import threading
 import time
 import zipfile
 from collections.abc import Iterator
@@ -11,8 +13,10 @@ import pytest
 
 from evenbreak.files.results import read_results
 from evenbreak.files.tournament_store import read_tournament
+from evenbreak.ratings import usual
 from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import usual_ratings
+from evenbreak.web.league import League
 from places import DATA
 from web.conftest import Hall
 from web.phones import Phone, Shown, running
@@ -82,6 +86,12 @@ def test_files_to_take_along(director: Phone, name: str) -> None:
         content = got.read()
     begins = {"pdf": b"%PDF", "html": b"<!doctype html>", "xlsx": b"PK", "csv": b"player_a"}
     assert content.startswith(begins[name.rpartition(".")[2]])
+
+
+def test_results_of_more_than_a_megabyte_can_be_pasted(director: Phone) -> None:
+    again = SMALL + "\n" * (1 << 20)
+    shown = director.send_files("/league", {}, results=again, scale="no such scale", race=7)
+    assert "no such scale" in shown.words  # it was read: only the scale is refused
 
 
 def test_only_the_director_gives_results(director: Phone) -> None:
@@ -160,6 +170,34 @@ def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_end
         assert "won" in rows[0]
         assert "3:4" in rows[1]
         assert "won" in rows[1]
+
+
+def test_whatever_goes_wrong_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ArithmeticError("the ratings did not settle")
+
+    monkeypatch.setattr(usual, "usual_ratings", fail)
+    with running(tmp_path / "tonight.db") as site:
+        shown = rated(Phone(site, director=True), SMALL)
+        assert "The ratings did not settle" in shown.words
+
+
+def test_whoever_asks_for_many_pairs_holds_nobody_up(tmp_path: Path) -> None:
+    league, begun, go_on = League(tmp_path / "tonight.db", sheet=object()), [], threading.Event()
+
+    def work(_: object, pair: tuple[int, int]) -> tuple[int, int]:
+        begun.append(pair)
+        go_on.wait(10)
+        return pair
+
+    async def ask() -> list[object]:
+        for k in range(60):
+            assert await league.why((0, k), work, 0.0) is None
+        go_on.set()
+        return [await league.why((0, k), work, 5.0) for k in range(4)]
+
+    assert asyncio.run(ask()) == [(0, k) for k in range(4)]
+    assert len(begun) == 4
 
 
 def test_an_evening_is_added_to_the_league_once(hall: Hall) -> None:

@@ -1,10 +1,12 @@
 """A tournament begun through the page, begun again, and changed under way."""
 
+import time
 from pathlib import Path
 
 import pytest
 
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.tournament_store import new_tournament, read_tournament
+from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.opening import FORMATS
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
@@ -51,6 +53,35 @@ def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
         assert "about 30 points double the odds, but here 100 do" in shown.words
         assert read_tournament(site.path).plan.chart.name == "npl_8"
         assert director.send("/desk/draw").status == 200
+
+
+def test_a_second_tap_on_begin_leads_to_the_same_tournament(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        for _ in range(2):
+            shown = director.send("/new", **ASKED)
+            assert (shown.status, shown.url.endswith("/desk")) == (200, True)
+        assert len(read_tournament(site.path).events) == 1
+
+
+def test_what_is_said_fits_into_a_cookie_in_every_script(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director, sizes = Phone(site, director=True), []
+        keep = director.jar.set_cookie
+        monkeypatch.setattr(director.jar, "set_cookie", lambda one: sizes.append(one) or keep(one))
+        names = "\n".join(letter * 150 for letter in "жшщю")
+        assert director.send("/new", **ASKED | {"entrants": names}).status == 200
+        assert max((len(one.value) for one in sizes), default=0) < 3800
+
+
+def test_players_come_in_a_file(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        ann = {"file": b"player,rating\nAnn,612\nBo,540\n"}
+        assert director.send_files("/new", ann, **ASKED | {"entrants": ""}).status == 200
+        assert list(read_tournament(site.path).entrants) == ["Ann", "Bo"]
 
 
 def again(director: Phone) -> dict[str, str]:
@@ -157,6 +188,41 @@ def test_odds_are_those_of_the_moment_after_an_undo(hall: Hall) -> None:
     assert "expect" in words.lower()
 
 
+def test_a_late_player_is_read_like_one_of_the_list(hall: Hall) -> None:
+    before = len(hall.state.events)
+    refused = {
+        "rating": ["nan", "inf", "-inf", "1e9"],
+        "name": ["Player  1", "PLAYER1", "Pla\u200byer 1", "Zo\x07e", "BYE 2"],
+    }
+    for field, values in refused.items():
+        for value in values:
+            shown = hall.director.send("/desk/late", **{"name": "Zoe", field: value})
+            assert shown.status == 400, (value, shown.words)
+    assert len(hall.state.events) == before
+    hall.director.send("/desk/undo", seen=before)
+    shown = hall.director.send("/desk/late", name="Bo\u202e  Diaz", rating=9000)
+    assert "Bo Diaz" in hall.state.entrants
+    assert "from the median" in shown.words
+
+
+def test_odds_that_fail_leave_the_director_a_desk(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    plan = Plan("single", 3, scale="fargo", tables=2)
+    what = Opened(plan, (Entrant("Ann", float("nan")), *(Entrant(n, 500.0) for n in PLAYERS[:3])))
+    new_tournament(path, [Event("2025-03-01T19:30:00", what)])
+    with running(path) as site:
+        director, guest = Phone(site, director=True), Phone(site)
+        assert director.send("/desk/draw").status == 200
+        for page in ("/", "/screen", "/players", "/bracket", "/prizes?fee=10"):
+            assert guest.open(page).status == 200
+        for _ in range(100):
+            if "cannot be worked out" in (shown := director.open("/desk")).words:
+                break
+            time.sleep(0.02)
+        assert "cannot be worked out" in shown.words
+        assert director.send("/desk/call", match="W1.1", table=1).status == 200
+
+
 def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -171,7 +237,12 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
             "Bo Lee": 540,
             "Cy": 5000,
         }
-        for wrong in ({"player": "Nobody"}, {"player": "Cy", "name": "ann"}, {"rating": "nan"}):
+        for wrong in (
+            {"player": "Nobody"},
+            {"name": "Bo\x07"},
+            {"player": "Cy", "name": "ann"},
+            {"rating": "nan"},
+        ):
             assert director.send("/desk/entrant", **{"player": "Cy"} | wrong).status == 400
         director.send("/desk/draw")
         assert director.send("/desk/entrant", player="Ann", rating="600").status == 409

@@ -2,11 +2,18 @@
 
 import http.client
 import socket
+from contextlib import ExitStack
+from html import unescape
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from starlette.requests import Request
 
-from evenbreak.web import guard
+from evenbreak.web import guard, server
+from evenbreak.web.app import cookie_name, make_app
+from evenbreak.web.refusals import RefusalError
+from evenbreak.web.sessions import check_tries
 from web.conftest import Hall, begun
 from web.phones import Phone, running
 
@@ -67,10 +74,51 @@ def test_a_wrong_pin_is_refused_and_soon_every_pin(hall: Hall) -> None:
     assert phone.send("/pin", pin=hall.site.pin).status == 429
 
 
+def test_the_director_gets_in_at_the_computer_while_others_guess(hall: Hall) -> None:
+    for _ in range(30):
+        hall.site.all_tries.count("")
+    assert Phone(hall.site).send("/pin", pin=hall.site.pin).status == 200
+    elsewhere = Request({"type": "http", "client": ("10.0.0.7", 5000), "app": make_app(hall.site)})
+    with pytest.raises(RefusalError):
+        check_tries(elsewhere)
+
+
+def test_two_pages_on_one_computer_keep_their_sessions_apart(tmp_path: Path) -> None:
+    with running(tmp_path / "one.db") as one, running(tmp_path / "other.db") as other:
+        phone = Phone(one, director=True)
+        phone.site, phone.kept = other, ""
+        phone.open("/")
+        phone.site = one
+        assert "Stop directing" in phone.open("/").words
+
+
+def test_the_language_is_chosen_where_the_reader_is(standing_hall: Hall) -> None:
+    asked = {"a": "600", "b": "500", "race": "9"}
+    phone = Phone(standing_hall.site)
+    back = unescape(phone.open("/fair", **asked).text.split('name="back" value="')[1].split('"')[0])
+    assert "9:" in phone.send("/language", language="de", back=back).words
+    refused = phone.send("/desk/undo").text
+    back = refused.split('name="back" value="')[1].split('"')[0]
+    assert phone.send("/language", language="en", back=back).status == 200
+
+
+def test_nothing_of_the_evening_is_kept_by_a_browser(standing_hall: Hall) -> None:
+    for path in ("/", "/desk/codes", "/bracket.pdf", "/missing"):
+        assert standing_hall.director.open(path).headers["cache-control"] == "no-store"
+
+
 def test_a_forged_cookie_makes_no_director(standing_hall: Hall) -> None:
     phone = Phone(standing_hall.site)
-    phone.opener.addheaders.append(("Cookie", "evenbreak=eyJkaXJlY3RvciI6ICJ4In0=.aaaa.bbbb"))
+    forged = f"{cookie_name(phone.site)}=eyJkaXJlY3RvciI6ICJ4In0=.aaaa.bbbb"
+    phone.opener.addheaders.append(("Cookie", forged))
     assert phone.open("/desk").status == 403
+
+
+@pytest.mark.parametrize("length", ["0007100", "101", "²", "٧", "-1", "1e2", "7.5"])
+def test_a_guest_cannot_ask_for_a_race_without_end(standing_hall: Hall, length: str) -> None:
+    shown = standing_hall.guest.open("/fair", a="600", b="500", race=length)
+    assert shown.status == 400
+    assert "from 1 to 100" in shown.words
 
 
 def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
@@ -95,6 +143,28 @@ def test_a_slow_body_is_cut_off(standing_hall: Hall, monkeypatch: pytest.MonkeyP
         head = f"POST /pin HTTP/1.1\r\nHost: {place.netloc}\r\nContent-Length: 50\r\n"
         line.sendall(f"{head}Content-Type: application/x-www-form-urlencoded\r\n\r\nc".encode())
         assert b" 408 " in line.recv(200)
+
+
+def test_connections_that_ask_for_nothing_are_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "_IDLE", 2)
+    with running(tmp_path / "tonight.db") as site:
+        place = urlsplit(site.address)
+        asked = f"GET /events HTTP/1.1\r\nHost: {place.netloc}\r\n".encode()
+        with ExitStack() as ends:
+            nothing, half, whole = (
+                ends.enter_context(socket.create_connection((place.hostname, place.port), 5))
+                for _ in range(3)
+            )
+            half.sendall(asked)
+            whole.sendall(asked + b"\r\n")
+            stream = ends.enter_context(whole.makefile("rb"))
+            assert stream.readline().startswith(b"HTTP/1.1 200")
+            assert (nothing.recv(9), half.recv(9)) == (b"", b"")
+            assert any(line == b"data: 0\n" for line in stream)  # a stream goes on
+            begun(Phone(site, director=True), ["Ann", "Bo"])
+            assert any(line.startswith(b"data: ") for line in stream)
 
 
 @pytest.mark.parametrize(

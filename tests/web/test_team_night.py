@@ -404,7 +404,9 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
     ("how", "why"),
     [
         ({"team_b": " "}, "has no name"),
-        ({"team_b": "racks"}, "both teams are called"),
+        ({"team_b": "\u200b"}, "has no name"),
+        ({"team_b": "Cu\x07es"}, "can be printed"),
+        ({"team_b": "rac\u200bks"}, "both teams are called"),
         ({"players_b": ""}, "Nobody is named"),
         ({"players_b": "player,rating\nUli,high"}, "Cues: line 2: rating 'high'"),
         ({"cap": "5"}, "no line-up"),
@@ -457,6 +459,16 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
         assert (plan.cap, plan.at_most, plan.sets, plan.scale) == (20.0, (2, 6.0), 4, "1.5")
         assert plan.teams[0].weights == (6.5, 5.5, 5.0, 4.0)
         assert night.state.due == (1,)
+
+
+def test_each_team_may_come_in_a_file(tmp_path: Path) -> None:
+    teams = {"file_a": listed(RACKS).encode(), "file_b": listed(CUES).encode()}
+    with running(tmp_path / "tonight.db") as site:
+        asked = fields(players_a="", players_b="")
+        shown = Phone(site, director=True).send_files("/team/new", teams, **asked)
+        assert shown.status == 200, shown.words
+        state = team_evening(read_team_events(site.path))
+        assert [sheet.players for sheet in state.plan.teams] == [tuple(RACKS), tuple(CUES)]
 
 
 def test_players_without_a_rating_have_that_of_the_league(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from evenbreak.teams.evening.events import (
     PutUp,
     Result,
     Undone,
+    What,
 )
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import NightPlan
@@ -117,11 +118,12 @@ def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
     state
         the state after them.
     """
-    lines = []
+    lines: list[str] = []
     plan, seen = state.plan, _open(state)
+    kept: list[What] = []  # an undo may bring an earlier night back
     for number, event in enumerate(events, 1):
-        if isinstance(event.what, Begun):
-            plan = event.what.plan
+        kept = kept[:-1] if isinstance(event.what, Undone) else [*kept, event.what]
+        plan = next((what.plan for what in reversed(kept) if isinstance(what, Begun)), plan)
         shown = seen if number >= state.began else set(range(1, plan.sets + 1))
         lines.append(event_words(event, plan, shown))
     return lines

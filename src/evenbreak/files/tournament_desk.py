@@ -96,6 +96,12 @@ def proposals(path: str | Path) -> list[Proposal]:
     ]
 
 
+def forget_proposals(path: str | Path, match: str) -> None:
+    """Forget what was proposed for a match; its result has been entered."""
+    with opened(path) as base:
+        base.execute("DELETE FROM proposal WHERE game = ?", (match,))
+
+
 def authors(path: str | Path) -> dict[int, str]:
     """Return who entered each event, by its number from 1, where that is known."""
     with opened(path) as base:

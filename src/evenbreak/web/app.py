@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
-import socket
 
-import uvicorn
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -39,8 +38,7 @@ from evenbreak.web.words import say
 
 _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
-_MOST_CONNECTIONS = 1000
-_MOST_HEAD = 32 << 10  # bytes of the lines above a body
+_HTTP = {400: "refused_unreadable", 404: "refused_missing"}
 
 
 def make_app(site: Site) -> Starlette:
@@ -74,7 +72,7 @@ def make_app(site: Site) -> Starlette:
             Middleware(
                 SessionMiddleware,
                 secret_key=site.cookie_key,
-                session_cookie="evenbreak",
+                session_cookie=cookie_name(site),
                 max_age=_COOKIE_DAYS * 86400,
                 same_site="lax",
             ),
@@ -91,36 +89,12 @@ def make_app(site: Site) -> Starlette:
     return app
 
 
-def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
-    """Return the server of a site; it ends the streams of its pages before it ends itself.
+def cookie_name(site: Site) -> str:
+    """Return the name of the sessions' cookie, another one for each file.
 
-    Parameters
-    ----------
-    site
-        what is served.
-    host, port
-        where it listens.
+    Cookies know no ports: two pages on one computer would overwrite each other's sessions.
     """
-    app = make_app(site)
-    config = uvicorn.Config(
-        app,
-        host=host,
-        port=port,
-        log_level="error",
-        access_log=False,
-        server_header=False,
-        timeout_keep_alive=20,
-        timeout_graceful_shutdown=3,
-        limit_concurrency=_MOST_CONNECTIONS,
-        h11_max_incomplete_event_size=_MOST_HEAD,
-    )
-
-    class Server(uvicorn.Server):
-        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-            app.state.closing = True
-            await super().shutdown(sockets)
-
-    return Server(config)
+    return f"evenbreak-{hashlib.sha256(site.cookie_key.encode()).hexdigest()[:8]}"
 
 
 async def _style(_: Request) -> Response:
@@ -139,8 +113,8 @@ async def _wrong(request: Request, error: Exception) -> Response:
 
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
-    key = "refused_missing" if error.status_code == 404 else "refused_method"
-    return refused(request, say(language(request), key), error.status_code)
+    words = say(language(request), _HTTP.get(error.status_code, "refused_method"))
+    return refused(request, words, error.status_code)
 
 
 async def _failed(request: Request, error: Exception) -> Response:

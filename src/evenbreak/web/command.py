@@ -43,7 +43,7 @@ def command(*, file: str, lan: bool, port: int) -> None:
     from evenbreak.files.team_night_store import read_team_events
     from evenbreak.files.tournament_desk import back_up
     from evenbreak.files.tournament_store import read_tournament
-    from evenbreak.web.app import server_of
+    from evenbreak.web.server import server_of
     from evenbreak.web.site import Site
 
     path = Path(file)

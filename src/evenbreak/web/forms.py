@@ -3,33 +3,40 @@
 from __future__ import annotations
 
 import hashlib
+from typing import TypeAlias
 
-from starlette.datastructures import FormData, QueryParams
+from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
 from starlette.requests import Request
 
+from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_form
 
-_MOST_FIELDS, _MOST_FILES = 60, 1
-_LONGEST = 200
+_MOST_FIELDS, _MOST_FILES = 1000, 2
+LONGEST = 200
+"""Characters of a field, if nothing else is said."""
 
 EVEN, FAIR = "even", "fair"
 RACES = {EVEN: "races_even", FAIR: "races_fair"}
 """The races that are not those of a chart, with their words."""
 
 
-class Form:
-    """The fields of a form.
+Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
+"""The fields of a form by name: a text, or what is in a file."""
 
-    >>> form = Form(FormData([("race", "7"), ("name", " Ann ")]))
+
+class Form:
+    """The fields of a form, and what is in the files that came with it.
+
+    >>> form = Form(Fields([("race", "7"), ("name", " Ann ")]))
     >>> form.whole("race", 1, 100), form.text("name"), form.whole("tables", 1, 9, default=4)
     (7, 'Ann', 4)
     """
 
-    def __init__(self, fields: FormData | QueryParams) -> None:
+    def __init__(self, fields: Fields | QueryParams) -> None:
         self.fields = fields
 
-    def text(self, name: str, *, longest: int = _LONGEST) -> str:
+    def text(self, name: str, *, longest: int = LONGEST) -> str:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
@@ -38,10 +45,15 @@ class Form:
             raise RefusalError("refused_long", field=name, longest=longest)
         return value.strip()
 
+    def content(self, name: str) -> bytes:
+        """Return what is in the file of a field; nothing if no file was chosen."""
+        value = self.fields.get(name, b"")
+        return value if isinstance(value, bytes) else b""
+
     def texts(self, name: str) -> list[str]:
         """Return the texts of all fields of a name, without the blanks around them."""
         given = self.fields.getlist(name)
-        return [Form(FormData([(name, one)])).text(name) for one in given]
+        return [Form(Fields([(name, one)])).text(name) for one in given]
 
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
         """Return a whole number between two others."""
@@ -53,7 +65,7 @@ class Form:
 
         Somebody who goes back and changes a field sends another form.
 
-        >>> forms = [Form(FormData([("once", "7"), ("race", race)])) for race in ("5", "5", "6")]
+        >>> forms = [Form(Fields([("once", "7"), ("race", race)])) for race in ("5", "5", "6")]
         >>> [form.key() == forms[0].key() for form in forms]
         [True, True, False]
         """
@@ -74,19 +86,27 @@ class Form:
 def whole(name: str, text: str, low: int, high: int) -> int:
     """Return the whole number in a field, between two others.
 
-    >>> whole("race", "7", 1, 100)
+    >>> whole("race", "07", 1, 100)
     7
     """
     if not text:
         raise RefusalError("refused_empty", field=name, low=low, high=high)
-    if not text.isascii() or not text.isdigit() or not low <= int(text[:9]) <= high:
+    if not text.isascii() or not text.isdigit() or not low <= int(text) <= high:
         raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
     return int(text)
 
 
 async def form_of(request: Request) -> Form:
-    """Read a form of this session; refuse one that it was not given."""
-    async with request.form(max_files=_MOST_FILES, max_fields=_MOST_FIELDS) as fields:
-        form = Form(fields)
-        check_form(request, form.text("csrf"))
-        return form
+    """Read a form of this session with its files; refuse one that it was not given."""
+    limits = {"max_files": _MOST_FILES, "max_fields": _MOST_FIELDS, "max_part_size": MOST_BYTES}
+    async with request.form(**limits) as sent:
+        form = Form(
+            Fields(
+                [
+                    (name, await value.read() if isinstance(value, UploadFile) else value)
+                    for name, value in sent.multi_items()
+                ]
+            )
+        )
+    check_form(request, form.text("csrf"))
+    return form

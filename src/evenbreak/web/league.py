@@ -11,6 +11,7 @@ from __future__ import annotations
 import asyncio
 import glob
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -26,6 +27,8 @@ from evenbreak.web.uploads import ending_of, read_upload
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer
     from evenbreak.answers.sheet import Sheet
+
+_LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -113,10 +116,15 @@ class League:
     async def why(
         self, pair: tuple[int, int], work: Callable[[Sheet, tuple[int, int]], Answer], wait: float
     ) -> Answer | None:
-        """Return what is worked out about two players of the sheet; None: not ready yet."""
+        """Return what is worked out about two players of the sheet; None: not ready yet.
+
+        Only a few pairs wait at once, so that whoever asks for many does not hold up the ratings.
+        """
         sheet = self.sheet
         assert sheet is not None  # noqa: S101 - asked of a sheet that is shown
         if pair not in self._whys:
+            if sum(not one.done() for one in self._whys.values()) >= _MOST_WAITING:
+                return None
             if len(self._whys) >= _MOST_WHYS:
                 self._whys.clear()
             self._whys[pair] = asyncio.ensure_future(self._thread.run(lambda: work(sheet, pair)))
@@ -136,6 +144,9 @@ class League:
             sheet = await self._thread.run(lambda: self._rated(asked))
         except EvenbreakError as error:
             problem = str(error)
+        except Exception as error:
+            _LOG.exception("the league could not be rated", exc_info=error)
+            problem = str(error) or type(error).__name__
         else:
             if asked == self._asked:
                 self.sheet, self.progress = sheet, None
@@ -185,5 +196,5 @@ class League:
         return self.beside.with_name(f"{self.beside.stem}.league.{ending}")
 
 
-_MOST_WHYS = 50
+_MOST_WHYS, _MOST_WAITING = 50, 4
 _TASKS: set[asyncio.Task[None]] = set()

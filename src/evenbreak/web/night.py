@@ -7,9 +7,11 @@ page waits for them for a moment only, and shows what is known until then.
 from __future__ import annotations
 
 import asyncio
+import logging
 import sqlite3
+import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -23,7 +25,9 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
 
+_LOG = logging.getLogger(__name__)
 _STALE = 30.0  # seconds after which the finish is worked out again
+_TICK = 20_000_000  # nanoseconds: longer than a step of the clock that files are stamped by
 _WAIT = 0.03  # seconds that a page waits for what is being worked out
 
 
@@ -51,15 +55,18 @@ class Known:
     next_starts
         when each player's next match begins: early, in the middle and late, in minutes since the
         start; only of players who may still play.
+    problem
+        why nothing of all this could be worked out; '' if it was.
     """
 
     of: Evening
     at: float
-    data: dict[str, Any]
-    calls: list[tuple[int, str]]
-    start: int
-    odds: PlaceOdds
-    next_starts: Mapping[str, tuple[float, float, float]]
+    data: dict[str, Any] = field(default_factory=dict)
+    calls: list[tuple[int, str]] = field(default_factory=list)
+    start: int = 0
+    odds: PlaceOdds | None = None
+    next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
+    problem: str = ""
 
 
 class Night:
@@ -114,8 +121,6 @@ class Night:
             if self._work is None or self._work.done():
                 self._work = asyncio.create_task(self._work_out(state))
             await asyncio.wait({self._work}, timeout=_WAIT)
-            if self._work.done():
-                self._work.result()  # raises what went wrong
         same_tournament = self.known and self.known.of.events[0] == state.events[0]
         return self.known if same_tournament else None
 
@@ -128,7 +133,11 @@ class Night:
             starts = _next_starts(night) if to_play else {}
             return Known(state, 0.0, data, calls, begun_at(night), night.odds, starts)
 
-        found = await self.beside.run(work)
+        try:
+            found = await self.beside.run(work)
+        except Exception as error:  # the pages go on without: the director has to mend it there
+            _LOG.exception("the odds could not be worked out", exc_info=error)
+            found = Known(state, 0.0, problem=str(error) or type(error).__name__)
         clock = asyncio.get_running_loop().time()
         self.known = replace(found, at=clock)
 
@@ -147,13 +156,19 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
 
 
 def mark_of(path: Path) -> tuple[int, int, int]:
-    """Return what changes whenever the file does: of the database and of its log."""
+    """Return what changes whenever the file does: of the database and of its log.
+
+    A file that has just been written may change again within one tick of its clock, so that this
+    is another one each time.
+    """
     log = path.with_name(f"{path.name}-wal")
     try:
         main, beside = path.stat(), log.stat() if log.exists() else None
     except OSError:
         return 0, 0, 0
-    return main.st_mtime_ns, beside.st_size if beside else 0, beside.st_mtime_ns if beside else 0
+    last = max(main.st_mtime_ns, beside.st_mtime_ns if beside else 0)
+    just_now = time.monotonic_ns() if time.time_ns() - last < _TICK else 0
+    return last, beside.st_size if beside else 0, just_now
 
 
 def version_of(path: Path) -> int:
@@ -161,15 +176,16 @@ def version_of(path: Path) -> int:
     if not path.exists():
         return 0
     try:
-        base = sqlite3.connect(f"file:{path}?mode=ro", uri=True, timeout=1.0)
+        base = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, timeout=1.0)
     except sqlite3.Error:
         return 0
     try:
         there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
         asked = [f"SELECT COALESCE(MAX(number), 0) FROM {table}" for table in there]  # noqa: S608
-        if has_table(base, "proposal"):
-            asked.append("SELECT COALESCE(MAX(rowid), 0) FROM proposal")
-        return sum(int(base.execute(one).fetchone()[0]) for one in asked)
+        events = sum(int(base.execute(one).fetchone()[0]) for one in asked)
+        last = "SELECT COALESCE(MAX(rowid), 0) FROM proposal"
+        sent = int(base.execute(last).fetchone()[0]) if has_table(base, "proposal") else 0
+        return (events << 20) + sent  # proposals are forgotten as soon as an event comes of them
     except sqlite3.Error:
         return 0
     finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import json
 import urllib.parse
 from functools import cache
 from importlib.resources import files
@@ -16,7 +17,7 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
-from evenbreak.web.forms import Form
+from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
@@ -25,7 +26,7 @@ from evenbreak.web.words.sentences import answer_in_language, in_language
 
 _LANGUAGE = "language"
 _SAID = "said"
-_MOST_SAID = 1500  # characters: a cookie holds 4 KB
+_MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 
 @cache
@@ -116,6 +117,7 @@ def page(
             language=code,
             languages=LANGUAGES,
             here=request.url.path,
+            return_to=_return_to(request),
             site=site_of(request),
             director=is_director(request),
             csrf=form_token(request),
@@ -126,7 +128,7 @@ def page(
             **values,
         )
     )
-    return HTMLResponse(shown, status_code=status, headers={"cache-control": "no-store"})
+    return HTMLResponse(shown, status_code=status)
 
 
 def asked_again(
@@ -167,6 +169,14 @@ def answer_shown(request: Request, answer: Answer) -> Markup:
     return Markup(shown.replace("<table>", '<table tabindex="0">'))  # noqa: S704
 
 
+def _return_to(request: Request) -> str:
+    """Return where the reader comes back to who has chosen a language."""
+    if request.method != "GET":
+        return "/"
+    asked = request.url.path + (f"?{request.url.query}" if request.url.query else "")
+    return asked if len(asked) <= LONGEST else request.url.path
+
+
 def _capital(text: str) -> str:
     """Return a text with a capital letter in front."""
     return text[:1].upper() + text[1:]
@@ -176,7 +186,7 @@ def done(request: Request, to: str, *said: str) -> Response:
     """Return to a page after a form was taken, and say there what happened."""
     kept: list[str] = []
     for line in said:
-        if sum(map(len, kept)) + len(line) <= _MOST_SAID:
+        if len(json.dumps([*kept, line])) <= _MOST_SAID:
             kept.append(line)
     if kept:
         request.session[_SAID] = kept

@@ -8,6 +8,7 @@ import numpy as np
 
 from evenbreak.answers.times_of_day import time_of_day
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.night import Known
 
 
@@ -55,7 +56,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     listed = (known.data.get("odds") or known.data.get("players", [])) if known else []
     titles = {one["name"]: one["p_title"] for one in listed}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
-    places = _decided(known) if known and known.of is state else {}
+    places = _decided(known.odds) if known and known.odds and known.of is state else {}
     playing: dict[str, str] = {}
     if state.drawn:
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
@@ -86,9 +87,8 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     return sorted(views, key=lambda one: -one.rating)
 
 
-def _decided(known: Known) -> dict[str, str]:
+def _decided(odds: PlaceOdds) -> dict[str, str]:
     """Return the places that are decided, by player."""
-    odds = known.odds
     seats, places = np.nonzero(odds.p_place > 1.0 - 1e-12)
     names = odds.bracket.players
     both = zip(seats.tolist(), places.tolist(), strict=True)

@@ -11,7 +11,7 @@ from evenbreak.answers.scale_doubts import league_doubts
 from evenbreak.answers.starters import starters_words
 from evenbreak.answers.wording import some_of
 from evenbreak.errors import DataError
-from evenbreak.files.player_names import clean_name
+from evenbreak.files.player_names import clean_name, is_name
 from evenbreak.files.team_list import TeamList, read_team
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
@@ -40,17 +40,20 @@ _NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
 _AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
 
-async def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
+def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     """Return the plan that a form asks for, and what its lists make doubtful.
 
     Players without a rating have that of the league, if it knows them.
     """
-    names = [" ".join(form.text(f"team_{side}", longest=60).split()) for side in "ab"]
+    names = [clean_name(form.text(f"team_{side}", longest=60)) for side in "ab"]
     if not all(names):
         raise RefusalError("refused_teams")
+    for name in names:
+        if not is_name(name):
+            raise RefusalError("refused_name", value=name)
     lists = []
     for side, name in zip("ab", names, strict=True):
-        content = await list_of(form, f"players_{side}", f"file_{side}")
+        content = list_of(form, f"players_{side}", f"file_{side}")
         if not content.strip():
             raise RefusalError("refused_nobody")
         lists.append(_read(content, name))
@@ -132,7 +135,7 @@ def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
     errors = np.zeros(len(roster)) if form.text("sure") else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
     return TeamSheet(
-        clean_name(name),
+        name,
         roster.players,
         tuple(roster.rating.tolist()),
         tuple(errors.tolist()),

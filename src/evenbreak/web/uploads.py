@@ -10,8 +10,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from starlette.datastructures import UploadFile
-
 from evenbreak.errors import DataError
 from evenbreak.files.roster import RosterFile
 from evenbreak.web.forms import Form
@@ -24,12 +22,9 @@ _LONGEST_LIST = 200_000
 Read = TypeVar("Read")
 
 
-async def list_of(form: Form, text: str, file: str) -> bytes:
+def list_of(form: Form, text: str, file: str, *, longest: int = _LONGEST_LIST) -> bytes:
     """Return the file that came in a field of a form, or else the text of another field."""
-    upload = form.fields.get(file)
-    if isinstance(upload, UploadFile) and upload.size:
-        return await upload.read()
-    return form.text(text, longest=_LONGEST_LIST).encode()
+    return form.content(file) or form.text(text, longest=longest).encode()
 
 
 def ending_of(content: bytes) -> str:

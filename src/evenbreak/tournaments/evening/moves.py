@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from difflib import get_close_matches
 
 import numpy as np
 
 from evenbreak.errors import InputError
+from evenbreak.ratings.spellings import folded
 from evenbreak.tournaments.brackets.bracket import some_of
 from evenbreak.tournaments.brackets.seeding import (
     blind_draw,
@@ -159,9 +161,11 @@ def late(state: Evening, entrant: Entrant) -> Late:
     tournament a late player goes to the end of the line, as long as two are still in.
     """
     refuse_bye(entrant.name)
-    names = {name.casefold(): name for name in state.entrants}
-    if entrant.name.casefold() in names:
-        raise InputError(f"{names[entrant.name.casefold()]} has entered already")
+    if not math.isfinite(entrant.rating):
+        raise InputError(f"the rating of {entrant.name} is {entrant.rating}; give a finite number")
+    names = {folded(name): name for name in state.entrants}
+    if folded(entrant.name) in names:
+        raise InputError(f"{names[folded(entrant.name)]} has entered already")
     if len(state.entrants) >= MOST_PLAYERS:
         raise InputError(f"a tournament takes {MOST_PLAYERS} players at most")
     if state.plan.form == "chips":

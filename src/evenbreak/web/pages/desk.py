@@ -30,10 +30,10 @@ from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
+from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
 from evenbreak.web.page import done, language, page, site_of
-from evenbreak.web.ratings_entered import rating_doubts, rating_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
@@ -76,6 +76,9 @@ async def desk(request: Request) -> Response:
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
+        if known and known.problem:
+            why = in_language(language(request), known.problem)
+            shown["warnings"] = [say(language(request), "not_worked_out", why=why)]
     return page(request, "desk.html", live=True, **shown)
 
 
@@ -229,8 +232,7 @@ async def drop(request: Request) -> Response:
 async def entrant(request: Request) -> Response:
     """Correct a name or a rating before the draw."""
     form = await _form(request)
-    player, name = form.text("player"), " ".join(form.text("name", longest=80).split())
-    stated = rating_of(form)
+    player, name, stated = form.text("player"), name_of(form), rating_of(form)
 
     def decide(state: Evening) -> list[What]:
         if state.drawn:

@@ -72,13 +72,17 @@ async def codes(request: Request) -> Response:
     """Show the QR codes: of the page, and of each match that can be played."""
     check_director(request)
     site = site_of(request)
-    shown = [("", site.address, _code(site.address))]
+    to = {"": site.address}
     if site.night.exists:
         state = await asyncio.to_thread(site.night.state)
         for name in state.standing.to_play if state.drawn else ():
-            to = f"{site.address}/m/{site.match_token(name)}"
-            shown.append((f"{name}: {' – '.join(state.pair(name))}", to, _code(to)))
-    return page(request, "codes.html", codes=shown)
+            words = f"{name}: {' – '.join(state.pair(name))}"
+            to[words] = f"{site.address}/m/{site.match_token(name)}"
+
+    def work() -> list[tuple[str, str, str]]:
+        return [(words, address, _code(address)) for words, address in to.items()]
+
+    return page(request, "codes.html", codes=await asyncio.to_thread(work))
 
 
 def _code(text: str) -> str:

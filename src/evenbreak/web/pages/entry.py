@@ -14,6 +14,7 @@ from starlette.routing import Route
 from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
 from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament import unrated_words
+from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
@@ -27,16 +28,15 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH, opened
+from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
 from evenbreak.web.league import League
-from evenbreak.web.page import asked_again, done, language, page, site_of
+from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.pages.desk import BY
-from evenbreak.web.ratings_entered import rating_doubts, rating_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
-from evenbreak.web.words import say
 
 SEEDINGS = ("blind", "rating", "listed")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
@@ -66,15 +66,15 @@ async def _choices(site: Site) -> dict[str, Any]:
 
 async def begin(request: Request) -> Response:
     """Begin a tournament; a form that is refused comes back as it was filled in."""
-    async with request.form(max_files=1, max_fields=40) as fields:
-        await form_of(request)
-        check_director(request)
-        form, site = Form(fields), site_of(request)
-        try:
-            event, warnings = await _begun(form, site)
-            before = await asyncio.to_thread(_put_aside, form, site)
-        except (RefusalError, EvenbreakError) as error:
-            return asked_again(request, "new.html", form, error, **await _choices(site))
+    form, site = await form_of(request), site_of(request)
+    check_director(request)
+    try:
+        event, warnings = await asyncio.to_thread(_begun, form, site)
+        if await asyncio.to_thread(_is_there, site, event):  # the same tap again
+            return done(request, "/desk")
+        before = await asyncio.to_thread(_put_aside, form, site)
+    except (RefusalError, EvenbreakError) as error:
+        return asked_again(request, "new.html", form, error, **await _choices(site))
     await asyncio.to_thread(new_tournament, site.path, [event], in_place_of=before)
     site.keep_secrets()
     return done(request, "/desk", *warnings)
@@ -101,6 +101,11 @@ def _there(site: Site) -> There | None:
     return There(len(found), found[0].at, len(site.night.state().entrants))
 
 
+def _is_there(site: Site, event: Event) -> bool:
+    """Return whether the tournament that there is has begun just so, and nothing else happened."""
+    return site.night.exists and [one.what for one in read_events(site.path)] == [event.what]
+
+
 def _put_aside(form: Form, site: Site) -> int:
     """Keep a copy of the tournament that is there already; return how many events it has."""
     there = _there(site)
@@ -112,12 +117,12 @@ def _put_aside(form: Form, site: Site) -> int:
     return there.events
 
 
-async def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
+def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     """Return what a form begins, and what its list makes doubtful."""
-    content = await list_of(form, "entrants", "file")
+    content = list_of(form, "entrants", "file")
     if not content.strip():
         raise RefusalError("refused_nobody")
-    file = await asyncio.to_thread(read_upload, content, read_entrants)
+    file = read_upload(content, read_entrants)
     scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
@@ -194,10 +199,9 @@ async def late(request: Request) -> Response:
     """Let a late player in."""
     form = await form_of(request)
     check_director(request)
-    site, name = site_of(request), " ".join(form.text("name", longest=80).split())
+    site, name, rating = site_of(request), name_of(form), rating_of(form)
     if not name:
         raise RefusalError("refused_nobody")
-    rating = rating_of(form)
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan
@@ -209,8 +213,7 @@ async def late(request: Request) -> Response:
         return [Event(site.clock(), moves.late(state, entrant))]
 
     _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
-    said = say(language(request), "entered", name=name)
-    return done(request, "/desk", said, *rating_doubts(after))
+    return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
 
 
 ROUTES = [

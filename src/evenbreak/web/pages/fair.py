@@ -17,6 +17,7 @@ from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ra
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
+from evenbreak.web.forms import Form
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
 from evenbreak.web.refusals import RefusalError
@@ -40,12 +41,10 @@ async def fair(request: Request) -> Response:
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
     scale = _scale(request, state, league)
-    length = request.query_params.get("race", "7")
-    if not length.isdigit() or not 1 <= int(length[:4]) <= 100:
-        raise RefusalError("refused_whole", field="race", value=length[:20], low=1, high=100)
+    length = Form(request.query_params).whole("race", 1, 100, default=7)
     shown: dict[str, Any] = {
         "asked": asked,
-        "length": int(length),
+        "length": length,
         "lengths": LENGTHS,
         "scale": scale.text,
         "scales": NAMES,
@@ -55,7 +54,7 @@ async def fair(request: Request) -> Response:
     }
     if asked["a"] and asked["b"]:
         sides = tuple(_side(asked[name], state, league) for name in ("a", "b"))
-        shown |= {"sides": sides, "races": _races(sides, scale, int(length))}
+        shown |= {"sides": sides, "races": await asyncio.to_thread(_races, sides, scale, length)}
     return page(request, "fair.html", **shown)
 
 

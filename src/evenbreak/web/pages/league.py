@@ -9,7 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -19,18 +18,19 @@ from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament_matches import tournament_matches_answer
 from evenbreak.ratings.scale import SCALES
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.forms import Form, form_of
+from evenbreak.web.forms import form_of
+from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
+from evenbreak.web.uploads import list_of
 from evenbreak.web.words import say
 
 if TYPE_CHECKING:
     from evenbreak.answers.sheet import Sheet
 
-_LONGEST = 2 << 20
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
 _MOST_LISTED = 1000
 _MOST_MATCHES = 60
@@ -80,14 +80,9 @@ async def league(request: Request) -> Response:
 
 async def give(request: Request) -> Response:
     """Take the league's results, from a file or pasted."""
-    async with request.form(max_files=1, max_fields=10) as fields:
-        form = Form(fields)
-        content = form.text("results", longest=_LONGEST).encode()
-        upload = fields.get("file")
-        if isinstance(upload, UploadFile) and upload.size:
-            content = await upload.read()
-        await form_of(request)
+    form = await form_of(request)
     check_director(request)
+    content = list_of(form, "results", "file", longest=MOST_BYTES)
     if not content.strip():
         raise RefusalError("refused_nothing")
     found = _league(request)
@@ -221,7 +216,7 @@ async def download(request: Request, name: str) -> Response:
 
 def saved(content: bytes, name: str) -> Response:
     """Return a file to be kept."""
-    head = {"content-disposition": f'attachment; filename="{name}"', "cache-control": "no-store"}
+    head = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=head)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from pathlib import Path
 from typing import Any
 
 from scipy.special import betainc
@@ -10,7 +11,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.files.tournament_desk import Proposal, proposals, propose
+from evenbreak.files.tournament_desk import Proposal, forget_proposals, proposals, propose
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result, Scored
@@ -43,13 +44,13 @@ async def match(request: Request) -> Response:
     seats = [state.order.index(player) for player in one.players]
     skill = state.ratings[seats[0]] - state.ratings[seats[1]]
     p_game = float(state.scale.win_probability(skill))
-    found = await asyncio.to_thread(proposals, site_of(request).path)
+    found = await asyncio.to_thread(_proposed, site_of(request).path, name, one.players)
     mine = _me(request, name)
     shown |= {
         "one": one,
         "odds": _odds(one, p_game),
         "me": mine,
-        "proposed": [p for p in found if p.match == name and set(p.score) == set(one.players)],
+        "proposed": found,
     }
     return page(request, "match.html", live=True, **shown)
 
@@ -116,22 +117,34 @@ def _propose(
     games = dict(zip(pair, score, strict=True))
     phone = phone_of(request)
     propose(site.path, Proposal(name, me, games, phone, site.clock()))
-    others = [
-        p
-        for p in proposals(site.path)
-        if p.match == name and p.player in pair and p.player != me and p.phone != phone
-    ]
+    others = [p for p in _proposed(site.path, name, pair) if p.player != me and p.phone != phone]
+    if _entered(site.night.state(), name, games):  # the other phone was faster
+        return say(code, "result_entered", match=name)
     if not others:
         return say(code, "proposed_wait", other=pair[pair[0] == me])
     if any(dict(p.score) != games for p in others):
         return say(code, "proposed_differ")
 
     def decide(now: Evening) -> list[Event]:
+        if _entered(now, name, games):
+            return []
         found: Result = moves.result(now, name, score)
         return [Event(site.clock(), found)]
 
     add_events(site.path, decide, by=f"phones: {' and '.join(pair)}")
+    forget_proposals(site.path, name)
     return say(code, "result_entered", match=name)
+
+
+def _proposed(path: Path, name: str, pair: tuple[str, str]) -> list[Proposal]:
+    """Return what was proposed for a match by the two who play it now."""
+    return [p for p in proposals(path) if p.match == name and set(p.score) == set(pair)]
+
+
+def _entered(state: Evening, name: str, games: dict[str, int]) -> bool:
+    """Return whether a match has this result."""
+    there = state.counted.get(name)
+    return there is not None and not there.forfeit and there.games == games
 
 
 async def _match(request: Request) -> tuple[str, Evening]:

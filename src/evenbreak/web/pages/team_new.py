@@ -20,7 +20,7 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, What
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import check_plan
-from evenbreak.web.forms import RACES, Form, form_of
+from evenbreak.web.forms import RACES, form_of
 from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
@@ -51,15 +51,13 @@ async def _choices(site: Site) -> dict[str, Any]:
 async def begin(request: Request) -> Response:
     """Begin a team night; a form that is refused comes back as it was filled in."""
     site = site_of(request)
-    async with request.form(max_files=2, max_fields=40) as fields:
-        await form_of(request)
-        check_director(request)
-        form = Form(fields)
-        try:
-            plan, warnings = await plan_of(form, site.league)
-            await site.night.beside.run(partial(check_plan, plan))
-        except (RefusalError, EvenbreakError) as error:
-            return asked_again(request, "team_new.html", form, error, **await _choices(site))
+    form = await form_of(request)
+    check_director(request)
+    try:
+        plan, warnings = await asyncio.to_thread(plan_of, form, site.league)
+        await site.night.beside.run(partial(check_plan, plan))
+    except (RefusalError, EvenbreakError) as error:
+        return asked_again(request, "team_new.html", form, error, **await _choices(site))
 
     def decide(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
         return moves.begin(state, plan)

@@ -1,13 +1,21 @@
-"""A rating as it is entered, and what is doubtful about those of tonight."""
+"""A name and a rating as they are entered, and what is doubtful about the ratings of tonight."""
 
 from __future__ import annotations
 
 from evenbreak.answers.scale_doubts import far_doubts
+from evenbreak.files.player_names import clean_name, is_name
+from evenbreak.files.roster import LARGEST
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError
 
-_LARGEST = 1e6
+
+def name_of(form: Form) -> str:
+    """Return the name in a form, as it is read from a list; '': the field was left empty."""
+    name = clean_name(form.text("name", longest=80))
+    if name and not is_name(name):
+        raise RefusalError("refused_name", value=name)
+    return name
 
 
 def rating_of(form: Form) -> float | None:
@@ -19,7 +27,7 @@ def rating_of(form: Form) -> float | None:
         rating = float(stated)
     except ValueError:
         raise RefusalError("refused_rating", value=stated) from None
-    if not abs(rating) <= _LARGEST:
+    if not abs(rating) <= LARGEST:
         raise RefusalError("refused_rating", value=stated)
     return rating
 

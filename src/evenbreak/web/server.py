@@ -1,0 +1,78 @@
+"""The server that the application runs in: its limits, and the ends of its connections."""
+
+from __future__ import annotations
+
+import socket
+from typing import Any
+
+import uvicorn
+
+from evenbreak.web.app import make_app
+from evenbreak.web.site import Site
+
+_MOST_CONNECTIONS = 1000
+_MOST_HEAD = 32 << 10  # bytes of the lines above a body
+_IDLE = 200  # tenths of a second
+
+
+def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
+    """Return the server of a site.
+
+    Parameters
+    ----------
+    site
+        what is served.
+    host, port
+        where it listens.
+    """
+    config = uvicorn.Config(
+        make_app(site),
+        host=host,
+        port=port,
+        http="h11",
+        ws="none",
+        lifespan="off",
+        proxy_headers=False,
+        log_level="error",
+        access_log=False,
+        server_header=False,
+        timeout_keep_alive=20,
+        timeout_graceful_shutdown=3,
+        limit_concurrency=_MOST_CONNECTIONS,
+        h11_max_incomplete_event_size=_MOST_HEAD,
+    )
+    return _Server(config)
+
+
+class _Server(uvicorn.Server):
+    """A server that ends the streams of its pages before it ends itself, and idle connections.
+
+    A phone that asks for nothing, or never finishes asking, would otherwise keep its connection
+    for as long as it likes, and so would one that has left the room.
+    """
+
+    def __init__(self, config: uvicorn.Config) -> None:
+        super().__init__(config)
+        self._idle: dict[Any, Any] = {}
+
+    async def on_tick(self, counter: int) -> bool:
+        """Look after the connections; called ten times a second."""
+        if counter % _IDLE == 0:
+            self._end_idle()
+        return await super().on_tick(counter)
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End the streams, then all else."""
+        app: Any = self.config.app
+        app.state.closing = True
+        await super().shutdown(sockets)
+
+    def _end_idle(self) -> None:
+        """End the connections that had no whole request at the last look, and have none since."""
+        connections: set[Any] = self.server_state.connections
+        answered = {one: one.cycle for one in connections}
+        idle = {one: at for one, at in answered.items() if at is None or at.response_complete}
+        for one, cycle in idle.items():
+            if one in self._idle and self._idle[one] is cycle:
+                one.transport.close()
+        self._idle = idle
