@@ -248,6 +248,25 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
         assert director.send("/desk/entrant", player="Ann", rating="600").status == 409
 
 
+def test_a_refusal_leads_back_to_where_it_came_from(hall: Hall) -> None:
+    token, site = hall.director.token(), hall.site
+    for came, back in (
+        ("/desk", "/desk"),
+        ("/fair?a=Ann", "/fair?a=Ann"),
+        ("/desk/drop", "/desk"),  # the page that asks whether it is meant
+        ("//elsewhere.example/x", "/desk"),
+    ):
+        shown = hall.director.send_raw(
+            "/desk/drop", {"csrf": token, "player": "Nobody"}, Referer=site.address + came
+        )
+        assert shown.status == 400
+        assert f'class="button" href="{back}"' in shown.text
+    shown = hall.guest.send_raw(
+        "/desk/drop", {"csrf": hall.guest.token()}, Referer="http://elsewhere.example/x"
+    )
+    assert 'class="button" href="/"' in shown.text
+
+
 def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/drop", player="Player 1")

@@ -38,8 +38,8 @@ _WATCH = Watch()
 
 async def events(request: Request) -> Response:
     """Stream the number of events whenever it changes."""
-    if _WATCH.followers >= _MOST:
-        return Response(status_code=503)
+    if _WATCH.followers >= _MOST:  # the phone asks again by itself
+        return Response("retry: 30000\n\n", media_type="text/event-stream")
 
     async def stream() -> AsyncIterator[bytes]:
         _WATCH.followers += 1

@@ -14,6 +14,7 @@ import jinja2
 from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.routing import Match
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
@@ -145,8 +146,17 @@ def refused(request: Request, why: Exception | str, status: int) -> Response:
     words = why if isinstance(why, str) else reason(request, why)
     came = urllib.parse.urlsplit(request.headers.get("referer", ""))
     own = came.netloc == request.headers.get("host") and not came.path.startswith("//")
-    back = came._replace(scheme="", netloc="").geturl() if own else "/"
+    if own and _can_be_opened(request, came.path):
+        back = came._replace(scheme="", netloc="").geturl()
+    else:
+        back = "/desk" if is_director(request) else "/"
     return page(request, "refused.html", status=status, why=words, back=back)
+
+
+def _can_be_opened(request: Request, path: str) -> bool:
+    """Return whether a path is that of a page, and not only of a form."""
+    asked = {"type": "http", "path": path, "method": "GET"}
+    return any(route.matches(asked)[0] is Match.FULL for route in request.app.routes)
 
 
 def reason(request: Request, why: Exception) -> str:
