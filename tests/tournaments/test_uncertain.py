@@ -14,6 +14,7 @@ from evenbreak.tournaments import (
     single_elimination,
     title_odds,
 )
+from evenbreak.tournaments.odds.uncertain import drawn_ratings
 from tournaments.fields import by_fargo
 
 RATINGS = [640, 600, 560, 520, 480, 440, 400, 360]
@@ -52,6 +53,19 @@ def test_errors_that_all_share_change_nothing() -> None:
     together = np.full((8, 8), 40.0**2)
     found = over_ratings(double_elimination(8), by_fargo, RATINGS, together, samples=10)
     assert found.averaged.title == pytest.approx(found.as_if_sure.title, abs=1e-9)
+
+
+def test_draws_do_not_depend_on_the_eigenvectors_chosen(monkeypatch) -> None:
+    """Equal eigenvalues leave a library the choice, which is another on other machines."""
+    mean, spread = np.array([600.0, 550.0, 500.0]), np.array([50.0, 30.0, 30.0])
+    asked = mean, np.diag(spread**2), 50
+    want = drawn_ratings(*asked, np.random.default_rng(0))
+    assert want == pytest.approx(drawn_ratings(mean, spread, 50, np.random.default_rng(0)))
+    tenth = np.cos(0.1), np.sin(0.1)
+    turned = np.array([[tenth[0], tenth[1], 0], [-tenth[1], tenth[0], 0], [0, 0, -1]])
+    monkeypatch.setattr("numpy.linalg.eigh", lambda matrix: (spread[::-1] ** 2, other))
+    other = np.eye(3)[:, ::-1] @ turned
+    assert drawn_ratings(*asked, np.random.default_rng(0)) == pytest.approx(want)
 
 
 def test_races_stay_those_of_the_chart() -> None:

@@ -1,6 +1,7 @@
 """A tournament begun through the page, begun again, and changed under way."""
 
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -90,6 +91,12 @@ def again(director: Phone) -> dict[str, str]:
     return {"in_place_of": name} if name else {}
 
 
+@pytest.fixture(scope="module")
+def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
+    with running(tmp_path_factory.mktemp("nothing") / "tonight.db") as site:
+        yield Phone(site, director=True)
+
+
 @pytest.mark.parametrize(
     ("given", "why"),
     [
@@ -112,18 +119,16 @@ def again(director: Phone) -> dict[str, str]:
     ],
 )
 def test_a_form_that_is_refused_comes_back_as_it_was(
-    tmp_path: Path, given: dict[str, object], why: str
+    nothing_begun: Phone, given: dict[str, object], why: str
 ) -> None:
-    with running(tmp_path / "tonight.db") as site:
-        director = Phone(site, director=True)
-        asked = ASKED | {"tables": 7} | given
-        shown = director.send("/new", **asked)
-        assert shown.status == 400
-        assert why in shown.words
-        assert str(asked["entrants"]).strip() in shown.text
-        assert f'name="tables" value="{asked["tables"]}"' in shown.text
-        assert f'<option value="{asked["format"]}" selected>' in shown.text
-        assert not site.path.exists()
+    asked = ASKED | {"tables": 7} | given
+    shown = nothing_begun.send("/new", **asked)
+    assert shown.status == 400
+    assert why in shown.words
+    assert str(asked["entrants"]).strip() in shown.text
+    assert f'name="tables" value="{asked["tables"]}"' in shown.text
+    assert f'<option value="{asked["format"]}" selected>' in shown.text
+    assert not nothing_begun.site.path.exists()
 
 
 def test_doubtful_ratings_are_said(tmp_path: Path) -> None:

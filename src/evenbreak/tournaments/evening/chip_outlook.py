@@ -14,6 +14,7 @@ from evenbreak.tournaments.chips.play import ChipOdds, play_chips, tables_in_use
 from evenbreak.tournaments.clock.event_pace import lognormal
 from evenbreak.tournaments.evening.chip_night import ChipNight
 from evenbreak.tournaments.odds.title import PlaceOdds
+from evenbreak.tournaments.odds.uncertain import drawn_ratings
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
@@ -26,8 +27,7 @@ _CELLS, _FEWEST, _MOST = 4e6, 200, 2_000  # draws of the skills
 def drawn_racks(state: Evening, skills: Floats, covariance: Floats) -> Floats:
     """Return P(i beats j in a rack) by many draws of the players' skills, the third axis."""
     count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
-    rng = np.random.default_rng(0)
-    drawn = rng.multivariate_normal(skills, covariance, count, method="eigh").T
+    drawn = drawn_ratings(skills, covariance, count // 2, np.random.default_rng(0)).T
     racks: Floats = state.scale.win_probability(drawn[:, None] - drawn)
     return racks
 

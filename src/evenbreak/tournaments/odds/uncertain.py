@@ -112,7 +112,7 @@ def over_ratings(
         samples = _draws(plan, len(mean))
     pairs = -(-whole(samples, "samples", at_least=4) // 2)
     rng = rng or np.random.default_rng(0)
-    drawn = mean + _errors(spread, len(mean), pairs, rng)
+    drawn = drawn_ratings(mean, spread, pairs, rng)
 
     def of_skills(rows: Iterable[Floats]) -> Iterator[Chances]:
         return (chances_of(now, win_of(row), live=live, walkovers=walkovers) for row in rows)
@@ -129,6 +129,48 @@ def over_ratings(
     error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
     return UncertainOdds(odds, sure)
+
+
+def drawn_ratings(
+    mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator
+) -> Floats:
+    """Return draws of the ratings, a row each; the second half mirrors the first.
+
+    The same generator gives the same draws on every machine: a covariance has many roots, of
+    which the symmetric one does not depend on the eigenvectors that a library happens to choose.
+
+    Parameters
+    ----------
+    mean
+        the ratings.
+    spread
+        the standard deviation of each, or their covariance matrix.
+    pairs
+        half of how many draws.
+    rng
+        where pseudo-random numbers come from.
+
+    >>> drawn_ratings(np.array([600.0, 500.0]), [30, 0], 1, np.random.default_rng(0)).round()
+    array([[604., 500.],
+           [596., 500.]])
+    """
+    given, players = floats(spread, "spread"), len(mean)
+    if given.shape == (players,):
+        if (given < 0.0).any():
+            raise InputError("spread has a negative number; give a standard deviation each")
+        root = np.diag(given)
+    elif given.shape == (players, players):
+        values, vectors = np.linalg.eigh(0.5 * (given + given.T))
+        if values[0] < -1e-9 * max(values[-1], 1.0):
+            raise InputError("spread is no covariance matrix; give one without negative variances")
+        root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
+    else:
+        raise InputError(
+            f"spread has shape {given.shape}; give a standard deviation for each of {players} "
+            "players, or their covariance matrix"
+        )
+    errors = rng.standard_normal((pairs, players)) @ root
+    return np.concatenate([mean + errors, mean - errors])
 
 
 def drawn_chances(
@@ -159,7 +201,7 @@ def drawn_chances(
     """
     now = standing(bracket)
     mean = column(ratings, "ratings", len(bracket.players), "players")
-    drawn = mean + _errors(spread, len(mean), samples // 2, rng)
+    drawn = drawn_ratings(mean, spread, samples // 2, rng)
     each = (chances_of(now, win_of(row), walkovers=walkovers) for row in drawn)
     every = _stacked(each, len(drawn))
     inner: dict[int, Floats] = {}
@@ -174,27 +216,6 @@ def _draws(plan: Plan | None, players: int) -> int:
         return _FEWEST
     hundreds = min(4e5 / max(plan.states, 1), 5e4 / players**2) // 1
     return int(np.clip(100 * hundreds, _FEWEST, _MOST))
-
-
-def _errors(spread: ArrayLike, players: int, pairs: int, rng: np.random.Generator) -> Floats:
-    """Return errors of the ratings, a row a draw; the second half mirrors the first."""
-    given = floats(spread, "spread")
-    if given.shape == (players,):
-        if (given < 0.0).any():
-            raise InputError("spread has a negative number; give a standard deviation each")
-        root = np.diag(given)
-    elif given.shape == (players, players):
-        values, vectors = np.linalg.eigh(0.5 * (given + given.T))
-        if values[0] < -1e-9 * max(values[-1], 1.0):
-            raise InputError("spread is no covariance matrix; give one without negative variances")
-        root = vectors * np.sqrt(np.maximum(values, 0.0))
-    else:
-        raise InputError(
-            f"spread has shape {given.shape}; give a standard deviation for each of {players} "
-            "players, or their covariance matrix"
-        )
-    errors = rng.standard_normal((pairs, players)) @ root.T
-    return np.concatenate([errors, -errors])
 
 
 def _exactly(
