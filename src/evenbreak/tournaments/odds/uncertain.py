@@ -131,9 +131,7 @@ def over_ratings(
     return UncertainOdds(odds, sure)
 
 
-def drawn_ratings(
-    mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator
-) -> Floats:
+def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator) -> Floats:
     """Return draws of the ratings, a row each; the second half mirrors the first.
 
     The same generator gives the same draws on every machine: a covariance has many roots, of
