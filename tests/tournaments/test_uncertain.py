@@ -63,7 +63,7 @@ def test_draws_do_not_depend_on_the_eigenvectors_chosen(monkeypatch) -> None:
     assert want == pytest.approx(drawn_ratings(mean, spread, 50, np.random.default_rng(0)))
     tenth = np.cos(0.1), np.sin(0.1)
     turned = np.array([[tenth[0], tenth[1], 0], [-tenth[1], tenth[0], 0], [0, 0, -1]])
-    monkeypatch.setattr("numpy.linalg.eigh", lambda matrix: (spread[::-1] ** 2, other))
+    monkeypatch.setattr("numpy.linalg.eigh", lambda _: (spread[::-1] ** 2, other))
     other = np.eye(3)[:, ::-1] @ turned
     assert drawn_ratings(*asked, np.random.default_rng(0)) == pytest.approx(want)
 
