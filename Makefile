@@ -7,17 +7,16 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-beside check-last lint types test lowest layers docs reports drift bench browse browser \
+.PHONY: check check-rest check-drift lint types test lowest layers docs reports drift bench browse browser \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: check-beside check-last   ## what CI checks after the tests
+check-rest: docs lowest browse types lint check-drift   ## what CI checks after the tests, side by side
 
-check-beside: lowest docs lint browse   ## those of them that may run side by side
-
-check-last: drift types           ## those that may run beside what writes the committed outputs
+check-drift: docs   ## what the pages are made of is made again once they are done
+	$(MAKE) drift
 
 lint:
 	$(PYTHON) -m ruff format --check .
