@@ -45,7 +45,7 @@ class Line:
         writer.write(head.encode() + body)
         got = (await reader.read(-1)).decode("utf-8", "replace")
         writer.close()
-        if found := re.search(r"set-cookie: (evenbreak=[^;]+)", got):
+        if found := re.search(r"set-cookie: (evenbreak[^=]*=[^;]+)", got):
             self.cookie = found[1]
         return time.perf_counter() - started, got
 

@@ -1,5 +1,8 @@
 """What is to be expected of an evening: odds by the results and scores so far, the finish."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
@@ -51,6 +54,20 @@ def test_before_the_first_match_odds_are_averaged_over_the_ratings() -> None:
     np.testing.assert_allclose(found.odds.title, both.averaged.title, atol=1e-12)
     np.testing.assert_allclose(found.as_if_sure.title, both.as_if_sure.title, atol=1e-12)
     assert found.odds.title[0] < found.as_if_sure.title[0]
+
+
+def test_an_outlook_gives_its_memory_back_without_being_collected() -> None:
+    """A page works one out after every score; its arrays must not wait for the collector."""
+    gc.disable()
+    try:
+        found = outlook(one_played(begun(40.0)))
+        assert len(found.odds.title) == 6
+        assert found.as_things_are is not None
+        gone = weakref.ref(found)
+        del found
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 def test_walkovers_happen_only_in_matches_that_have_not_begun() -> None:

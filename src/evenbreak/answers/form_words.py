@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from evenbreak.ratings.day_form import DayForm
 from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:  # it loads an optimiser
+    from evenbreak.ratings.day_form import DayForm
 
 
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     """Yield what form of the day is worth, where it is established.
 
     >>> from evenbreak.ratings.calibration import Estimate
+    >>> from evenbreak.ratings.day_form import DayForm
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
     Form of the day: from match to match the strength difference of two players varies by 15

@@ -178,7 +178,7 @@ class Outlook:
     @cached_property
     def chances(self) -> Callable[[Floats], dict[str, Floats]]:
         """The chances of the matches from here on, given the players' skills."""
-        state = self.state
+        state, walkovers, in_score = self.state, self.walkovers, self._in_score
         usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
 
         gone = [state.order.index(name) for name in state.dropped]
@@ -197,9 +197,9 @@ class Outlook:
                 tables[name] = shared[id(table)]
                 tables[name][one, other], tables[name][other, one] = won, 1.0 - won
 
-            if self.walkovers:
-                either = 0.5 * self.walkovers
-                made = {id(t): either + (1.0 - self.walkovers) * t for t in played.values()}
+            if walkovers:
+                either = 0.5 * walkovers
+                made = {id(t): either + (1.0 - walkovers) * t for t in played.values()}
                 tables = {name: made[id(table)] for name, table in played.items()}
             if gone:
                 made = {id(table): table.copy() for table in tables.values()}
@@ -207,10 +207,10 @@ class Outlook:
                     for seat in gone:
                         table[seat], table[:, seat], table[seat, seat] = 0.0, 1.0, 0.5
                 tables = {name: made[id(table)] for name, table in tables.items()}
-            if self.walkovers:
+            if walkovers:
                 for name, one, other in begun:
                     settle(name, one, other, float(played[name][one, other]))
-            for name, (one, other), needs, score in self._in_score:
+            for name, (one, other), needs, score in in_score:
                 p = state.scale.win_probability(skills[one] - skills[other])
                 left = needs[0] - score[0], needs[1] - score[1]
                 settle(name, one, other, float(betainc(*left, p)))
