@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
@@ -146,9 +147,15 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
         )
     rows = base.execute("SELECT at, kind, what FROM event ORDER BY number").fetchall()
     try:
-        return [Event(at, event_of(kind, json.loads(what))) for at, kind, what in rows]
+        return [_event(*row) for row in rows]
     except (InputError, json.JSONDecodeError) as error:
         raise DataError([f"{path}: {error}"]) from error
+
+
+@lru_cache(maxsize=4096)
+def _event(at: str, kind: str, what: str) -> Event:
+    """Return the event in a row; a page reads all rows again after each new one."""
+    return Event(at, event_of(kind, json.loads(what)))
 
 
 def _state(events: Sequence[Event], path: str | Path) -> Evening:

@@ -6,7 +6,7 @@ import hashlib
 import hmac
 import itertools
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -97,15 +97,20 @@ class Site:
 
     def match_token(self, match: str) -> str:
         """Return the token by which a match of this tournament is scored."""
-        return self._token(f"{self.night.begun_at} {match}")
+        return self.match_tokens([match])[match]
+
+    def match_tokens(self, matches: Iterable[str]) -> dict[str, str]:
+        """Return the token of each match."""
+        begun = self.night.begun_at
+        return {match: self._token(f"{begun} {match}") for match in matches}
 
     def _token(self, what: str) -> str:
         key = self._secrets["match"].encode()
         return hmac.new(key, what.encode(), hashlib.sha256).hexdigest()[:20]
 
-    def match_of(self, token: str, matches: list[str]) -> str | None:
+    def match_of(self, token: str, matches: Iterable[str]) -> str | None:
         """Return the match that a token is for."""
-        for name in matches:
-            if hmac.compare_digest(self.match_token(name).encode(), token.encode()):
+        for name, its in self.match_tokens(matches).items():
+            if hmac.compare_digest(its.encode(), token.encode()):
                 return name
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeAlias
 
 from evenbreak.errors import InputError
@@ -44,7 +45,7 @@ class Standing:
     sent: Mapping[Source, int]
     assumed: Mapping[str, int]
 
-    @property
+    @cached_property
     def to_play(self) -> tuple[str, ...]:
         """The matches that can be played now, because both players are known."""
         return tuple(

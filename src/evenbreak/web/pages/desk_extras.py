@@ -75,9 +75,10 @@ async def codes(request: Request) -> Response:
     to = {"": site.address}
     if site.night.exists:
         state = await asyncio.to_thread(site.night.state)
-        for name in state.standing.to_play if state.drawn else ():
+        ready = state.standing.to_play if state.drawn else ()
+        for name, token in site.match_tokens(ready).items():
             words = f"{name}: {' – '.join(state.pair(name))}"
-            to[words] = f"{site.address}/m/{site.match_token(name)}"
+            to[words] = f"{site.address}/m/{token}"
 
     def work() -> list[tuple[str, str, str]]:
         return [(words, address, _code(address)) for words, address in to.items()]
