@@ -10,14 +10,17 @@ from urllib.parse import urlsplit
 import pytest
 from starlette.requests import Request
 
+from evenbreak.files.tournament_store import new_tournament
+from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web import guard, server
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_tries
+from evenbreak.web.site import Site
 from web.conftest import Hall, begun
 from web.phones import Phone, running
 
-CHANGES = ["draw", "call", "result", "forfeit", "drop", "undo", "save", "late"]
+CHANGES = ["draw", "call", "result", "forfeit", "drop", "undo", "save", "late", "pin"]
 
 
 def raw(hall: Hall, method: str, path: str, body: bytes = b"", **headers: str) -> tuple[int, str]:
@@ -72,6 +75,28 @@ def test_a_wrong_pin_is_refused_and_soon_every_pin(hall: Hall) -> None:
     codes = [phone.send("/pin", pin=f"wrong{k}").status for k in range(6)]
     assert codes == [403, 403, 403, 403, 403, 429]
     assert phone.send("/pin", pin=hall.site.pin).status == 429
+
+
+def test_a_new_pin_shuts_out_who_entered_the_old_one(hall: Hall) -> None:
+    other, old = Phone(hall.site, director=True), hall.site.pin
+    shown = hall.director.send("/desk/pin")
+    new = hall.site.pin
+    assert new != old
+    assert f"PIN is now {new}" in shown.words
+    assert hall.director.open("/desk").status == 200
+    assert other.open("/desk").status == 403
+    assert other.send("/pin", pin=old).status == 403
+    assert other.send("/pin", pin=new).status == 200
+    assert Site(hall.site.path).pin == new
+
+
+def test_secrets_are_kept_in_a_file_that_a_command_begins(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        plan, entrants = Plan("single", 3), (Entrant("Ann", 80.0), Entrant("Bo", 70.0))
+        new_tournament(site.path, [Event("2025-03-01T19:30:00", Opened(plan, entrants))])
+        assert director.open("/desk").status == 200
+        assert Site(site.path).pin == site.pin
 
 
 def test_the_director_gets_in_at_the_computer_while_others_guess(hall: Hall) -> None:

@@ -12,8 +12,7 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
-from evenbreak.answers.tournament_odds import share
-from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.answers.wording import chance, count_of, decimals, percent, share
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale

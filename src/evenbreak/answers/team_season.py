@@ -9,8 +9,7 @@ import numpy as np
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
-from evenbreak.answers.tournament_odds import share
-from evenbreak.answers.wording import count_of, decimals, listed, percent
+from evenbreak.answers.wording import count_of, decimals, listed, percent, share
 from evenbreak.arrays import Floats, Ints
 from evenbreak.teams.season.chances import SeasonChances
 from evenbreak.teams.season.season import TeamSeason

@@ -10,9 +10,8 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
-from evenbreak.answers.tournament_odds import share
 from evenbreak.answers.tournament_what_if import WORTH_SAYING, moves_words
-from evenbreak.answers.wording import clock, count_of
+from evenbreak.answers.wording import clock, count_of, share
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace

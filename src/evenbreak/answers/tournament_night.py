@@ -12,10 +12,10 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
 from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
-from evenbreak.answers.tournament_odds import share
+from evenbreak.answers.tournament_odds import points_off
 from evenbreak.answers.tournament_stakes import Stake, stakes
 from evenbreak.answers.tournament_swiss import swiss_table
-from evenbreak.answers.wording import count_of, decimals, listed, percent
+from evenbreak.answers.wording import count_of, decimals, listed, percent, share
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.clock.finish import Call
@@ -184,7 +184,8 @@ def _title_table(night: Outlook) -> Table:
     sure = Column("p_title_if_sure", "title, if the\nratings are right", share)
     shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
     few = [row[: len(shown)] for row in rows[:_SHOWN]]
-    return Table("", shown, few, title="Odds of the title")
+    luck = "" if night.odds.exact else f", give or take {points_off(night.odds, title=True)}"
+    return Table("", shown, few, title=f"Odds of the title{luck}")
 
 
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:

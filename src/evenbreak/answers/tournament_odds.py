@@ -12,7 +12,7 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.tournament import Tournament
 from evenbreak.answers.tournament_handicap import fairer_races, favours, favours_words
 from evenbreak.answers.tournament_solved import solved
-from evenbreak.answers.wording import chance, count_of, decimals, percent
+from evenbreak.answers.wording import chance, count_of, decimals, percent, share
 from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.odds.rematches import expected_rematches
@@ -156,11 +156,6 @@ def odds_table(
     return Table("players", columns, [rows[k] for k in order])
 
 
-def share(p: float) -> str:
-    """Return a chance to four places, without the digits of the hopeless."""
-    return "<.0001" if 0.0 < p < 5e-5 else chance(p)
-
-
 def place_key(place: Place) -> str:
     """Return the key of P(place) in files.
 
@@ -201,8 +196,8 @@ def favourite_words(odds: PlaceOdds) -> str:
 
 
 def _in_words(odds: PlaceOdds) -> str:
-    share = percent(1.0 / len(odds.bracket.players))
-    return f"{favourite_words(odds)}\nAn equal share would be {share}."
+    equal = percent(1.0 / len(odds.bracket.players))
+    return f"{favourite_words(odds)}\nAn equal share would be {equal}."
 
 
 def _matches_words(odds: TitleOdds, rematches: float) -> str:
@@ -223,8 +218,8 @@ def how_words(
 ) -> str:
     """Return how exact the odds are, what they assume, and what is still to be drawn."""
     averaged = odds is not plug_in
-    samples, off = f"{odds.samples:,}", _off(odds)
-    title = _off(odds, title=True)
+    samples, off = f"{odds.samples:,}", points_off(odds)
+    title = points_off(odds, title=True)
     lines = []
     if to_draw == "lines":
         lines.append("These are the odds before the draw; every draw is equally likely.")
@@ -264,7 +259,8 @@ def how_words(
     return " ".join(lines)
 
 
-def _off(odds: PlaceOdds, *, title: bool = False) -> str:
+def points_off(odds: PlaceOdds, *, title: bool = False) -> str:
+    """Return by how much other luck would move sampled odds: of all places, or of the title."""
     points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
     if points < 0.05:
         return "0.1 percentage points"

@@ -39,6 +39,19 @@ def percent(p: float, left: float = 0.0) -> str:
     return f"{100 * p:.1f}%" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f}%"
 
 
+def share(p: float) -> str:
+    """Return a probability in a table, in per cent to one decimal.
+
+    >>> share(0.90701), share(0.08), share(3e-5), share(0.9999), share(0.0), share(1.0)
+    ('90.7%', '8.0%', '<0.1%', '>99.9%', '0%', '100%')
+    """
+    if p == 0.0 or p > 1.0 - 1e-12:
+        return f"{p:.0%}"
+    if p < 0.0005:
+        return "<0.1%"
+    return ">99.9%" if p > 0.9995 else f"{p:.1%}"
+
+
 def decimals(places: int) -> Show:
     """Return how a number is shown with so many decimals; one that rounds to 0 has no sign.
 

@@ -66,6 +66,14 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
     return found
 
 
+def change_secrets(path: str | Path, to: Mapping[str, str]) -> None:
+    """Keep other secrets of a tournament instead of those that have these names."""
+    with opened(path) as base:
+        _begin(base)
+        base.executemany("INSERT OR REPLACE INTO secret VALUES (?, ?)", list(to.items()))
+        base.execute("COMMIT")
+
+
 def new_pin() -> str:
     """Return a PIN of six digits."""
     return f"{secrets.randbelow(10**6):06d}"

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from evenbreak.files.evening_file import is_there
-from evenbreak.files.tournament_desk import kept_secrets, new_pin
+from evenbreak.files.tournament_desk import change_secrets, kept_secrets, new_pin
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, now
 from evenbreak.web.sessions import Tries
@@ -50,19 +50,30 @@ class Site:
         self.league = League(self.path)
         self._secrets = {
             "pin": new_pin(),
-            **{name: secrets.token_urlsafe(24) for name in ("cookie", "director", "match")},
+            **{name: _mark() for name in ("cookie", "director", "match")},
         }
-        self.keep_secrets()
+        self._kept = False
 
     def keep_secrets(self) -> None:
-        """Keep the secrets in the file, so that phones go on after a restart."""
+        """Keep the secrets in the file, if it is there, so that phones go on after a restart."""
+        if not self._kept and is_there(self.path):
+            self._secrets, self._kept = kept_secrets(self.path, self._secrets), True
+
+    def _secret(self, name: str) -> str:
+        self.keep_secrets()  # the file may have been begun by a command
+        return self._secrets[name]
+
+    def change_pin(self) -> None:
+        """Draw another PIN of the director; whoever entered the earlier one is none any more."""
+        found = {"pin": new_pin(), "director": _mark()}
         if is_there(self.path):
-            self._secrets = kept_secrets(self.path, self._secrets)
+            change_secrets(self.path, found)
+        self._secrets |= found
 
     @property
     def pin(self) -> str:
         """The director's PIN."""
-        return self._secrets["pin"]
+        return self._secret("pin")
 
     def is_pin(self, text: str) -> bool:
         """Return whether this is the director's PIN."""
@@ -71,12 +82,12 @@ class Site:
     @property
     def cookie_key(self) -> str:
         """What sessions are signed with."""
-        return self._secrets["cookie"]
+        return self._secret("cookie")
 
     @property
     def director_mark(self) -> str:
         """What the session of a director holds."""
-        return self._secrets["director"]
+        return self._secret("director")
 
     def captain_pin(self, night: int, team: int) -> str:
         """Return the PIN of a captain: another one each night, and none of the others' PINs."""
@@ -105,7 +116,7 @@ class Site:
         return {match: self._token(f"{begun} {match}") for match in matches}
 
     def _token(self, what: str) -> str:
-        key = self._secrets["match"].encode()
+        key = self._secret("match").encode()
         return hmac.new(key, what.encode(), hashlib.sha256).hexdigest()[:20]
 
     def match_of(self, token: str, matches: Iterable[str]) -> str | None:
@@ -114,3 +125,7 @@ class Site:
             if hmac.compare_digest(its.encode(), token.encode()):
                 return name
         return None
+
+
+def _mark() -> str:
+    return secrets.token_urlsafe(24)

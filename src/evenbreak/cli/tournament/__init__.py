@@ -1,5 +1,7 @@
 """`evenbreak tournament`: tonight's tournament, each of its commands in a module of its own."""
 
+from itertools import chain
+
 import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup
@@ -30,6 +32,22 @@ COMMANDS = {
 """Each command, in the module of its name, with its line of help."""
 
 
-@click.command("tournament", cls=LazyGroup, table=COMMANDS)
+class _OfFile(LazyGroup):
+    """The commands of a tournament; its file may be named without an option, as for `serve`."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words."""
+        option = "--out" if args[:1] in (["new"], ["import"]) else "--file"
+        words = [
+            [option, word] if word.endswith(".db") and not last.startswith("-") else [word]
+            for last, word in zip(["", *args], args, strict=False)
+        ]
+        return super().parse_args(ctx, list(chain.from_iterable(words)))
+
+
+@click.command("tournament", cls=_OfFile, table=COMMANDS)
 def command() -> None:
-    """Run tonight's tournament; find its odds, and when it ends."""
+    """Run tonight's tournament; find its odds, and when it ends.
+
+    Its file is tonight.db unless another is named, as in evenbreak tournament show saturday.db.
+    """

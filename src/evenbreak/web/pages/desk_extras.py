@@ -19,7 +19,7 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import check_director
+from evenbreak.web.sessions import DIRECTOR, check_director
 from evenbreak.web.words import say
 
 
@@ -29,6 +29,16 @@ async def save(request: Request) -> Response:
     check_director(request)
     copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
     return done(request, "/desk", say(language(request), "saved", name=copy.name))
+
+
+async def change_pin(request: Request) -> Response:
+    """Draw another PIN; the other phones of directors have to enter it."""
+    await form_of(request)
+    check_director(request)
+    site = site_of(request)
+    await asyncio.to_thread(site.change_pin)
+    request.session[DIRECTOR] = site.director_mark
+    return done(request, "/desk", say(language(request), "pin_changed", pin=site.pin))
 
 
 async def time(request: Request) -> Response:
@@ -96,4 +106,5 @@ ROUTES = [
     Route("/desk/history", history),
     Route("/desk/codes", codes),
     Route("/desk/save", save, methods=["POST"]),
+    Route("/desk/pin", change_pin, methods=["POST"]),
 ]
