@@ -52,6 +52,15 @@ def share(p: float) -> str:
     return ">99.9%" if p > 0.9995 else f"{p:.1%}"
 
 
+def share_at_a_glance(p: float) -> str:
+    """Return a probability in per cent where there is little room, with two digits at most.
+
+    >>> share_at_a_glance(0.90701), share_at_a_glance(0.0757), share_at_a_glance(3e-5)
+    ('91%', '7.6%', '<0.1%')
+    """
+    return f"{p:.0%}" if 0.0995 <= p < 0.995 else share(p)
+
+
 def decimals(places: int) -> Show:
     """Return how a number is shown with so many decimals; one that rounds to 0 has no sign.
 

@@ -18,11 +18,12 @@ from starlette.routing import Match
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
+from evenbreak.answers.wording import share, share_at_a_glance
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
-from evenbreak.web.words import LANGUAGES, catalogue, language_of, say
+from evenbreak.web.words import LANGUAGES, catalogue, language_of, number_in, say
 from evenbreak.web.words.sentences import answer_in_language, in_language
 
 _LANGUAGE = "language"
@@ -108,12 +109,28 @@ def page(
     def tr(text: str) -> str:
         return in_language(code, text)
 
+    def percent(p: float) -> str:
+        return number_in(code, share_at_a_glance(p))
+
+    def share_exactly(p: float) -> str:
+        return number_in(code, share(p))
+
+    def number(value: float, places: int = 0) -> str:
+        return number_in(code, f"{value:.{places}f}")
+
+    def rating(value: float) -> str:
+        return number_in(code, f"{round(value, 1):g}")
+
     shown = (
         _templates()
         .get_template(template)
         .render(
             t=t,
             tr=tr,
+            percent=percent,
+            share=share_exactly,
+            number=number,
+            rating=rating,
             capital=_capital,
             language=code,
             languages=LANGUAGES,

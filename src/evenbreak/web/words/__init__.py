@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 """Each language by its code, with its name in itself."""
+
+_NUMBER = re.compile(r"([<>+-]?)(\d{1,3}(?:,\d{3})*|\d+)(\.\d+)?(%?)", re.ASCII)
 
 
 @cache
@@ -30,6 +33,20 @@ def say(language: str, key: str, **values: object) -> str:
     'Ends about 22:15'
     """
     return catalogue(language)[key].format(**values)
+
+
+def number_in(language: str, text: str) -> str:
+    """Return a number as it is written in a language; what is no number stays as it is.
+
+    >>> number_in("de", "1,234.5"), number_in("de", "<0.1%"), number_in("de", "W1.1")
+    ('1.234,5', '<0,1 %', 'W1.1')
+    """
+    found = _NUMBER.fullmatch(text)
+    if found is None:
+        return text
+    words, (sign, whole, part, unit) = catalogue(language), found.groups("")
+    digits = whole.replace(",", words["thousands"]) + part.replace(".", words["decimal"])
+    return words["percent"].format(n=sign + digits) if unit else sign + digits
 
 
 def language_of(accepted: str) -> str:

@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantity, Table
+from evenbreak.web.words import number_in
 
 Named = TypeVar("Named", Column, Quantity)
 
@@ -79,7 +80,7 @@ def _line(language: str, line: str) -> str:
         return "".join(
             between.get(one, one) if k % 2 else _line(language, one) for k, one in enumerate(listed)
         )
-    return line
+    return number_in(language, line)
 
 
 def _said(language: str, text: str) -> str | None:
