@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.tournament_desk import authors, proposals
+from evenbreak.files.tournament_desk import authors, kept_prizes, proposals
 from evenbreak.files.tournament_store import (
     add_events,
     new_tournament,
@@ -20,6 +20,7 @@ from evenbreak.files.tournament_store import (
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.web.night import mark_of, version_of
 from web.conftest import Hall, begun
 from web.phones import Phone, running
@@ -246,6 +247,23 @@ def test_pages_follow_the_file_whoever_writes_it(hall: Hall) -> None:
     assert "3" in hall.guest.open("/bracket").words
     assert "W1.1" not in hall.guest.open("/desk").words
     assert len(hall.state.events) == 3
+
+
+def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> None:
+    asked = {"fee": 20, "added": 80, "payout": "50/30/20"}
+    assert hall.guest.send("/prizes", **asked).status == 403
+    tried = hall.director.open("/prizes", fee="20", added="80", payout="50/30/20")
+    assert "Keep these prizes" in tried.words
+    assert "Keep these prizes" not in hall.guest.open("/prizes", fee="20").words
+    assert "The prizes are kept" in hall.director.send("/prizes", **asked).words
+    for page in ("/", "/screen"):
+        assert "Prizes 1: 200 2: 120 3: 80" in hall.guest.open(page).words
+    assert "400.00 is paid to 3 places" in hall.guest.open("/prizes").words
+    assert hall.director.send("/prizes", fee=5, payout="hoboken").status == 400
+    assert kept_prizes(hall.site.path) == PrizeMoney(20.0, 80.0, payout="50/30/20")
+    state = hall.state.events
+    new_tournament(hall.site.path, state[:1], in_place_of=len(state))
+    assert kept_prizes(hall.site.path) is None
 
 
 def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> None:

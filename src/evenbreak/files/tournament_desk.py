@@ -1,4 +1,4 @@
-"""What the file of an evening holds besides its events: secrets, proposed results, authors."""
+"""What the file of an evening holds besides its events: secrets, proposals, authors, prizes."""
 
 from __future__ import annotations
 
@@ -13,12 +13,17 @@ from itertools import count
 from pathlib import Path
 
 from evenbreak.files.evening_file import has_table, opened
+from evenbreak.tournaments.money.prize_money import PrizeMoney
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE IF NOT EXISTS proposal (
     game TEXT NOT NULL, player TEXT NOT NULL, score TEXT NOT NULL, phone TEXT NOT NULL,
     at TEXT NOT NULL, PRIMARY KEY (game, player)
+);
+CREATE TABLE IF NOT EXISTS prize (
+    one INTEGER PRIMARY KEY CHECK (one = 1), fee REAL NOT NULL, added REAL NOT NULL,
+    house REAL NOT NULL, payout TEXT NOT NULL
 );
 """
 
@@ -108,6 +113,24 @@ def forget_proposals(path: str | Path, match: str) -> None:
     """Forget what was proposed for a match; its result has been entered."""
     with opened(path) as base:
         base.execute("DELETE FROM proposal WHERE game = ?", (match,))
+
+
+def keep_prizes(path: str | Path, money: PrizeMoney) -> None:
+    """Keep the prize money of a tournament, instead of what was kept before."""
+    with opened(path) as base:
+        _begin(base)
+        row = 1, money.fee, money.added, money.house, money.payout
+        base.execute("INSERT OR REPLACE INTO prize VALUES (?, ?, ?, ?, ?)", row)
+        base.execute("COMMIT")
+
+
+def kept_prizes(path: str | Path) -> PrizeMoney | None:
+    """Return the prize money of a tournament; None: none was kept."""
+    with opened(path) as base:
+        if not has_table(base, "prize"):
+            return None
+        row = base.execute("SELECT fee, added, house, payout FROM prize").fetchone()
+    return PrizeMoney(*row) if row else None
 
 
 def authors(path: str | Path) -> dict[int, str]:

@@ -60,7 +60,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     with begun(path) as base:
         if _count(base) != in_place_of:
             raise DataError([f"{path} is there already; give the new tournament another name"])
-        for table in (TOURNAMENT, "author", "proposal"):
+        for table in (TOURNAMENT, "author", "proposal", "prize"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         _write(base, 0, events)

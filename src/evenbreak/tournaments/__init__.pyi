@@ -54,6 +54,7 @@ from .money.payouts import PAYOUTS as PAYOUTS
 from .money.payouts import PayoutRow as PayoutRow
 from .money.payouts import Payouts as Payouts
 from .money.payouts import payout_table as payout_table
+from .money.prize_money import PrizeMoney as PrizeMoney
 from .odds.blind import blind_draw_odds as blind_draw_odds
 from .odds.fairness import Fairness as Fairness
 from .odds.fairness import fairest_races as fairest_races

@@ -17,11 +17,14 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
+from evenbreak.errors import InputError
 from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
+from evenbreak.files.tournament_desk import kept_prizes
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
 
@@ -85,6 +88,7 @@ class Night:
         self.clock = clock
         self.known: Known | None = None
         self._read: tuple[tuple[int, int, int], list[Event], Evening] | None = None
+        self._money: tuple[tuple[int, int, int], PrizeMoney | None] | None = None
         self._begun = False
         self._work: asyncio.Task[None] | None = None
         self.beside = Beside()
@@ -109,6 +113,20 @@ class Night:
             state = self._read[2] if self._read and same else evening(events)
             self._read = mark, events, state
         return self._read[2]
+
+    def prizes(self) -> list[float]:
+        """Return the money for first place, second, ...
+
+        None is known if the director has not kept it here, or the table has no row for so many.
+        """
+        mark = mark_of(self.path)
+        if self._money is None or self._money[0] != mark:
+            self._money = mark, kept_prizes(self.path)
+        money = self._money[1]
+        try:
+            return money.amounts(len(self.state().entrants)) if money else []
+        except InputError:
+            return []
 
     async def outlook(self) -> Known | None:
         """Return what is known of the odds and the finish; None: not yet, or no draw."""

@@ -1,6 +1,7 @@
 """Pictures of the bracket, score cards, payouts and the Calcutta from the command line."""
 
 import json
+import shutil
 
 import pytest
 
@@ -42,6 +43,16 @@ def test_cards_are_printed_for_the_matches_that_can_be_played(run, file, tmp_pat
     assert "F cannot be played now" in late.stderr
 
 
+def test_prizes_may_be_kept_with_the_tournament(run, file, tmp_path):
+    file = shutil.copy(file, tmp_path)
+    asked = ("prizes", "--fee", "20", "--house", "0.1", "--payout", "60,40")
+    first = run("tournament", *asked, "--keep", "--file", file, "--json")
+    assert first.exit_code == 0, first.stderr
+    assert run("tournament", "prizes", "--file", file, "--json").stdout == first.stdout
+    other = json.loads(run("tournament", "prizes", "--fee", "5", "--file", file, "--json").stdout)
+    assert other["pot"] < json.loads(first.stdout)["pot"]
+
+
 def test_prizes_are_the_pot(run, file):
     result = run("tournament", "prizes", "--fee", "20", "--added", "50", "--file", file, "--json")
     found = json.loads(result.stdout)
@@ -64,7 +75,7 @@ def test_the_calcutta_breaks_even_where_the_pot_is_shared_fairly(run, file):
     ("words", "what"),
     [
         (("prizes",), "--fee"),
-        (("prizes", "--fee", "20", "--payout", "60,50"), "60,50"),
+        (("prizes", "--fee", "20", "--payout", "60,50"), "60/50"),
         (("prizes", "--fee", "20", "--payout", "lots"), "'lots'"),
         (("prizes", "--calcutta", "--sold", "Nobody=5"), "Nobody"),
         (("prizes", "--calcutta", "--sold", "Ann Lee"), "Ann Lee"),

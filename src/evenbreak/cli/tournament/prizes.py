@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from pathlib import PurePath
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak import tournaments
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import NUMBER, Number, refuse
 from evenbreak.cli.tournament.evening import at_option, file_option, outlook_of
+from evenbreak.errors import InputError
 from evenbreak.files.known_names import KnownNames
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments import PrizeMoney
 
 MONEY = Number(0.0, 1e9, " is not an amount of money; give a number such as 20")
 SHARE = Number(0.0, 0.99, " is not a part; give a number from 0 to 0.99, such as 0.1")
@@ -20,7 +23,7 @@ SHARE = Number(0.0, 0.99, " is not a part; give a number from 0 to 0.99, such as
 EXAMPLES = """\b
 Examples:
   evenbreak tournament prizes --fee 20 --added 100
-  evenbreak tournament prizes --fee 20 --payout 50,30,20 --house 0.1
+  evenbreak tournament prizes --fee 20 --payout 50,30,20 --house 0.1 --keep
   evenbreak tournament prizes --calcutta --sold "Ann Lee=60" --sold "Bo Diaz=25"
 """
 
@@ -43,6 +46,12 @@ Examples:
     help="What the places get: hoboken, 40/30/20/10, 40/30/15, 70/30, or percentages such as "
     "50,30,20.  [default: 70/30 for fewer than 8 players, else 40/30/20/10]",
 )
+@click.option(
+    "--keep",
+    is_flag=True,
+    help="Keep them with the tournament: the page shows them, and this command unless it is "
+    "given others.",
+)
 @click.option("--calcutta", is_flag=True, help="What each player is worth in the Calcutta.")
 @click.option(
     "--sold",
@@ -59,6 +68,7 @@ def command(
     added: float,
     house: float,
     payout: str | None,
+    keep: bool,
     calcutta: bool,
     sold: tuple[str, ...],
     file: str,
@@ -70,39 +80,46 @@ def command(
     bid at which it wins back what it costs.
     """
     from evenbreak.answers.tournament_prizes import calcutta_answer, tournament_prizes_answer
+    from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
     from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.tournaments import PrizeMoney
 
     state = read_tournament(file)
     entrants, name = len(state.entrants), PurePath(file).name
-    table = _payouts(payout, entrants)
+    money = _money(fee, added, house, payout)
     if calcutta:
-        if fee or added:
-            refuse("--fee and --added are for the prizes; the pot of a Calcutta is its bids")
+        if fee or added or keep:
+            refuse(
+                "--fee, --added and --keep are for the prizes; the pot of a Calcutta is its bids"
+            )
+        table = money.payouts(entrants)
         return calcutta_answer(
             outlook_of(file, at).odds, table, _bids(sold, state.order), house=house, source=name
         )
     if sold:
         refuse("--sold is for --calcutta")
-    pot = (fee * entrants + added) * (1.0 - house)
+    if money == PrizeMoney():
+        money = kept_prizes(file) or money
+    pot = money.pot(entrants)
     if not pot:
         refuse("there is no prize money; give --fee or --added")
     odds = outlook_of(file, at).odds if state.drawn else None
-    return tournament_prizes_answer(state, table, pot, odds, source=name)
+    answer = tournament_prizes_answer(state, money.payouts(entrants), pot, odds, source=name)
+    if keep:
+        keep_prizes(file, money)
+    return answer
 
 
-def _payouts(text: str | None, entrants: int) -> Any:
-    if text is None:
-        return tournaments.payout_table("70/30" if entrants < 8 else "40/30/20/10")
-    if text in tournaments.PAYOUTS:
-        return tournaments.payout_table(text)
-    parts = [part.strip().removesuffix("%") for part in text.split(",")]
-    if not all(NUMBER.fullmatch(part) for part in parts):
-        known = ", ".join(tournaments.PAYOUTS)
-        refuse(f"--payout {text!r}; give {known}, or percentages such as 50,30,20")
-    shares = [float(part) / 100.0 for part in parts]
-    if min(shares) < 0.0 or sum(shares) > 1.0 + 1e-9:
-        refuse(f"--payout {text!r} adds up to {100.0 * sum(shares):g}; give 100 percent at most")
-    return tournaments.payout_table(shares)
+def _money(fee: float, added: float, house: float, payout: str | None) -> PrizeMoney:
+    from evenbreak.tournaments import PAYOUTS, PrizeMoney
+
+    text = payout or ""
+    if text not in PAYOUTS:
+        text = "/".join(part.strip().removesuffix("%") for part in text.split(","))
+    try:
+        return PrizeMoney(fee, added, house, text)
+    except InputError as error:
+        refuse(f"--{error}")
 
 
 def _bids(sold: tuple[str, ...], players: tuple[str, ...]) -> dict[str, float]:

@@ -23,7 +23,8 @@ async def tonight(request: Request) -> Response:
         return page(request, "begin.html")
     known = await night.outlook()
     state = await asyncio.to_thread(night.state)
-    return page(request, "tonight.html", live=True, view=view_of(state, known))
+    prizes = await asyncio.to_thread(night.prizes)
+    return page(request, "tonight.html", live=True, view=view_of(state, known), prizes=prizes)
 
 
 async def ask_pin(request: Request) -> Response:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import asyncio
-import re
-from dataclasses import replace
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.tournament_prizes import tournament_prizes_answer
-from evenbreak.tournaments.money.payouts import PAYOUTS, Payouts, payout_table
-from evenbreak.web.forms import Form
-from evenbreak.web.page import answer_shown, page, site_of
+from evenbreak.errors import InputError
+from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
+from evenbreak.tournaments.money.payouts import PAYOUTS
+from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.web.forms import Form, form_of
+from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
+from evenbreak.web.sessions import check_director
+from evenbreak.web.words import say
 
 MOST_MONEY = 1_000_000
-_SHARES = re.compile(r"[0-9]+([.,][0-9]+)?(/[0-9]+([.,][0-9]+)?)*", re.ASCII)
 
 
 async def players(request: Request) -> Response:
@@ -33,34 +35,50 @@ async def players(request: Request) -> Response:
 
 async def prizes(request: Request) -> Response:
     """Show what each place is paid, and what each player may expect."""
-    night = site_of(request).night
-    if not night.exists:
+    site = site_of(request)
+    if not site.night.exists:
         raise RefusalError("refused_no_tournament", status=404)
-    form = Form(request.query_params)
-    fee, added = (form.whole(name, 0, MOST_MONEY, default=0) for name in ("fee", "added"))
-    state = await asyncio.to_thread(night.state)
-    usual = "70/30" if len(state.entrants) < 8 else "40/30/20/10"
-    payout = form.text("payout", longest=60) or usual
-    shown = ""
-    if pot := fee * len(state.entrants) + added:
-        known = await night.outlook()
+    kept = await asyncio.to_thread(kept_prizes, site.path) or PrizeMoney()
+    asked = _asked(Form(request.query_params)) if "fee" in request.query_params else kept
+    state = await asyncio.to_thread(site.night.state)
+    entrants, shown = len(state.entrants), ""
+    if pot := asked.pot(entrants):
+        known = await site.night.outlook()
         odds = known.odds if known and known.of is state else None
-        answer = tournament_prizes_answer(state, _table(payout), float(pot), odds)
+        answer = tournament_prizes_answer(state, asked.payouts(entrants), pot, odds)
         shown = answer_shown(request, answer)
-    asked = {"fee": fee, "added": added, "payout": payout}
-    return page(request, "prizes.html", asked=asked, payouts=list(PAYOUTS), answer=shown)
+    return page(
+        request,
+        "prizes.html",
+        asked=asked,
+        usual=asked.payouts(entrants).name,
+        payouts=list(PAYOUTS),
+        answer=shown,
+        kept=asked == kept,
+    )
 
 
-def _table(payout: str) -> Payouts:
-    """Return a table by its name, or what each place is paid in percent, such as 50/30/20."""
-    if payout.lower() in PAYOUTS:
-        return payout_table(payout.lower())
-    if not _SHARES.fullmatch(payout):
-        raise RefusalError("refused_payout", value=payout)
-    shares = [float(part) / 100.0 for part in payout.replace(",", ".").split("/")]
-    if not 0.0 < sum(shares) <= 1.0 + 1e-9:
-        raise RefusalError("refused_payout", value=payout)
-    return replace(payout_table(shares), name=payout)
+async def keep(request: Request) -> Response:
+    """Keep the prizes with the tournament."""
+    form, site = await form_of(request), site_of(request)
+    check_director(request)
+    money = _asked(form)
+    money.amounts(len((await asyncio.to_thread(site.night.state)).entrants))
+    await asyncio.to_thread(keep_prizes, site.path, money)
+    return done(request, "/prizes", say(language(request), "prizes_kept"))
 
 
-ROUTES = [Route("/players", players), Route("/prizes", prizes)]
+def _asked(form: Form) -> PrizeMoney:
+    fee, added = (form.whole(name, 0, MOST_MONEY, default=0) for name in ("fee", "added"))
+    payout = form.text("payout", longest=60)
+    try:
+        return PrizeMoney(fee, added, payout=payout.lower().replace(",", "."))
+    except InputError:
+        raise RefusalError("refused_payout", value=payout) from None
+
+
+ROUTES = [
+    Route("/players", players),
+    Route("/prizes", prizes, methods=["GET"]),
+    Route("/prizes", keep, methods=["POST"]),
+]

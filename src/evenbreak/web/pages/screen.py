@@ -17,7 +17,7 @@ from evenbreak.web.pages.team import seen_values
 async def screen(request: Request) -> Response:
     """Show what everybody in the room wants to see, in letters for eight metres."""
     night = site_of(request).night
-    view = None
+    view, prizes = None, []
     teams = None if night.exists else await site_of(request).teams.now()
     if teams is not None:
         shown = await seen_values(request, teams, EVERYBODY)
@@ -26,7 +26,8 @@ async def screen(request: Request) -> Response:
         known = await night.outlook()
         state = await asyncio.to_thread(night.state)
         view = view_of(state, known)
-    return page(request, "screen.html", live=True, view=view)
+        prizes = await asyncio.to_thread(night.prizes)
+    return page(request, "screen.html", live=True, view=view, prizes=prizes)
 
 
 ROUTES = [Route("/screen", screen)]
