@@ -79,8 +79,15 @@ def test_a_wrong_pin_is_refused_and_soon_every_pin(hall: Hall) -> None:
 
 def test_a_new_pin_shuts_out_who_entered_the_old_one(hall: Hall) -> None:
     other, old = Phone(hall.site, director=True), hall.site.pin
+    same = Phone(hall.site)  # the same phone, whose second tap goes out before the first's answer
+    same.kept = hall.director.token()
+    for cookie in hall.director.jar:
+        same.jar.set_cookie(cookie)
     shown = hall.director.send("/desk/pin")
     new = hall.site.pin
+    assert f"PIN is now {new}" in same.send("/desk/pin").words
+    assert hall.site.pin == new
+    assert other.send("/desk/pin").status == 403
     assert new != old
     assert f"PIN is now {new}" in shown.words
     assert hall.director.open("/desk").status == 200

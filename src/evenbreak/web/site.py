@@ -5,7 +5,9 @@ from __future__ import annotations
 import hashlib
 import hmac
 import itertools
+import math
 import secrets
+import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +18,8 @@ from evenbreak.web.league import League
 from evenbreak.web.night import Night, now
 from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
+
+_SECOND_TAP = 10.0  # seconds
 
 
 @dataclass(eq=False)
@@ -53,6 +57,7 @@ class Site:
             **{name: _mark() for name in ("cookie", "director", "match")},
         }
         self._kept = False
+        self._pin_change = "", -math.inf
 
     def keep_secrets(self) -> None:
         """Keep the secrets in the file, if it is there, so that phones go on after a restart."""
@@ -63,12 +68,24 @@ class Site:
         self.keep_secrets()  # the file may have been begun by a command
         return self._secrets[name]
 
-    def change_pin(self) -> None:
-        """Draw another PIN of the director; whoever entered the earlier one is none any more."""
+    def change_pin(self, by: str) -> None:
+        """Draw another PIN of the director; whoever entered the earlier one is none any more.
+
+        Parameters
+        ----------
+        by
+            the session in which it is done; it may ask once more, as by a second tap.
+        """
         found = {"pin": new_pin(), "director": _mark()}
         if is_there(self.path):
             change_secrets(self.path, found)
         self._secrets |= found
+        self._pin_change = by, time.monotonic()
+
+    def has_changed_pin(self, session: str) -> bool:
+        """Return whether the PIN was changed in this session just now."""
+        by, at = self._pin_change
+        return by == session and time.monotonic() - at < _SECOND_TAP
 
     @property
     def pin(self) -> str:

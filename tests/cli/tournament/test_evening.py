@@ -118,7 +118,7 @@ def test_the_file_may_be_named_without_its_option(run, tmp_path, monkeypatch):
     (tmp_path / "entrants.csv").write_text("player,rating\nAnn,620\nBo,560\n")
     words = ["--scale", "fargo", "--race", "3", "--tables", "1", "--format", "single"]
     assert run("tournament", "new", "entrants.csv", "late.db", *words).exit_code == 0
-    assert run("tournament", "draw", "late.db").exit_code == 0
+    assert run("tournament", "draw", "--json", "late.db").exit_code == 0
     done = run("tournament", "result", "F", "3:1", "late.db")
     assert "wins the tournament" in done.stdout + done.stderr
     assert not (tmp_path / "tonight.db").exists()

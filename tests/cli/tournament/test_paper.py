@@ -49,6 +49,8 @@ def test_prizes_may_be_kept_with_the_tournament(run, file, tmp_path):
     first = run("tournament", *asked, "--keep", "--file", file, "--json")
     assert first.exit_code == 0, first.stderr
     assert run("tournament", "prizes", "--file", file, "--json").stdout == first.stdout
+    halves = run("tournament", "prizes", "--payout", "50,50", "--file", file, "--json")
+    assert json.loads(halves.stdout)["pot"] == json.loads(first.stdout)["pot"]
     other = json.loads(run("tournament", "prizes", "--fee", "5", "--file", file, "--json").stdout)
     assert other["pot"] < json.loads(first.stdout)["pot"]
 

@@ -32,6 +32,9 @@ COMMANDS = {
 """Each command, in the module of its name, with its line of help."""
 
 
+_NAMES_IT = ("--file", "--out")
+
+
 class _OfFile(LazyGroup):
     """The commands of a tournament; its file may be named without an option, as for `serve`."""
 
@@ -39,7 +42,7 @@ class _OfFile(LazyGroup):
         """Read the words."""
         option = "--out" if args[:1] in (["new"], ["import"]) else "--file"
         words = [
-            [option, word] if word.endswith(".db") and not last.startswith("-") else [word]
+            [option, word] if word.endswith(".db") and last not in _NAMES_IT else [word]
             for last, word in zip(["", *args], args, strict=False)
         ]
         return super().parse_args(ctx, list(chain.from_iterable(words)))

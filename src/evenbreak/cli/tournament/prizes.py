@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -82,7 +83,6 @@ def command(
     from evenbreak.answers.tournament_prizes import calcutta_answer, tournament_prizes_answer
     from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
     from evenbreak.files.tournament_store import read_tournament
-    from evenbreak.tournaments import PrizeMoney
 
     state = read_tournament(file)
     entrants, name = len(state.entrants), PurePath(file).name
@@ -98,8 +98,9 @@ def command(
         )
     if sold:
         refuse("--sold is for --calcutta")
-    if money == PrizeMoney():
-        money = kept_prizes(file) or money
+    kept = kept_prizes(file)
+    if kept and not (fee or added):
+        money = replace(kept, house=house or kept.house, payout=money.payout or kept.payout)
     pot = money.pot(entrants)
     if not pot:
         refuse("there is no prize money; give --fee or --added")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.tournaments.money.payouts import PAYOUTS, Payouts, payout_table
+
+_PERCENTS = re.compile(r"[0-9]{1,3}(\.[0-9]+)?(/[0-9]{1,3}(\.[0-9]+)?)*", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -62,11 +65,8 @@ class PrizeMoney:
 def _payouts(text: str) -> Payouts:
     if text in PAYOUTS:
         return PAYOUTS[text]
-    try:
-        percents = [float(part) for part in text.split("/")]
-    except ValueError:
-        percents = []
-    if not any(percents) or not all(0.0 <= one <= 100.0 for one in percents):
+    percents = [float(one) for one in text.split("/")] if _PERCENTS.fullmatch(text) else []
+    if not any(percents):
         raise InputError(
             f"payout is {text!r}; give {', '.join(PAYOUTS)}, or percentages such as 50/30/20"
         )

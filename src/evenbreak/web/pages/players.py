@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 
 from starlette.requests import Request
 from starlette.responses import Response
@@ -14,13 +15,13 @@ from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.web.forms import Form, form_of
-from evenbreak.web.page import answer_shown, done, language, page, site_of
+from evenbreak.web.page import answer_shown, done, language, page, reason, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
 
-MOST_MONEY = 1_000_000
+_MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
 
 
 async def players(request: Request) -> Response:
@@ -41,12 +42,15 @@ async def prizes(request: Request) -> Response:
     kept = await asyncio.to_thread(kept_prizes, site.path) or PrizeMoney()
     asked = _asked(Form(request.query_params)) if "fee" in request.query_params else kept
     state = await asyncio.to_thread(site.night.state)
-    entrants, shown = len(state.entrants), ""
+    entrants, shown, why = len(state.entrants), "", ""
     if pot := asked.pot(entrants):
         known = await site.night.outlook()
         odds = known.odds if known and known.of is state else None
-        answer = tournament_prizes_answer(state, asked.payouts(entrants), pot, odds)
-        shown = answer_shown(request, answer)
+        try:
+            answer = tournament_prizes_answer(state, asked.payouts(entrants), pot, odds)
+            shown = answer_shown(request, answer)
+        except InputError as error:  # a table that does not pay so many; another can be asked for
+            why = reason(request, error)
     return page(
         request,
         "prizes.html",
@@ -54,6 +58,7 @@ async def prizes(request: Request) -> Response:
         usual=asked.payouts(entrants).name,
         payouts=list(PAYOUTS),
         answer=shown,
+        why=why,
         kept=asked == kept,
     )
 
@@ -69,12 +74,19 @@ async def keep(request: Request) -> Response:
 
 
 def _asked(form: Form) -> PrizeMoney:
-    fee, added = (form.whole(name, 0, MOST_MONEY, default=0) for name in ("fee", "added"))
+    fee, added = (_money(form, name) for name in ("fee", "added"))
     payout = form.text("payout", longest=60)
     try:
         return PrizeMoney(fee, added, payout=payout.lower().replace(",", "."))
     except InputError:
         raise RefusalError("refused_payout", value=payout) from None
+
+
+def _money(form: Form, name: str) -> float:
+    text = form.text(name).replace(",", ".")
+    if text and not _MONEY.fullmatch(text):
+        raise RefusalError("refused_money", field=name, value=text)
+    return float(text or 0)
 
 
 ROUTES = [
