@@ -87,7 +87,7 @@ class Payouts:
         spans = ", ".join(
             f"{row.entrants_from} or more"
             if row.entrants_to is None
-            else f"{row.entrants_from} to {row.entrants_to}"
+            else f"{row.entrants_from}-{row.entrants_to}"
             for row in self.rows
         )
         raise InputError(f"{self.name} pays {spans} entrants, not {count}; give your own shares")
