@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from datetime import datetime
 
 import segno
@@ -53,7 +54,8 @@ async def time(request: Request) -> Response:
         raise RefusalError("refused_not_drawn", status=409)
 
     def work() -> Answer:
-        return time_under_way(Outlook(state, site.clock()))
+        answer = time_under_way(Outlook(state, site.clock()))
+        return replace(answer, heading=answer.heading.splitlines()[-1])  # the races alone
 
     answer = await site.night.beside.run(work)
     return page(request, "time.html", answer=answer_shown(request, answer))
