@@ -180,7 +180,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
         if _fits(state, entrant, line):
             return Late(entrant, line)
     if state.lines is None:
-        reason = f"{state.plan.form} has no byes"
+        reason = "this format has no byes"
     else:
         reason = "all byes have been played past" if byes else "the bracket has no bye"
     raise InputError(f"{entrant.name} cannot enter after the draw: {reason}")
