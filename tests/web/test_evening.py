@@ -150,6 +150,14 @@ def players_of(hall: Hall, match: str) -> dict[str, str]:
     return dict(zip(("player_a", "player_b"), hall.state.pair(match), strict=True))
 
 
+def test_the_director_sees_that_a_match_is_played_without_a_call(hall: Hall) -> None:
+    token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
+    phone = Phone(hall.site)
+    phone.send(f"/m/{token}/me", me=0)
+    assert phone.send(f"/m/{token}/score", a=2, b=1, **asked).status == 200
+    assert "Plays already without being called: 2:1" in hall.director.open("/desk").words
+
+
 def test_one_phone_cannot_confirm_itself(hall: Hall) -> None:
     token = hall.site.match_token("W1.1")
     asked = dict(zip(("player_a", "player_b"), hall.state.pair("W1.1"), strict=True))
