@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
 import sqlite3
 import time
 from collections.abc import Callable, Mapping
@@ -19,7 +20,7 @@ from typing import Any
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
 from evenbreak.errors import InputError
 from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
-from evenbreak.files.tournament_desk import kept_prizes
+from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening, evening
@@ -30,6 +31,7 @@ from evenbreak.web.beside import Beside
 
 _LOG = logging.getLogger(__name__)
 _STALE = 30.0  # seconds after which the finish is worked out again
+_MONEY_STALE = 5.0  # seconds after which the prizes are looked up again
 _TICK = 20_000_000  # nanoseconds: longer than a step of the clock that files are stamped by
 _WAIT = 0.03  # seconds that a page waits for what is being worked out
 
@@ -88,7 +90,8 @@ class Night:
         self.clock = clock
         self.known: Known | None = None
         self._read: tuple[tuple[int, int, int], list[Event], Evening] | None = None
-        self._money: tuple[tuple[int, int, int], PrizeMoney | None] | None = None
+        self._money: PrizeMoney | None = None
+        self._money_at = -math.inf
         self._begun = False
         self._work: asyncio.Task[None] | None = None
         self.beside = Beside()
@@ -118,15 +121,22 @@ class Night:
         """Return the money for first place, second, ...
 
         None is known if the director has not kept it here, or the table has no row for so many.
+        The file is asked at most once in a while.
         """
-        mark = mark_of(self.path)
-        if self._money is None or self._money[0] != mark:
-            self._money = mark, kept_prizes(self.path)
-        money = self._money[1]
+        if time.monotonic() - self._money_at > _MONEY_STALE:
+            self._know(kept_prizes(self.path))
         try:
-            return money.amounts(len(self.state().entrants)) if money else []
+            return self._money.amounts(len(self.state().entrants)) if self._money else []
         except InputError:
             return []
+
+    def keep_prizes(self, money: PrizeMoney) -> None:
+        """Keep the prize money with the tournament."""
+        keep_prizes(self.path, money)
+        self._know(money)
+
+    def _know(self, money: PrizeMoney | None) -> None:
+        self._money, self._money_at = money, time.monotonic()
 
     async def outlook(self) -> Known | None:
         """Return what is known of the odds and the finish; None: not yet, or no draw."""

@@ -23,8 +23,8 @@ async def tonight(request: Request) -> Response:
         return page(request, "begin.html")
     known = await night.outlook()
     state = await asyncio.to_thread(night.state)
-    prizes = await asyncio.to_thread(night.prizes)
-    return page(request, "tonight.html", live=True, view=view_of(state, known), prizes=prizes)
+    view = view_of(state, known)
+    return page(request, "tonight.html", live=True, view=view, prizes=night.prizes())
 
 
 async def ask_pin(request: Request) -> Response:

@@ -11,7 +11,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.tournament_prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
-from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
+from evenbreak.files.tournament_desk import kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.web.forms import Form, form_of
@@ -69,7 +69,7 @@ async def keep(request: Request) -> Response:
     check_director(request)
     money = _asked(form)
     money.amounts(len((await asyncio.to_thread(site.night.state)).entrants))
-    await asyncio.to_thread(keep_prizes, site.path, money)
+    await asyncio.to_thread(site.night.keep_prizes, money)
     return done(request, "/prizes", say(language(request), "prizes_kept"))
 
 

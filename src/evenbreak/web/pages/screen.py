@@ -26,7 +26,7 @@ async def screen(request: Request) -> Response:
         known = await night.outlook()
         state = await asyncio.to_thread(night.state)
         view = view_of(state, known)
-        prizes = await asyncio.to_thread(night.prizes)
+        prizes = night.prizes()
     return page(request, "screen.html", live=True, view=view, prizes=prizes)
 
 
