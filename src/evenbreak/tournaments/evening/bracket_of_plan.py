@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from evenbreak.tournaments.brackets.bracket import Bracket
@@ -19,8 +20,9 @@ from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.later_draws import swiss_of
 
 
+@lru_cache(maxsize=8)
 def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
-    """Return the bracket of a draw.
+    """Return the bracket of a draw; that of the last draws is kept for the states that follow.
 
     >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
     (('W1.1', 0),)

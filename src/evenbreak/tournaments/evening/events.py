@@ -69,7 +69,7 @@ class Plan:
     losers_race: int | None = None
     final_race: int | None = None
     handicapped: bool = False
-    chart: Chart | None = None
+    chart: Chart | None = field(default=None, hash=False)
     scale: str = "npl"
     starter: float = 0.0
     starter_error: float = 0.0
@@ -80,8 +80,8 @@ class Plan:
     pod_size: int = 8
     rounds: int | None = None
     layout: tuple[Draft, ...] = ()
-    by_match: Mapping[str, int] = field(default_factory=dict)
-    chips: ChipChart | None = None
+    by_match: Mapping[str, int] = field(default_factory=dict, hash=False)
+    chips: ChipChart | None = field(default=None, hash=False)
 
 
 @dataclass(frozen=True)

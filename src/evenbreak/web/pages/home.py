@@ -22,7 +22,7 @@ async def tonight(request: Request) -> Response:
             return RedirectResponse("/team", status_code=303)
         return page(request, "begin.html")
     known = await night.outlook()
-    state = await asyncio.to_thread(night.state)
+    state = night.state()
     view = view_of(state, known)
     return page(request, "tonight.html", live=True, view=view, prizes=night.prizes())
 

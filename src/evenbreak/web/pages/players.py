@@ -30,7 +30,7 @@ async def players(request: Request) -> Response:
     if not night.exists:
         raise RefusalError("refused_no_tournament", status=404)
     known = await night.outlook()
-    state = await asyncio.to_thread(night.state)
+    state = night.state()
     return page(request, "players.html", live=True, players=player_views(state, known))
 
 

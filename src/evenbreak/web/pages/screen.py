@@ -24,7 +24,7 @@ async def screen(request: Request) -> Response:
         return page(request, "team_screen.html", live=True, **shown)
     if night.exists:
         known = await night.outlook()
-        state = await asyncio.to_thread(night.state)
+        state = night.state()
         view = view_of(state, known)
         prizes = night.prizes()
     return page(request, "screen.html", live=True, view=view, prizes=prizes)
