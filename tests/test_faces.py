@@ -43,6 +43,7 @@ GOLDEN = ROOT / "tests" / "golden"
 SCHEMAS = json.loads((ROOT / "docs" / "reference" / "answers.schema.json").read_text("utf-8"))
 
 ASKED = {
+    "demo": "demo",
     "odds": "odds 612 521 --scale fargo --race 7:5",
     "odds_sets": "odds --p 0.66 --race 3:1 --set 3:3 --score 1:0",
     "odds_exact": "odds --p 0.6 --ahead 3:2 --exact",

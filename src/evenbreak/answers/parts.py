@@ -28,6 +28,8 @@ class Column:
         a value as a person reads it; None is shown empty, whatever this says.
     left
         whether a person finds it flush left.
+    whole
+        whether its words stay on one line where the table is too wide, to be copied from there.
     detail
         whether only those read it who ask for details.
     exact
@@ -40,6 +42,7 @@ class Column:
     words: str | None = None
     show: Show = str
     left: bool = False
+    whole: bool = False
     detail: bool = False
     exact: bool = False
     cell: Show | None = None

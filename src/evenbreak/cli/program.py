@@ -11,6 +11,9 @@ from evenbreak.cli.interrupts import raise_if_interrupted, stop_listening
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
+    "Start here": {
+        "demo": Entry("demo", "Made-up files, and three commands to try on them."),
+    },
     "Run a match": {
         "odds": Entry("match.odds", "The odds and the length of one match."),
         "live": Entry("match.live", "The odds of a match under way, game by game."),

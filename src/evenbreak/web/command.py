@@ -6,6 +6,7 @@ import socket
 import sys
 from datetime import datetime
 from pathlib import Path
+from tempfile import mkdtemp
 
 import click
 
@@ -13,11 +14,13 @@ EXAMPLES = """\b
 Examples:
   evenbreak serve
   evenbreak serve saturday.db --lan
+  evenbreak serve --demo
 """
 
 
 @click.command("serve", epilog=EXAMPLES)
-@click.argument("file", metavar="[FILE.db]", default="tonight.db", required=False)
+@click.argument("file", metavar="[FILE.db]", required=False)
+@click.option("--demo", is_flag=True, help="Open a made-up evening that is half played.")
 @click.option(
     "--lan",
     is_flag=True,
@@ -30,12 +33,12 @@ Examples:
     default=8000,
     help="Where the page is found on this computer.",
 )
-def command(*, file: str, lan: bool, port: int) -> None:
+def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
     """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
     FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
-    night; if it is not there, the page begins one. The commands of evenbreak tournament can be used
-    on it at the same time.
+    night; tonight.db unless given. If it is not there, the page begins one. The commands of
+    evenbreak tournament can be used on it at the same time.
     """
     import segno
 
@@ -46,7 +49,9 @@ def command(*, file: str, lan: bool, port: int) -> None:
     from evenbreak.web.server import server_of
     from evenbreak.web.site import Site
 
-    path = Path(file)
+    if demo and file is not None:
+        raise click.UsageError(f"--demo makes a file of its own; leave out {file} or --demo")
+    path = _demo() if demo else Path(file or "tonight.db")
     if path.exists():
         if holds(path, TOURNAMENT) or not read_team_events(path):
             read_tournament(path)
@@ -70,6 +75,16 @@ def command(*, file: str, lan: bool, port: int) -> None:
         segno.make(address, error="l").terminal(sys.stderr, compact=True)
     click.echo("Ctrl+C ends it; nothing is lost.", err=True)
     server_of(site, host="0.0.0.0" if lan else "127.0.0.1", port=port).run()  # noqa: S104
+
+
+def _demo() -> Path:
+    """Write the demo's evening to a folder of its own, and return its file."""
+    from evenbreak.files.demo import write_demo_evening
+
+    path = Path(mkdtemp(prefix="evenbreak-demo-"), "evening.db")
+    write_demo_evening(path, datetime.now())
+    click.echo(f"The demo: {path}, which you may delete", err=True)
+    return path
 
 
 def _own_address() -> str:

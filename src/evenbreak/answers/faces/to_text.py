@@ -84,7 +84,8 @@ def _table(part: Table, width: int, verbose: bool) -> Iterator[str]:
     heads = _heading_lines([column.words or "" for _, column in shown])
     rows = [[printable(column.text(row[k])) for k, column in shown] for row in part.rows]
     flush = [place for place, (_, column) in enumerate(shown) if column.left]
-    cells = _folded([*heads, *rows], flush, width)
+    broken = [place for place in flush if not shown[place][1].whole]
+    cells = _folded([*heads, *rows], broken, width)
     names = next((k for k in range(len(shown)) if k not in flush), len(shown))
     for number, block in enumerate(_blocks(cells, names, width)):
         if number:
