@@ -27,6 +27,14 @@ CREATE TABLE event (
 """
 
 
+_ONCE = "CREATE TABLE IF NOT EXISTS once (form TEXT PRIMARY KEY, number INTEGER NOT NULL)"
+"""The forms that were taken, each with the number of the last event after it."""
+
+
+class TakenBeforeError(InputError):
+    """A form that comes in again, whatever it added the first time."""
+
+
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
     """Write the first events of a tournament to a new file, or to that of a team night.
 
@@ -60,7 +68,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     with begun(path) as base:
         if _count(base) != in_place_of:
             raise DataError([f"{path} is there already; give the new tournament another name"])
-        for table in (TOURNAMENT, "author", "proposal", "prize"):
+        for table in (TOURNAMENT, "author", "proposal", "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         _write(base, 0, events)
@@ -91,7 +99,11 @@ def read_tournament(path: str | Path) -> Evening:
 
 
 def add_events(
-    path: str | Path, decide: Callable[[Evening], Sequence[Event]], *, by: str = ""
+    path: str | Path,
+    decide: Callable[[Evening], Sequence[Event]],
+    *,
+    by: str = "",
+    form: str | None = None,
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
@@ -104,13 +116,20 @@ def add_events(
         an error, nothing is added.
     by
         who enters them; kept beside them.
+    form
+        what the form is known by that they come from. If it was taken before, nothing is asked and
+        nothing is added.
 
     Raises
     ------
+    TakenBeforeError
+        if the form was taken before.
     DataError
         if the file is not that of a tournament, or cannot be read or written.
     """
     with opened(path) as base, at_once(base):
+        if form:
+            _refuse_taken(base, form)
         earlier = _events(base, path)
         before = _state(earlier, path)
         added = list(decide(before))
@@ -120,6 +139,8 @@ def add_events(
         _write(base, len(earlier), added)
         if by:
             _sign(base, len(earlier), len(added), by)
+        if form:
+            base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
     return before, after
 
 
@@ -128,6 +149,12 @@ def _count(base: sqlite3.Connection) -> int:
     if not has_table(base, TOURNAMENT):
         return 0
     return int(base.execute("SELECT COUNT(*) FROM event").fetchone()[0])
+
+
+def _refuse_taken(base: sqlite3.Connection, form: str) -> None:
+    base.execute(_ONCE)
+    if base.execute("SELECT 1 FROM once WHERE form = ?", (form,)).fetchone():
+        raise TakenBeforeError("that was entered before; nothing was entered a second time")
 
 
 def _sign(base: sqlite3.Connection, count: int, added: int, by: str) -> None:

@@ -16,6 +16,7 @@ from starlette.routing import Route
 from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import events
+from evenbreak.web.once import once_each
 from evenbreak.web.page import language, own_file, refused, script_hash
 from evenbreak.web.pages import (
     bracket,
@@ -50,23 +51,25 @@ def make_app(site: Site) -> Starlette:
         the file, the addresses and the secrets.
     """
     app = Starlette(
-        routes=[
-            Route("/evenbreak.css", _style),
-            Route("/events", events),
-            *home.ROUTES,
-            *fair.ROUTES,
-            *bracket.ROUTES,
-            *players.ROUTES,
-            *league.ROUTES,
-            *screen.ROUTES,
-            *match.ROUTES,
-            *desk.ROUTES,
-            *desk_extras.ROUTES,
-            *entry.ROUTES,
-            *team.ROUTES,
-            *team_moves.ROUTES,
-            *team_new.ROUTES,
-        ],
+        routes=once_each(
+            [
+                Route("/evenbreak.css", _style),
+                Route("/events", events),
+                *home.ROUTES,
+                *fair.ROUTES,
+                *bracket.ROUTES,
+                *players.ROUTES,
+                *league.ROUTES,
+                *screen.ROUTES,
+                *match.ROUTES,
+                *desk.ROUTES,
+                *desk_extras.ROUTES,
+                *entry.ROUTES,
+                *team.ROUTES,
+                *team_moves.ROUTES,
+                *team_new.ROUTES,
+            ]
+        ),
         middleware=[
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
             Middleware(

@@ -71,8 +71,7 @@ class Form:
         """
         if not self.text("once"):
             return None
-        fields = sorted((k, v) for k, v in self.fields.multi_items() if isinstance(v, str))
-        sent = [one for one in fields if one[0] != "csrf"]
+        sent = sorted((k, repr(v)) for k, v in self.fields.multi_items() if k != "csrf")
         return hashlib.sha256(repr([*more, sent]).encode()).hexdigest()
 
     def one_of(self, name: str, allowed: tuple[str, ...]) -> str:
@@ -98,6 +97,9 @@ def whole(name: str, text: str, low: int, high: int) -> int:
 
 async def form_of(request: Request) -> Form:
     """Read a form of this session with its files; refuse one that it was not given."""
+    read: Form | None = getattr(request.state, "form", None)
+    if read is not None:
+        return read
     limits = {"max_files": _MOST_FILES, "max_fields": _MOST_FIELDS, "max_part_size": MOST_BYTES}
     async with request.form(**limits) as sent:
         form = Form(
@@ -109,4 +111,5 @@ async def form_of(request: Request) -> Form:
             )
         )
     check_form(request, form.text("csrf"))
+    request.state.form = form
     return form

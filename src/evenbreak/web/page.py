@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import secrets
 import urllib.parse
 from functools import cache
 from importlib.resources import files
@@ -139,6 +140,7 @@ def page(
             site=site_of(request),
             director=is_director(request),
             csrf=form_token(request),
+            once=secrets.token_urlsafe(9),
             said=[tr(line) for line in request.session.pop(_SAID, [])],
             live=live,
             quick=quick,

@@ -23,5 +23,7 @@ def command(*, player: str, file: str, at: str) -> Answer:
     from evenbreak.answers.tournament_moves import forfeited
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(file, at, lambda state: [moves.drop(state, player)])
+    before, state = add(
+        file, at, lambda state: [moves.drop(state, moves.known_player(state, player))]
+    )
     return answer_of(file, state, at, forfeited(before, state))

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.events import Result
+    from evenbreak.tournaments.evening.fold import Evening
 
 
 @click.command("forfeit")
@@ -23,5 +29,8 @@ def command(*, player: str, match: str | None, file: str, at: str) -> Answer:
     from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(file, at, lambda state: [moves.forfeit(state, player, match)])
+    def decide(state: Evening) -> list[Result]:
+        return [moves.forfeit(state, moves.known_player(state, player), match)]
+
+    before, state = add(file, at, decide)
     return answer_of(file, state, at, happened(before, state, state.events[-1]))

@@ -126,8 +126,8 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
 
 
 def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
-    """Let a player forfeit a match; None: the only one that they can play now."""
-    loser = known_player(state, player)
+    """Let a player, by their full name, forfeit a match; None: the only one they can play now."""
+    loser = _entered(state, player)
     if match is None:
         ready = [name for name in state.standing.to_play if loser in state.pair(name)]
         if len(ready) != 1:
@@ -145,8 +145,8 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
 
 
 def drop(state: Evening, player: str) -> Dropped:
-    """Let a player go home."""
-    name = known_player(state, player)
+    """Let a player, by their full name, go home."""
+    name = _entered(state, player)
     if name in state.dropped:
         raise InputError(f"{name} has dropped out already")
     if not state.drawn and len(state.entrants) <= 1:
@@ -286,6 +286,13 @@ def known_player(state: Evening, text: str) -> str:
         hint = f"; did you mean {names[near[0]]}?" if near else ""
         raise InputError(f"{text!r} is not in this tournament{hint}")
     return names[wanted]
+
+
+def _entered(state: Evening, name: str) -> str:
+    """Return a name that is given in full: somebody else's that begins like it never counts."""
+    if name not in state.entrants:
+        raise InputError(f"{name!r} is not in this tournament")
+    return name
 
 
 def _games(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import secrets
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -93,17 +94,17 @@ def _changeable(state: Evening) -> dict[str, int]:
     return found
 
 
-async def _enter(request: Request, decide: Decide, said: Said, to: str = "/desk") -> Response:
+async def _enter(request: Request, form: Form, decide: Decide, said: Said) -> Response:
     site = site_of(request)
-    at = site.clock()
+    at, key = site.clock(), form.key(request.url.path)
 
     def work() -> tuple[Evening, Evening]:
         return add_events(
-            site.path, lambda state: [Event(at, what) for what in decide(state)], by=BY
+            site.path, lambda state: [Event(at, what) for what in decide(state)], by=BY, form=key
         )
 
     before, after = await asyncio.to_thread(work)
-    return done(request, to, *said(before, after))
+    return done(request, "/desk", *said(before, after))
 
 
 async def _ask_first(
@@ -122,7 +123,8 @@ async def _ask_first(
     gone = set(before.counted) - set(after.counted) if before.drawn else set()
     if not (gone or always):
         return None
-    fields = {name: text for name, text in form.fields.items() if name != "csrf"}
+    fields = {"once": secrets.token_urlsafe(9)} | dict(form.fields.items())
+    fields.pop("csrf")
     lines = [in_language(language(request), line) for line in said(before, after)]
     return page(request, "sure.html", fields=fields, lines=lines)
 
@@ -135,10 +137,11 @@ async def _form(request: Request) -> Form:
 
 async def draw(request: Request) -> Response:
     """Make the draw, or what is drawn next."""
-    await _form(request)
+    form = await _form(request)
     rng = np.random.default_rng()
     return await _enter(
         request,
+        form,
         lambda state: moves.draw_next(state, rng),
         lambda before, after: [draw_words(before, after)],
     )
@@ -176,7 +179,7 @@ async def call(request: Request) -> Response:
             for one in found
         ]
 
-    return await _enter(request, decide, said)
+    return await _enter(request, form, decide, said)
 
 
 async def result(request: Request) -> Response:
@@ -202,7 +205,7 @@ async def result(request: Request) -> Response:
         return happened(before, after, after.events[-1])
 
     asked = await _ask_first(request, form, decide, said) if correct else None
-    return asked or await _enter(request, decide, said)
+    return asked or await _enter(request, form, decide, said)
 
 
 async def forfeit(request: Request) -> Response:
@@ -214,7 +217,7 @@ async def forfeit(request: Request) -> Response:
         return [moves.forfeit(state, player)]
 
     asked = await _ask_first(request, form, decide, forfeited, always=True)
-    return asked or await _enter(request, decide, forfeited)
+    return asked or await _enter(request, form, decide, forfeited)
 
 
 async def drop(request: Request) -> Response:
@@ -226,7 +229,7 @@ async def drop(request: Request) -> Response:
         return [moves.drop(state, player)]
 
     asked = await _ask_first(request, form, decide, forfeited, always=True)
-    return asked or await _enter(request, decide, forfeited)
+    return asked or await _enter(request, form, decide, forfeited)
 
 
 async def entrant(request: Request) -> Response:
@@ -244,7 +247,7 @@ async def entrant(request: Request) -> Response:
         rating = before.rating if stated is None else stated
         return [gone, moves.late(without, Entrant(name or gone.name, rating, error))]
 
-    return await _enter(request, decide, lambda _, after: rating_doubts(after))
+    return await _enter(request, form, decide, lambda _, after: rating_doubts(after))
 
 
 async def change(request: Request) -> Response:
@@ -261,12 +264,12 @@ async def change(request: Request) -> Response:
         words = in_language(language(request), races_words(after.races))
         return [say(language(request), "changed", tables=after.plan.tables, races=words)]
 
-    return await _enter(request, decide, said)
+    return await _enter(request, form, decide, said)
 
 
 async def tiebreak(request: Request) -> Response:
     """Break the ties of a group whose matches are played."""
-    await _form(request)
+    form = await _form(request)
     rng = np.random.default_rng()
     found: list[TieBreak] = []
 
@@ -274,7 +277,7 @@ async def tiebreak(request: Request) -> Response:
         found.append(break_ties(state, rng))
         return [found[-1].ranked]
 
-    return await _enter(request, decide, lambda _, __: tie_words(found[-1]))
+    return await _enter(request, form, decide, lambda _, __: tie_words(found[-1]))
 
 
 async def let_stand(request: Request) -> Response:
@@ -283,6 +286,7 @@ async def let_stand(request: Request) -> Response:
     match = form.text("match")
     return await _enter(
         request,
+        form,
         lambda state: stand(state, match),
         lambda before, after: [*settled_words(before, after), *reopened(before, after)],
     )
@@ -301,7 +305,7 @@ async def undo(request: Request) -> Response:
     def said(before: Evening, after: Evening) -> list[str]:
         return [say(language(request), "undone"), *reopened(before, after)]
 
-    return await _enter(request, decide, said)
+    return await _enter(request, form, decide, said)
 
 
 ROUTES = [

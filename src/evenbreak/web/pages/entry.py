@@ -212,7 +212,8 @@ async def late(request: Request) -> Response:
         )
         return [Event(site.clock(), moves.late(state, entrant))]
 
-    _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY)
+    key = form.key(request.url.path)
+    _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY, form=key)
     return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
 
 

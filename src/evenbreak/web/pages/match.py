@@ -101,7 +101,8 @@ async def tap(request: Request) -> Response:
         live = now.live.get(name)
         return [] if live and live.what == found else [Event(at, found)]
 
-    await asyncio.to_thread(add_events, site.path, decide, by=by)
+    key = form.key(request.url.path)
+    await asyncio.to_thread(add_events, site.path, decide, by=by, form=key)
     return done(request, to)
 
 

@@ -20,7 +20,7 @@ from evenbreak.answers.team_night import (
     waiting_words,
 )
 from evenbreak.web.page import page, site_of
-from evenbreak.web.sessions import captain_of, check_director, is_director, phone_of
+from evenbreak.web.sessions import captain_of, check_director, is_director
 from evenbreak.web.team_captain import captain_values
 from evenbreak.web.team_night import TeamNow, night_on
 from evenbreak.web.team_view import plain_options, set_views
@@ -40,7 +40,6 @@ async def team(request: Request) -> Response:
         "desk": (
             await asyncio.to_thread(_for_director, request, now) if is_director(request) else None
         ),
-        "once": f"{phone_of(request)}.{len(now.events)}",
     }
     return page(request, "team.html", live=True, **shown)
 

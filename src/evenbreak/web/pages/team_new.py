@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import secrets
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
@@ -44,7 +43,6 @@ async def _choices(site: Site) -> dict[str, Any]:
         "charts": CHARTS,
         "counts": COUNT_WORDS,
         "scales": NAMES,
-        "once": secrets.token_urlsafe(9),
     }
 
 

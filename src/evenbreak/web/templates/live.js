@@ -20,6 +20,7 @@
     const at = document.activeElement;
     return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName) || begun();
   };
+  const plain = (one) => one.innerHTML.replace(/name="once" value="[^"]*"/g, "");
   const title = (one) => one.firstElementChild.textContent;
   const renew = async () => {
     if (waiting) return;
@@ -30,7 +31,7 @@
       if (answer.ok) {
         const found = new DOMParser().parseFromString(await answer.text(), "text/html");
         const fresh = found.getElementById("main"), old = document.getElementById("main");
-        if (fresh && old && fresh.innerHTML !== old.innerHTML) {
+        if (fresh && old && plain(fresh) !== plain(old)) {
           const left = [...old.querySelectorAll(".bracket")].map((one) => one.scrollLeft);
           const open = [...old.querySelectorAll("details")].filter((one) => one.open).map(title);
           fresh.querySelectorAll("details").forEach((one) => { one.open ||= open.includes(title(one)); });

@@ -1,0 +1,204 @@
+"""Double taps: each form is taken once, in whatever order and number it comes in."""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from evenbreak.files.team_night_store import read_team_events
+from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.web.app import make_app
+from evenbreak.web.once import OF_THE_SESSION
+from evenbreak.web.site import Site
+from places import SRC
+from web.conftest import Hall, begun
+from web.phones import Phone, Shown, running
+
+NAMES = ["Ann", "Ann Smith", "Bo", "Cy", "Di", "Ed"]
+TEAMS = {
+    "team_a": "Racks", "players_a": "Ann,600\nBo,580", "team_b": "Cues",
+    "players_b": "Wim,610\nYo,560", "scale": "fargo", "races": "even", "race": 5,
+    "order": "alternate", "count": "sets",
+}  # fmt: skip
+
+
+class Forms(HTMLParser):
+    """The forms of a page that are posted: where they go to, and their fields as they stand."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str]]] = []
+        self._open = False
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        at = dict(attrs)
+        if tag == "form":
+            self._open = at.get("method") == "post"
+            if self._open:
+                self.found.append((at["action"] or "", {}))
+        elif self._open and tag in ("input", "button") and at.get("name"):
+            self.found[-1][1][at["name"] or ""] = at.get("value") or ""
+
+    def handle_endtag(self, tag: str) -> None:
+        self._open = self._open and tag != "form"
+
+
+@pytest.fixture
+def six(tmp_path: Path) -> Iterator[Hall]:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(director, NAMES, format="double", tables=2, seeding="listed")
+        yield Hall(site, director, Phone(site))
+
+
+def pages_of(hall: Hall, phone: Phone) -> Iterator[Shown]:
+    """Yield all pages that have forms; a sure page comes of a question."""
+    token = hall.site.match_token(next(iter(hall.state.standing.to_play)))
+    paths = ("/desk", "/new", "/pin", "/prizes?fee=10", "/league", "/team", "/team/new")
+    for path in (*paths, f"/m/{token}", "/"):
+        yield phone.open(path)
+    yield phone.send("/desk/drop", player="Bo")
+
+
+def test_every_form_of_every_page_carries_a_number(six: Hall) -> None:
+    six.director.send("/desk/call", match=six.state.standing.to_play[0], table=1)
+    six.director.send("/team/new", **TEAMS)
+    first = six.state.standing.to_play[1]
+    six.director.send("/desk/result", match=first, a=3, b=0, how="new")
+    seen = set()
+    for shown in pages_of(six, six.director):
+        assert 'method="post"' in shown.text, shown.url
+        for action, fields in Forms(shown.text).found:
+            assert {"csrf", "once"} <= fields.keys(), (shown.url, action)
+            assert fields["once"], (shown.url, action)
+            seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
+    assert {"/desk/drop", "/new", "/prizes", "/league", "/m/{token}/score"} <= seen
+
+
+def test_no_template_makes_a_form_of_its_own() -> None:
+    for path in (SRC / "web" / "templates").glob("*.html"):
+        for form in re.findall(
+            r'<form method="post".*?</form>', path.read_text("utf-8"), re.DOTALL
+        ):
+            numbered = re.search(r"\{\{ (hidden\(\)|sent_by\()", form)
+            assert numbered or path.name == "sure.html", (path.name, form[:80])
+
+
+def test_the_routes_that_are_taken_twice_are_those_of_the_session(tmp_path: Path) -> None:
+    app = make_app(Site(tmp_path / "tonight.db"))
+    posts = {one.path: one for one in app.routes if "POST" in (getattr(one, "methods", 0) or ())}
+    for path, route in posts.items():
+        own = path in OF_THE_SESSION or path.startswith("/team/")
+        assert (route.endpoint.__module__ == "evenbreak.web.once") != own, path
+    assert len(posts) >= 20
+
+
+FORMS: list[tuple[str, dict[str, Any], int]] = [
+    ("/desk/late", {"name": "Late Larry", "rating": "500"}, 1),
+    ("/desk/call", {"match": "W1.4", "table": 1}, 1),
+    ("/desk/result", {"match": "W1.4", "a": 3, "b": 1, "how": "new"}, 1),
+    ("/desk/result", {"match": "W1.4", "a": 1, "b": 3, "how": "correct", "sure": "yes"}, 1),
+    ("/desk/change", {"tables": 3}, 1),
+    ("/desk/undo", {}, 1),
+    ("/desk/forfeit", {"player": "Cy", "sure": "yes"}, 1),
+    ("/desk/drop", {"player": "Ann", "sure": "yes"}, 1),
+    ("/desk/save", {}, 0),
+    ("/desk/pin", {}, 0),
+    ("/prizes", {"fee": 10, "added": 0, "payout": "60/40"}, 0),
+    ("/league/tonight", {}, 0),
+]
+
+
+def fields_of(hall: Hall, path: str, given: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of a form as the desk holds it, with those that are filled in."""
+    held = [f for action, f in Forms(hall.director.open("/desk").text).found if action == path]
+    return (held[0] if held and not given else {"csrf": hall.director.token()}) | given
+
+
+def twice(hall: Hall, path: str, fields: dict[str, Any], *, together: bool) -> list[Shown]:
+    """Send a form twice, as one phone does."""
+    if not together:
+        return [hall.director.send_raw(path, fields) for _ in range(2)]
+    found: list[Shown] = []
+    at = threading.Barrier(2)
+
+    def send() -> None:
+        phone = Phone(hall.site)
+        for cookie in hall.director.jar:
+            phone.jar.set_cookie(cookie)
+        at.wait()
+        found.append(phone.send_raw(path, fields))
+
+    threads = [threading.Thread(target=send) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return found
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_a_form_that_comes_in_twice_is_taken_once(six: Hall, together: bool) -> None:
+    folder = six.site.path.parent
+    for number, (path, given, more) in enumerate(FORMS):
+        before, pin = read_events(six.site.path), six.site.pin
+        copies = len(list(folder.glob("*.backup.db")))
+        fields = fields_of(six, path, given) | {"once": f"n{number}"}
+        shown = twice(six, path, fields, together=together)
+        assert [one.status for one in shown] == [200, 200], (path, [one.words for one in shown])
+        assert len(read_events(six.site.path)) == len(before) + more, path
+        assert len(list(folder.glob("*.backup.db"))) - copies == (path == "/desk/save"), path
+        if path == "/desk/pin":
+            assert six.site.pin != pin
+            assert all(f"PIN is now {six.site.pin}" in one.words for one in shown)
+            six.director.send("/pin", pin=six.site.pin)
+        else:
+            said = [re.findall(r'role="status">(.*?)</div>', one.text, re.DOTALL) for one in shown]
+            assert said[0] == said[1], path
+
+
+def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
+    sent = {"player": "Ann", "sure": "yes", "once": "n", "csrf": six.director.token()}
+    assert six.director.send_raw("/desk/drop", sent).status == 200
+    entered = read_events(six.site.path)
+    with running(six.site.path) as site:
+        six.director.site = site
+        shown = six.director.send_raw("/desk/drop", sent)
+    assert "nothing was entered a second time" in shown.words.lower()
+    assert read_events(six.site.path) == entered
+
+
+def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        team = {**TEAMS, "once": "t"}
+        for _ in range(2):
+            assert director.send("/team/new", **team).status == 200
+        assert len(read_team_events(site.path)) == 1
+        plan = {"entrants": "Ann,1\nBo,2", "format": "single", "races": "even", "race": 3}
+        more = {"tables": 2, "discipline": "9-ball", "seeding": "listed", "scale": "npl"}
+        for _ in range(2):
+            assert director.send("/new", **plan, **more, once="e").status == 200
+            director.send("/desk/draw", once="d")
+        assert [type(one.what).__name__ for one in read_events(site.path)] == ["Opened", "Drawn"]
+
+
+def test_a_name_from_a_form_is_nobody_elses_that_begins_like_it(six: Hall) -> None:
+    for what in ("drop", "forfeit"):
+        before = len(six.state.events)
+        shown = six.director.send(f"/desk/{what}", player="Ann S", sure="yes")
+        assert (shown.status, len(six.state.events)) == (400, before)
+    with running(six.site.path.with_name("other.db")) as site:
+        director = Phone(site, director=True)
+        begun(director, NAMES[:3])
+        director.send("/desk/undo", entry=2, seen=2)
+        for name in ("Ann", "Ann"):
+            director.send("/desk/drop", player=name, sure="yes")
+        assert list(read_tournament(site.path).entrants) == ["Ann Smith", "Bo"]
