@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import http.client
 import random
 import re
 import socket
@@ -11,6 +12,7 @@ import urllib.parse
 import urllib.request
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import partial
 from html import unescape
 from http.cookiejar import CookieJar
 from pathlib import Path
@@ -35,14 +37,34 @@ class Shown(NamedTuple):
         return " ".join(unescape(re.sub(r"<[^>]+>", " ", inner)).split())
 
 
-class Phone:
-    """A phone with its own cookies; `director` has entered the PIN."""
+class _From(urllib.request.HTTPHandler):
+    """Opens its connections from one of this computer's addresses."""
 
-    def __init__(self, site: Site, *, director: bool = False, language: str = "en") -> None:
+    def __init__(self, address: str) -> None:
+        super().__init__()
+        self.address = address
+
+    def http_open(self, req: urllib.request.Request) -> http.client.HTTPResponse:
+        line = partial(http.client.HTTPConnection, source_address=(self.address, 0))
+        return self.do_open(line, req)
+
+
+class Phone:
+    """A phone with its own cookies and address; `director` has entered the PIN."""
+
+    def __init__(
+        self,
+        site: Site,
+        *,
+        director: bool = False,
+        language: str = "en",
+        address: str = "127.0.0.1",
+    ) -> None:
         self.site = site
         self.kept = ""
         self.jar = CookieJar()
-        self.opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(self.jar))
+        cookies = urllib.request.HTTPCookieProcessor(self.jar)
+        self.opener = urllib.request.build_opener(cookies, _From(address))
         self.opener.addheaders = [("Accept-Language", language)]
         if director:
             assert self.send("/pin", pin=site.pin).status == 200
@@ -97,6 +119,11 @@ class Phone:
 def _part(edge: str, named: str, content: bytes) -> bytes:
     head = f"--{edge}\r\nContent-Disposition: form-data; {named}\r\n\r\n"
     return head.encode() + content + b"\r\n"
+
+
+def two_phones(site: Site) -> list[Phone]:
+    """Return the phones of two players, each with an address of its own."""
+    return [Phone(site, address=f"127.0.0.{k}") for k in (2, 3)]
 
 
 def free_port() -> int:

@@ -1,13 +1,11 @@
-"""What the file of an evening holds besides its events: secrets, proposals, authors, prizes."""
+"""What the file of an evening holds besides its events: secrets, authors, prizes."""
 
 from __future__ import annotations
 
-import json
 import secrets
 import sqlite3
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from datetime import datetime
 from itertools import count
 from pathlib import Path
@@ -17,40 +15,11 @@ from evenbreak.tournaments.money.prize_money import PrizeMoney
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS proposal (
-    game TEXT NOT NULL, player TEXT NOT NULL, score TEXT NOT NULL, phone TEXT NOT NULL,
-    at TEXT NOT NULL, PRIMARY KEY (game, player)
-);
 CREATE TABLE IF NOT EXISTS prize (
     one INTEGER PRIMARY KEY CHECK (one = 1), fee REAL NOT NULL, added REAL NOT NULL,
     house REAL NOT NULL, payout TEXT NOT NULL
 );
 """
-
-
-@dataclass(frozen=True)
-class Proposal:
-    """The result of a match as one of its players entered it; it counts once it is confirmed.
-
-    Parameters
-    ----------
-    match
-        its name.
-    player
-        who entered it.
-    score
-        the games of each player by name.
-    phone
-        the session in which it was entered.
-    at
-        when, such as 2025-03-01T19:30:00.
-    """
-
-    match: str
-    player: str
-    score: Mapping[str, int]
-    phone: str
-    at: str
 
 
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
@@ -82,37 +51,6 @@ def change_secrets(path: str | Path, to: Mapping[str, str]) -> None:
 def new_pin() -> str:
     """Return a PIN of six digits."""
     return f"{secrets.randbelow(10**6):06d}"
-
-
-def propose(path: str | Path, proposal: Proposal) -> None:
-    """Keep a proposed result; a player's later one takes the place of the earlier."""
-    with opened(path) as base:
-        _begin(base)
-        score = json.dumps(dict(proposal.score))
-        base.execute(
-            "INSERT OR REPLACE INTO proposal VALUES (?, ?, ?, ?, ?)",
-            (proposal.match, proposal.player, score, proposal.phone, proposal.at),
-        )
-        base.execute("COMMIT")
-
-
-def proposals(path: str | Path) -> list[Proposal]:
-    """Return all proposed results, in the order in which they came in."""
-    with opened(path) as base:
-        if not has_table(base, "proposal"):
-            return []
-        rows = base.execute(
-            "SELECT game, player, score, phone, at FROM proposal ORDER BY rowid"
-        ).fetchall()
-    return [
-        Proposal(name, who, json.loads(score), phone, at) for name, who, score, phone, at in rows
-    ]
-
-
-def forget_proposals(path: str | Path, match: str) -> None:
-    """Forget what was proposed for a match; its result has been entered."""
-    with opened(path) as base:
-        base.execute("DELETE FROM proposal WHERE game = ?", (match,))
 
 
 def keep_prizes(path: str | Path, money: PrizeMoney) -> None:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.evening_file import TOURNAMENT, at_once, begun, has_table, opened
+from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
 
@@ -68,7 +69,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     with begun(path) as base:
         if _count(base) != in_place_of:
             raise DataError([f"{path} is there already; give the new tournament another name"])
-        for table in (TOURNAMENT, "author", "proposal", "prize", "once"):
+        for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         _write(base, 0, events)

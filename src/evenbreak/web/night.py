@@ -20,6 +20,7 @@ from typing import Any
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
 from evenbreak.errors import InputError
 from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
+from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.events import Event
@@ -200,7 +201,7 @@ def mark_of(path: Path) -> tuple[int, int, int]:
 
 
 def version_of(path: Path) -> int:
-    """Return a number that changes with every event and proposal; 0 if there is no file yet."""
+    """Return a number that changes with every event and tap of a phone; 0: there is no file yet."""
     if not path.exists():
         return 0
     try:
@@ -211,9 +212,9 @@ def version_of(path: Path) -> int:
         there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
         asked = [f"SELECT COALESCE(MAX(number), 0) FROM {table}" for table in there]  # noqa: S608
         events = sum(int(base.execute(one).fetchone()[0]) for one in asked)
-        last = "SELECT COALESCE(MAX(rowid), 0) FROM proposal"
-        sent = int(base.execute(last).fetchone()[0]) if has_table(base, "proposal") else 0
-        return (events << 20) + sent  # proposals are forgotten as soon as an event comes of them
+        last = f"SELECT COALESCE(MAX(number), 0) FROM {PHONES}"  # noqa: S608
+        sent = int(base.execute(last).fetchone()[0]) if has_table(base, PHONES) else 0
+        return (events << 20) + sent
     except sqlite3.Error:
         return 0
     finally:

@@ -23,7 +23,7 @@ from evenbreak.answers.tournament_moves import (
     tie_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
-from evenbreak.files.tournament_desk import proposals
+from evenbreak.files.match_phones import phone_entries, sides_between
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Result, What
@@ -60,7 +60,7 @@ async def desk(request: Request) -> Response:
     shown: dict[str, Any] = {
         "view": view_of(state, known),
         "decided": [],
-        "proposed": [],
+        "sides": {},
         "warnings": [],
         "tied": [],
         "drawable": False,
@@ -70,9 +70,12 @@ async def desk(request: Request) -> Response:
     if state.drawn:
         entered = [one.what.match for one in state.events if isinstance(one.what, Result)]
         shown["decided"] = [one for one in dict.fromkeys(entered[::-1]) if one in state.counted]
-        ready = {name: set(state.pair(name)) for name in state.standing.to_play}
-        found = await asyncio.to_thread(proposals, site.path)
-        shown["proposed"] = [p for p in found if ready.get(p.match) == set(p.score)]
+        sent = await asyncio.to_thread(phone_entries, site.path)
+        shown["sides"] = {
+            name: sides_between((one for one in sent if one.match == name), state.pair(name))
+            for name in dict.fromkeys(one.match for one in sent)
+            if name in state.standing.to_play
+        }
         shown["tied"] = tied_groups(state)
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows

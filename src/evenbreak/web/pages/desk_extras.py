@@ -14,11 +14,13 @@ from starlette.routing import Route
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.tournament_moves import event_words
 from evenbreak.answers.tournament_under_way import time_under_way
+from evenbreak.files.match_phones import ENTERED, phone_entries
 from evenbreak.files.tournament_desk import authors, back_up
 from evenbreak.files.tournament_store import read_events
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import answer_shown, done, language, page, site_of
+from evenbreak.web.pages.match import phone_label, phone_words
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import DIRECTOR, check_director, form_token
 from evenbreak.web.words import say
@@ -70,15 +72,23 @@ async def history(request: Request) -> Response:
     found = await asyncio.to_thread(read_events, path)
     by = await asyncio.to_thread(authors, path)
     rows = [
-        (
-            number,
-            f"{datetime.fromisoformat(one.at):%H:%M:%S}",
-            event_words(one.what),
-            by.get(number, ""),
-        )
+        (one.at, str(number), event_words(one.what), by.get(number, ""))
         for number, one in enumerate(found, 1)
     ]
-    return page(request, "history.html", rows=rows[::-1])
+    rows += [
+        (one.at, "", phone_words(request, one), phone_label(request, one))
+        for one in await asyncio.to_thread(phone_entries, path)
+        if one.kind != ENTERED  # it is among the events
+    ]
+    rows.sort(key=lambda row: row[0])
+    return page(
+        request,
+        "history.html",
+        rows=[
+            (number, f"{datetime.fromisoformat(at):%H:%M:%S}", *row)
+            for at, number, *row in rows[::-1]
+        ],
+    )
 
 
 async def codes(request: Request) -> Response:

@@ -1,9 +1,14 @@
-"""A match by its own QR code: both players tap games, and propose the result."""
+"""A match by its own QR code: both players tap games, and propose the result.
+
+A side belongs to the first phone that claims it, until the director sets it free. What both sides
+propose counts by itself only if they came from different addresses: a second tab of one phone is a
+session of its own, but it comes from where the phone is.
+"""
 
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 from scipy.special import betainc
@@ -11,7 +16,17 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.files.tournament_desk import Proposal, forget_proposals, proposals, propose
+from evenbreak.files.match_phones import (
+    CLAIMED,
+    ENTERED,
+    PROPOSED,
+    RELEASED,
+    Entry,
+    Sides,
+    enter,
+    phone_entries,
+    sides_between,
+)
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result, Scored
@@ -21,10 +36,8 @@ from evenbreak.web.forms import form_of
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import phone_of
+from evenbreak.web.sessions import address_of, check_director, phone_of
 from evenbreak.web.words import say
-
-_ME = "me"
 
 
 async def match(request: Request) -> Response:
@@ -32,7 +45,8 @@ async def match(request: Request) -> Response:
     name, state = await _match(request)
     shown: dict[str, Any] = {"name": name, "token": request.path_params["token"]}
     if name not in state.standing.to_play:
-        result, mine = state.counted.get(name), _me(request, name)
+        result = state.counted.get(name)
+        mine = (await _sides(request, name, result.players)).of(phone_of(request)) if result else ""
         known = await site_of(request).night.outlook()
         views = player_views(state, known)
         whose = [mine] if mine else list(result.players) if result else []
@@ -44,13 +58,12 @@ async def match(request: Request) -> Response:
     seats = [state.order.index(player) for player in one.players]
     skill = state.ratings[seats[0]] - state.ratings[seats[1]]
     p_game = float(state.scale.win_probability(skill))
-    found = await asyncio.to_thread(_proposed, site_of(request).path, name, one.players)
-    mine = _me(request, name)
+    sides = await _sides(request, name, one.players)
     shown |= {
         "one": one,
         "odds": _odds(one, p_game),
-        "me": mine,
-        "proposed": found,
+        "me": sides.of(phone_of(request)),
+        "sides": sides,
     }
     return page(request, "match.html", live=True, **shown)
 
@@ -70,9 +83,27 @@ async def be(request: Request) -> Response:
     """Keep which of the two players holds this phone."""
     name, state = await _match(request)
     form = await form_of(request)
+    _count_tap(request, name)
     pair = state.pair(name)
-    request.session[_ME] = {name: pair[form.whole("me", 0, 1)]}
+    await asyncio.to_thread(_claim, request, name, pair, pair[form.whole("me", 0, 1)])
     return done(request, f"/m/{request.path_params['token']}")
+
+
+async def release(request: Request) -> Response:
+    """Set a player's side free, for another phone to claim it."""
+    name, state = await _match(request)
+    form = await form_of(request)
+    check_director(request)
+    site, pair = site_of(request), state.pair(name)
+    player = pair[form.whole("me", 0, 1)]
+
+    def decide(sides: Sides) -> Entry | None:
+        claimed = player in sides.claims or player in sides.proposed
+        return Entry(site.clock(), name, RELEASED, player) if claimed else None
+
+    await asyncio.to_thread(enter, site.path, name, pair, decide)
+    said = say(language(request), "side_released", name=player)
+    return done(request, f"/m/{request.path_params['token']}", said)
 
 
 async def tap(request: Request) -> Response:
@@ -80,21 +111,21 @@ async def tap(request: Request) -> Response:
     name, state = await _match(request)
     form = await form_of(request)
     site, to = site_of(request), f"/m/{request.path_params['token']}"
-    if site.taps.full(name):
-        raise RefusalError("refused_taps", status=429)
-    site.taps.count(name)
+    _count_tap(request, name)
     if name not in state.standing.to_play:
         raise RefusalError("refused_over", status=409, match=name)
     pair, needs = state.pair(name), state.needed(name, state.pair(name))
     if (form.text("player_a"), form.text("player_b")) != pair:
         raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
-    if form.text("me") and not _me(request, name):
-        request.session[_ME] = {name: pair[form.whole("me", 0, 1)]}
+    me = (await _sides(request, name, pair)).of(phone_of(request))
+    if form.text("me") and not me:
+        me = pair[form.whole("me", 0, 1)]
+        await asyncio.to_thread(_claim, request, name, pair, me)
     if score[0] == needs[0] or score[1] == needs[1]:
-        said = await asyncio.to_thread(_propose, request, name, pair, score, _me(request, name))
+        said = await asyncio.to_thread(_propose, request, name, pair, score)
         return done(request, to, said)
-    at, by = site.clock(), f"phone: {_me(request, name) or name}"
+    at, by = site.clock(), f"phone: {me or name}"
 
     def decide(now: Evening) -> list[Event]:
         found: Scored = moves.score(now, name, score)
@@ -106,40 +137,71 @@ async def tap(request: Request) -> Response:
     return done(request, to)
 
 
-def _propose(
-    request: Request, name: str, pair: tuple[str, str], score: tuple[int, int], me: str
-) -> str:
-    """Keep a proposed result, and enter it if the opponent proposed the same."""
+def _count_tap(request: Request, name: str) -> None:
+    taps = site_of(request).taps
+    if taps.full(name):
+        raise RefusalError("refused_taps", status=429)
+    taps.count(name)
+
+
+def _claim(request: Request, name: str, pair: tuple[str, str], player: str) -> None:
+    """Keep that this phone is a player's, unless another one is."""
+    site, phone = site_of(request), phone_of(request)
+
+    def decide(sides: Sides) -> Entry | None:
+        holder = sides.claims.get(player)
+        if holder is None:
+            at = site.clock()
+            return Entry(at, name, CLAIMED, player, phone=phone, address=address_of(request))
+        if holder.phone != phone:
+            raise RefusalError("refused_claimed", status=409, name=player)
+        return None
+
+    enter(site.path, name, pair, decide)
+
+
+def _propose(request: Request, name: str, pair: tuple[str, str], score: tuple[int, int]) -> str:
+    """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
     site, code = site_of(request), language(request)
+    phone, address = phone_of(request), address_of(request)
+    moves.result(site.night.state(), name, score)  # refuses what cannot be a result
+    games = dict(zip(pair, score, strict=True))
+
+    def decide(sides: Sides) -> Entry | None:
+        me = sides.of(phone)
+        if not me:
+            return None
+        entry = Entry(site.clock(), name, PROPOSED, me, games, phone, address)
+        last = sides.proposed.get(me)
+        return None if last and replace(last, at=entry.at) == entry else entry
+
+    sides = enter(site.path, name, pair, decide)
+    me = sides.of(phone)
     if not me:
         return say(code, "refused_who")
-    state = site.night.state()
-    moves.result(state, name, score)  # refuses what cannot be a result
-    games = dict(zip(pair, score, strict=True))
-    phone = phone_of(request)
-    propose(site.path, Proposal(name, me, games, phone, site.clock()))
-    others = [p for p in _proposed(site.path, name, pair) if p.player != me and p.phone != phone]
     if _entered(site.night.state(), name, games):  # the other phone was faster
         return say(code, "result_entered", match=name)
-    if not others:
+    if len(sides.proposed) < len(pair):
         return say(code, "proposed_wait", other=pair[pair[0] == me])
-    if any(dict(p.score) != games for p in others):
+    if not sides.agree:
         return say(code, "proposed_differ")
+    if not sides.apart:
+        return say(code, "proposed_alike")
 
-    def decide(now: Evening) -> list[Event]:
+    def settle(now: Evening) -> list[Event]:
         if _entered(now, name, games):
             return []
         found: Result = moves.result(now, name, score)
         return [Event(site.clock(), found)]
 
-    add_events(site.path, decide, by=f"phones: {' and '.join(pair)}")
-    forget_proposals(site.path, name)
+    add_events(site.path, settle, by=f"phones: {' and '.join(pair)}")
+    enter(site.path, name, pair, lambda _: Entry(site.clock(), name, ENTERED))
     return say(code, "result_entered", match=name)
 
 
-def _proposed(path: Path, name: str, pair: tuple[str, str]) -> list[Proposal]:
-    """Return what was proposed for a match by the two who play it now."""
-    return [p for p in proposals(path) if p.match == name and set(p.score) == set(pair)]
+async def _sides(request: Request, name: str, pair: tuple[str, str]) -> Sides:
+    entries = await asyncio.to_thread(phone_entries, site_of(request).path, name)
+    return sides_between(entries, pair)
 
 
 def _entered(state: Evening, name: str, games: dict[str, int]) -> bool:
@@ -161,13 +223,24 @@ async def _match(request: Request) -> tuple[str, Evening]:
     return name, state
 
 
-def _me(request: Request, name: str) -> str:
-    kept = request.session.get(_ME)
-    return str(kept.get(name, "")) if isinstance(kept, dict) else ""
+def phone_words(request: Request, entry: Entry) -> str:
+    """Return what a phone did, for the history."""
+    key = {CLAIMED: "phone_claimed", RELEASED: "phone_released"}.get(entry.kind, "phone_proposed")
+    score = ", ".join(f"{name} {games}" for name, games in entry.score.items())
+    return say(language(request), key, match=entry.match, name=entry.player, score=score)
+
+
+def phone_label(request: Request, entry: Entry) -> str:
+    """Return which phone did it, for the history; the director has none."""
+    if not entry.phone:
+        return "director's page"
+    label = f"{entry.phone[:4]} {entry.address}".strip()
+    return say(language(request), "phone_label", label=label)
 
 
 ROUTES = [
     Route("/m/{token}", match, methods=["GET"]),
     Route("/m/{token}/me", be, methods=["POST"]),
+    Route("/m/{token}/release", release, methods=["POST"]),
     Route("/m/{token}/score", tap, methods=["POST"]),
 ]

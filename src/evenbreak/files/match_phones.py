@@ -1,0 +1,172 @@
+"""What phones did in a match: who claimed which side, who proposed which result; a log.
+
+Entries are only ever added, in a table beside the events. Who holds a side, and what is proposed
+now, are a fold of them.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from evenbreak.files.evening_file import at_once, has_table, opened
+
+CLAIMED, RELEASED, PROPOSED, ENTERED = "claimed", "released", "proposed", "entered"
+TABLE = "phone"
+
+_TABLE = f"""
+CREATE TABLE IF NOT EXISTS {TABLE} (
+    number INTEGER PRIMARY KEY, at TEXT NOT NULL, game TEXT NOT NULL, kind TEXT NOT NULL,
+    player TEXT NOT NULL, score TEXT NOT NULL, phone TEXT NOT NULL, address TEXT NOT NULL
+)
+"""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Something that a phone did in a match.
+
+    Parameters
+    ----------
+    at
+        when, such as 2025-03-01T19:30:00.
+    match
+        its name.
+    kind
+        claimed: the phone said that it is this player's; released: the director set the side free;
+        proposed: the player sent a result; entered: what was proposed is the result now.
+    player
+        whose side it is; '' for `entered`.
+    score
+        the games of each player by name, of a proposal.
+    phone, address
+        the session, and where it came from.
+    """
+
+    at: str
+    match: str
+    kind: str
+    player: str = ""
+    score: Mapping[str, int] = field(default_factory=dict)
+    phone: str = ""
+    address: str = ""
+
+
+class Sides:
+    """Who holds the sides of a match, and what they propose.
+
+    >>> ann = Entry("19:30", "F", CLAIMED, "Ann", phone="x", address="10.0.0.7")
+    >>> bo = Entry("19:31", "F", CLAIMED, "Bo", phone="y", address="10.0.0.8")
+    >>> sides = Sides([ann, bo])
+    >>> sides.of("x"), sides.apart
+    ('Ann', True)
+    >>> Sides([ann, bo, Entry("19:32", "F", RELEASED, "Ann")]).of("x")
+    ''
+    """
+
+    def __init__(self, entries: Iterable[Entry]) -> None:
+        self.claims: dict[str, Entry] = {}
+        self.proposed: dict[str, Entry] = {}
+        for entry in entries:
+            self._add(entry)
+
+    def _add(self, entry: Entry) -> None:
+        match entry.kind:
+            case "claimed":  # a phone holds one side; what it proposed for the other is void
+                self._free(self.of(entry.phone))
+                self.claims[entry.player] = entry
+            case "released":
+                self._free(entry.player)
+            case "proposed":
+                self.proposed[entry.player] = entry
+            case _:
+                self.proposed.clear()
+
+    def _free(self, player: str) -> None:
+        self.claims.pop(player, None)
+        self.proposed.pop(player, None)
+
+    def of(self, phone: str) -> str:
+        """Return whose side a phone holds; '' if none."""
+        return next((who for who, claim in self.claims.items() if claim.phone == phone), "")
+
+    @property
+    def agree(self) -> bool:
+        """Whether both players propose one result."""
+        scores = [dict(entry.score) for entry in self.proposed.values()]
+        return len(scores) == 2 and scores[0] == scores[1]
+
+    @property
+    def apart(self) -> bool:
+        """Whether the two sides are held by different phones at different addresses."""
+        used: list[set[str]] = [
+            {entry.address for entry in (claim, self.proposed.get(who)) if entry}
+            for who, claim in self.claims.items()
+        ]
+        return len(used) == 2 and not used[0] & used[1]
+
+
+def enter(
+    path: str | Path, match: str, pair: Iterable[str], decide: Callable[[Sides], Entry | None]
+) -> Sides:
+    """Add what a phone does to the log, and return the sides of its match after that.
+
+    Parameters
+    ----------
+    path
+        the file of the tournament.
+    match
+        its name.
+    pair
+        who play it now.
+    decide
+        returns the entry, given the sides as they are; None: nothing is new. Nobody else can add
+        any in the meantime.
+    """
+    with opened(path) as base, at_once(base):
+        entries = _read(base, match)
+        sides = sides_between(entries, pair)
+        entry = decide(sides)
+        if entry is None:
+            return sides
+        base.execute(_TABLE)
+        values = entry.at, entry.match, entry.kind, entry.player, json.dumps(dict(entry.score))
+        base.execute(
+            f"INSERT INTO {TABLE} VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)",  # noqa: S608
+            (*values, entry.phone, entry.address),
+        )
+        return sides_between([*entries, entry], pair)
+
+
+def phone_entries(path: str | Path, match: str | None = None) -> list[Entry]:
+    """Return what phones did in a match, or in all, in the order in which it came in."""
+    with opened(path) as base:
+        return _read(base, match)
+
+
+def sides_between(entries: Iterable[Entry], pair: Iterable[str]) -> Sides:
+    """Return the sides of a match, without what others did who were in it before."""
+    players = set(pair)
+    return Sides(
+        entry
+        for entry in entries
+        if (not entry.player or entry.player in players)
+        and (entry.kind != PROPOSED or set(entry.score) == players)
+    )
+
+
+def _read(base: sqlite3.Connection, match: str | None) -> list[Entry]:
+    """Return the entries of a match, or of all, those that 0.2.0 kept first."""
+    entries: list[Entry] = []
+    if has_table(base, "proposal"):
+        rows = base.execute("SELECT at, game, player, score, phone FROM proposal ORDER BY rowid")
+        for at, game, player, score, phone in rows:
+            entries.append(Entry(at, game, PROPOSED, player, json.loads(score), phone))
+    if has_table(base, TABLE):
+        asked = f"SELECT at, game, kind, player, score, phone, address FROM {TABLE}"  # noqa: S608
+        for at, game, kind, player, score, *whence in base.execute(f"{asked} ORDER BY number"):
+            entries.append(Entry(at, game, kind, player, json.loads(score), *whence))
+    return [entry for entry in entries if match in (None, entry.match)]
