@@ -5,10 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.files.evening_file import opened
+from evenbreak.files.match_phones import PROPOSED, phone_entries
 from evenbreak.files.saved_ratings import read_saved
 from evenbreak.files.several_results import read_seasons
 from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_desk import authors, kept_prizes, proposals
+from evenbreak.files.tournament_desk import authors, kept_prizes
 from evenbreak.files.tournament_store import read_events, read_tournament
 from evenbreak.ratings.scale import SCALES
 from evenbreak.teams.evening.fold import team_evening
@@ -47,7 +48,11 @@ def tournament(path: Path) -> dict[str, Any]:
         "times": [event.at for event in read_events(path)],
         **_beside(path),
         "authors": list(authors(path).values()),
-        "proposals": [[*map(str, (one.match, one.player, one.score))] for one in proposals(path)],
+        "proposals": [
+            [*map(str, (one.match, one.player, one.score))]
+            for one in phone_entries(path)
+            if one.kind == PROPOSED
+        ],
         "prizes": kept_prizes(path),
     }
 
