@@ -31,7 +31,7 @@ extensions = [
     "sphinx.ext.napoleon",
 ]
 exclude_patterns = ["_build", "images"]
-myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "html_image"]
 myst_heading_anchors = 3
 
 # The notebooks run at each build, in their own folder; an error in one is an error of the build.
@@ -145,6 +145,16 @@ def write_rooms(app, docname, source) -> None:  # noqa: ARG001
     source[0] = ROOM.sub(lambda found: listed(found[1]), source[0])
 
 
+LISTED = re.compile(r"^- \[[^]]+\]\(([^)#]+)\.md\)", re.MULTILINE)
+
+
+def write_tree(app, docname, source) -> None:  # noqa: ARG001
+    """Make the list of links in an index, which a Git host shows as well, a table of contents."""
+    if docname.endswith("index") and "{toctree}" not in source[0]:
+        pages = "\n".join(LISTED.findall(source[0]))
+        source[0] += f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
+
+
 COMMAND = re.compile(r"^## evenbreak (\w+)\n", re.MULTILINE)
 
 
@@ -239,6 +249,7 @@ def setup(app) -> None:
     app.connect("builder-inited", write_modules)
     app.connect("doctree-resolved", number_equations)
     app.connect("source-read", write_rooms)
+    app.connect("source-read", write_tree)
     app.connect("source-read", write_help)
     app.connect("html-page-context", narrow)
     app.connect("autodoc-process-signature", shorten)

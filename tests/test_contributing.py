@@ -10,12 +10,15 @@ from typing import NamedTuple
 
 import pytest
 
-from places import ROOT
+from places import ROOT, SRC
+from test_layers import LAYERS
 
 PAGE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+WHERE = re.findall(r"^## Where things are\n(.*?)^## ", PAGE, re.MULTILINE | re.DOTALL)[0]
 SECTIONS = dict(re.findall(r"^## (Add .*?)\n(.*?)(?=^## |\Z)", PAGE, re.MULTILINE | re.DOTALL))
 NEW_FILE = re.compile(r"`(src/[^`]+)`:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 EDIT = re.compile(r"^```diff\n\+\+\+ (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+PLACE = re.compile(r"`(\w+[/.][^`]*)`")
 RUN = re.compile(r"`python -m pytest ([^`]+)`")
 
 NEW = ("ghost", "example_7", "shutout")
@@ -102,6 +105,24 @@ def followed(tmp_path_factory: pytest.TempPathFactory) -> Followed:
     asked |= {"tests/test_lazy.py", "tests/test_layers.py"}
     chosen = " or ".join(f"({words})" for words in (*NEW, *OLD))
     return Followed(checkout, new, checkout.passes(*sorted(asked), "-k", chosen))
+
+
+def test_the_map_has_every_room_in_the_order_of_its_layers() -> None:
+    drawn = "".join(re.findall(r"^    (.*)\n", WHERE, re.MULTILINE))
+    for room, inner in re.findall(r"(\w+) \((.*?)\)", drawn):
+        rows = [f"{room}.{part}" for part in inner.split(" -> ")]
+        drawn = drawn.replace(f"{room} ({inner})", " -> ".join((*rows, room)))
+    rows = [{*re.findall(r"[\w.]+", row)} for row in drawn.split("->")]
+    assert rows == [{*row} for row in LAYERS if row != ("__main__",)]
+
+
+def test_every_room_is_among_what_there_is_to_change() -> None:
+    named = {name for row in re.findall(r"^\| .* \|$", WHERE, re.M) for name in PLACE.findall(row)}
+    assert {
+        name for name in named if not any((top / name).exists() for top in (SRC, ROOT))
+    } == set()
+    rooms = {inner.parent.name for inner in SRC.glob("*/__init__.py")}
+    assert rooms - {name.split("/")[0] for name in named} == set()
 
 
 def test_the_page_has_a_section_for_each_kind() -> None:

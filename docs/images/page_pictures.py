@@ -1,5 +1,7 @@
 """Make the pictures of the page: an evening on it, in a real browser, from the start to a result.
 
+The first picture of all, the README's, shows the demo's evening on a phone and on the wall.
+
 python docs/images/page_pictures.py
 
 It needs the extra `browser` and Chromium. One computer makes the same bytes each time; another
@@ -8,6 +10,7 @@ may have other fonts, so that these pictures, unlike those beside them, are not 
 
 from __future__ import annotations
 
+import base64
 import io
 import os
 import shutil
@@ -17,12 +20,14 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
+from evenbreak.files.demo import write_demo_evening
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
@@ -32,7 +37,18 @@ PLAYERS = 7
 CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
 PHONE = {"width": 390, "height": 844}
 WALL = {"width": 1280, "height": 720}
+BIG_WALL = {"width": 1920, "height": 1080}
 COLOURS = 128
+BOTH = """<!doctype html>
+<style>
+  body {{ align-items: center; display: flex; gap: 40px; margin: 0; padding: 24px; width: 1712px }}
+  img {{ background: #fff; border: 14px solid #22262b; border-radius: 14px }}
+  img + img {{ border-radius: 40px; width: 400px }}
+  img:first-child {{ width: 1216px }}
+</style>
+<img src="data:image/png;base64,{}"><img src="data:image/png;base64,{}">
+"""
+"""The wall and a phone beside it, 1760 points wide."""
 
 
 class Clock:
@@ -62,15 +78,20 @@ def served(path: Path, clock: Clock) -> Iterator[Site]:
     thread.join(10)
 
 
-def kept(page: Any, file: Path, *, first: str = "", last: str = "") -> None:
-    """Keep a picture of the page, from the top or an element `first` to the end of `last`."""
+def shot(page: Any, *, first: str = "", last: str = "") -> bytes:
+    """Return a picture of the page, from the top or an element `first` to the end of `last`."""
     page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
     ends = [page.locator(one).first.bounding_box() for one in (first, last) if one]
     width, height = page.viewport_size["width"], page.viewport_size["height"]
     top = ends[0]["y"] - 7 if first else 0.0
     bottom = ends[-1]["y"] + ends[-1]["height"] + 7 if last else top + height
     clip = {"x": 0, "y": top, "width": width, "height": bottom - top}
-    drawn = Image.open(io.BytesIO(page.screenshot(full_page=True, clip=clip)))
+    return page.screenshot(full_page=True, clip=clip)
+
+
+def kept(picture: bytes, file: Path) -> None:
+    """Keep a picture with few colors, which makes it small."""
+    drawn = Image.open(io.BytesIO(picture))
     small = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
     small.save(file, optimize=True)
 
@@ -122,29 +143,29 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     for name, value in (("race", "5"), ("losers_race", "4"), ("tables", "2")):
         desk.fill(f"[name={name}]", value)
     desk.select_option("[name=seeding]", label="Seeded by rating")
-    kept(desk, folder / "begin.png", first="h1", last="label:has([name=losers_race])")
+    kept(shot(desk, first="h1", last="label:has([name=losers_race])"), folder / "begin.png")
     press(desk, desk.get_by_role("button", name="Begin", exact=True))
     clock.at = "19:00"
     press(desk, desk.get_by_role("button", name="Make the draw"))
     settled(desk, site, "/desk")
-    kept(desk, folder / "call.png", first="h1", last="details.card")
+    kept(shot(desk, first="h1", last="details.card"), folder / "call.png")
 
     clock.at = "19:05"
     call_all(desk, site)
     clock.at = "19:40"
     enter = result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (5, 4))
-    kept(desk, folder / "result.png", first="h2", last="section.card")
+    kept(shot(desk, first="h2", last="section.card"), folder / "result.png")
     press(desk, enter)
-    kept(desk, folder / "said.png", first=".said", last=".said")
+    kept(shot(desk, first=".said", last=".said"), folder / "said.png")
     call_all(desk, site)
     settled(desk, site, "/")
-    kept(desk, folder / "tonight.png", first="h1", last="main")
+    kept(shot(desk, first="h1", last="main"), folder / "tonight.png")
 
     player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
     player.goto(f"{site.address}/m/{site.match_token('W1.4')}")
     for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
         press(player, player.get_by_role("button", name=f"Game for {name}"))
-    kept(player, folder / "match.png", first="h1", last="main form[action$=me]")
+    kept(shot(player, first="h1", last="main form[action$=me]"), folder / "match.png")
 
     clock.at = "20:15"
     desk.goto(f"{site.address}/desk")
@@ -153,26 +174,43 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     desk.goto(f"{site.address}/desk")
     desk.get_by_text("Correct a result").click()
     press(desk, result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5)))
-    kept(desk, folder / "correct.png", first="h1", last="main form")
+    kept(shot(desk, first="h1", last="main form"), folder / "correct.png")
     press(desk, desk.get_by_role("button", name="Yes, do it"))
     settled(desk, site, "/desk")
     press(desk, desk.get_by_role("button", name="Undo the last entry"))
 
     wall = browser.new_context(viewport=WALL).new_page()
     settled(wall, site, "/screen")
-    kept(wall, folder / "screen.png", last="h2:has-text('Who wins') + *")
+    kept(shot(wall, last="h2:has-text('Who wins') + *"), folder / "screen.png")
+
+
+def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
+    """Show the demo's evening on the wall, and one of its matches on a phone beside it."""
+    clock.at = "18:00"
+    state = write_demo_evening(path, datetime.fromisoformat(clock()))
+    with served(path, clock) as site:
+        wall = browser.new_context(viewport=BIG_WALL).new_page()
+        settled(wall, site, "/screen")
+        phone = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
+        first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
+        phone.goto(f"{site.address}/m/{site.match_token(first)}")
+        pictures = (
+            shot(wall, last="h2:has-text('Who wins') + *"),
+            shot(phone, first="h1", last="h2:has-text('The chances') + p + p"),
+        )
+    both = browser.new_page()
+    both.set_content(BOTH.format(*(base64.b64encode(one).decode() for one in pictures)))
+    kept(both.locator("body").screenshot(), file)
 
 
 def main() -> None:
-    """Write the pictures into `page/`."""
+    """Write `front_page.png`, and the pictures of the tutorial into `page/`."""
     clock = Clock()
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        served(Path(folder, "tonight.db"), clock) as site,
-        sync_playwright() as play,
-    ):
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as play:
         browser = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        story(browser, site, clock, HERE / "page")
+        with served(Path(folder, "tonight.db"), clock) as site:
+            story(browser, site, clock, HERE / "page")
+        front_page(browser, Path(folder, "demo.db"), clock, HERE / "front_page.png")
         browser.close()
 
 
