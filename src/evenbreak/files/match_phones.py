@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from evenbreak.files.evening_file import at_once, has_table, opened
+from evenbreak.files.evening_file import changing, has_table, opened
 
 CLAIMED, RELEASED, PROPOSED, ENTERED = "claimed", "released", "proposed", "entered"
 TABLE = "phone"
@@ -126,7 +126,7 @@ def enter(
         returns the entry, given the sides as they are; None: nothing is new. Nobody else can add
         any in the meantime.
     """
-    with opened(path) as base, at_once(base):
+    with changing(path) as base:
         entries = _read(base, match)
         sides = sides_between(entries, pair)
         entry = decide(sides)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.evening_file import TEAM_NIGHT, begun, has_table, is_there, opened
+from evenbreak.files.evening_file import TEAM_NIGHT, begin, has_table, is_there, opened
 from evenbreak.teams.evening.events import NAMES, Event, What, as_dict, event_of
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 
@@ -82,7 +82,8 @@ def add_team_events(
     ...     state.teams, added, len(read_team_events(file))
     (('Racks', 'Cues'), False, 1)
     """
-    with begun(path) as base:
+
+    def write(base: sqlite3.Connection) -> tuple[TeamEvening | None, bool]:
         base.execute(_TABLE)
         earlier = _events(base, path)
         before = _state(earlier, path)
@@ -105,7 +106,9 @@ def add_team_events(
                 for number, one in enumerate(added, len(earlier) + 1)
             ],
         )
-    return after, bool(added)
+        return after, bool(added)
+
+    return begin(path, write)
 
 
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:

@@ -5,20 +5,18 @@ from __future__ import annotations
 import secrets
 import sqlite3
 from collections.abc import Mapping
-from contextlib import suppress
 from datetime import datetime
-from itertools import count
 from pathlib import Path
 
-from evenbreak.files.evening_file import has_table, opened
+from evenbreak.files.evening_file import changing, copied, has_table, opened
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 
-_TABLES = """
-CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL);
+_SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
+_PRIZES = """
 CREATE TABLE IF NOT EXISTS prize (
     one INTEGER PRIMARY KEY CHECK (one = 1), fee REAL NOT NULL, added REAL NOT NULL,
     house REAL NOT NULL, payout TEXT NOT NULL
-);
+)
 """
 
 
@@ -33,19 +31,26 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
         a secret for each name, for the first time.
     """
     with opened(path) as base:
-        _begin(base)
-        base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
-        found = dict(base.execute("SELECT name, value FROM secret").fetchall())
-        base.execute("COMMIT")
+        found = _secrets(base)
+    if not first.keys() <= found.keys():
+        with changing(path) as base:
+            base.execute(_SECRETS)
+            base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
+            found = _secrets(base)
     return found
+
+
+def _secrets(base: sqlite3.Connection) -> dict[str, str]:
+    if not has_table(base, "secret"):
+        return {}
+    return dict(base.execute("SELECT name, value FROM secret").fetchall())
 
 
 def change_secrets(path: str | Path, to: Mapping[str, str]) -> None:
     """Keep other secrets of a tournament instead of those that have these names."""
-    with opened(path) as base:
-        _begin(base)
+    with changing(path) as base:
+        base.execute(_SECRETS)
         base.executemany("INSERT OR REPLACE INTO secret VALUES (?, ?)", list(to.items()))
-        base.execute("COMMIT")
 
 
 def new_pin() -> str:
@@ -55,11 +60,10 @@ def new_pin() -> str:
 
 def keep_prizes(path: str | Path, money: PrizeMoney) -> None:
     """Keep the prize money of a tournament, instead of what was kept before."""
-    with opened(path) as base:
-        _begin(base)
+    with changing(path) as base:
+        base.execute(_PRIZES)
         row = 1, money.fee, money.added, money.house, money.payout
         base.execute("INSERT OR REPLACE INTO prize VALUES (?, ?, ?, ?, ?)", row)
-        base.execute("COMMIT")
 
 
 def kept_prizes(path: str | Path) -> PrizeMoney | None:
@@ -84,24 +88,4 @@ def back_up(path: str | Path, now: datetime) -> Path:
 
     What bears that name is a whole copy, even if the program ends while it is written.
     """
-    place = Path(path)
-    part = place.with_name(f".{place.stem}-{secrets.token_hex(4)}.part")
-    with opened(place) as base:
-        base.execute("VACUUM INTO ?", (str(part),))
-    return part.replace(_new_name(place, f"{now:%Y%m%d-%H%M%S}"))
-
-
-def _new_name(place: Path, at: str) -> Path:
-    """Reserve a name for a copy made at some time; others may have been made in that second."""
-    for k in count(1):
-        again = f"-{k}" if k > 1 else ""
-        copy = place.with_name(f"{place.stem}-{at}{again}.backup.db")
-        with suppress(FileExistsError):
-            copy.touch(exist_ok=False)
-            break
-    return copy
-
-
-def _begin(base: sqlite3.Connection) -> None:
-    base.executescript(_TABLES)
-    base.execute("BEGIN IMMEDIATE")
+    return copied(path, f"{now:%Y%m%d-%H%M%S}")

@@ -13,7 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.evening_file import TOURNAMENT, at_once, begun, has_table, opened
+from evenbreak.files.evening_file import TOURNAMENT, begin, changing, has_table, opened
 from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
@@ -65,14 +65,18 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     ...     list(read_tournament(file).entrants)
     ['Ann']
     """
-    state = evening(events)
-    with begun(path) as base:
+    state = _shown(evening(events))
+
+    def write(base: sqlite3.Connection) -> None:
         if _count(base) != in_place_of:
-            raise DataError([f"{path} is there already; give the new tournament another name"])
+            name = Path(path).name
+            raise DataError([f"{name} is there already; give the new tournament another name"])
         for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         _write(base, 0, events)
+
+    begin(path, write)
     return state
 
 
@@ -128,21 +132,26 @@ def add_events(
     DataError
         if the file is not that of a tournament, or cannot be read or written.
     """
-    with opened(path) as base, at_once(base):
+    with changing(path) as base:
         if form:
             _refuse_taken(base, form)
         earlier = _events(base, path)
         before = _state(earlier, path)
         added = list(decide(before))
-        after = evening([*earlier, *added])
-        if after.drawn:
-            _ = after.standing  # a state that cannot be shown is never written
+        after = _shown(evening([*earlier, *added]))
         _write(base, len(earlier), added)
         if by:
             _sign(base, len(earlier), len(added), by)
         if form:
             base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
     return before, after
+
+
+def _shown(state: Evening) -> Evening:
+    """Return a state; one that cannot be shown is never written."""
+    if state.drawn:
+        _ = state.standing
+    return state
 
 
 def _count(base: sqlite3.Connection) -> int:

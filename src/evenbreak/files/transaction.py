@@ -68,9 +68,9 @@ def change(folder: Path, entries: Tree) -> None:
         for number, content in enumerate(entries.values()):
             _stage(work / f"new-{number}", content)
         if len(entries) == 1:
-            _sync(work)
+            sync(work)
             (work / "new-0").replace(folder / next(iter(entries)))
-            _sync(folder)
+            sync(folder)
         elif entries:
             _put_in_place(folder, _keep_old(folder, entries))
     finally:
@@ -117,8 +117,8 @@ def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
         digest = hashlib.sha256(content if isinstance(content, bytes) else b"").hexdigest()
         changes.append({"name": name, "sha256": digest, "existed": existed})
     _write(work / _UNFINISHED_JOURNAL, json.dumps(changes, indent=1).encode())
-    _sync(work)
-    _sync(folder)
+    sync(work)
+    sync(folder)
     return changes
 
 
@@ -136,12 +136,12 @@ def _keep(place: Path, kept: Path) -> None:
 def _put_in_place(folder: Path, changes: list[_Change]) -> None:
     work = folder / WORK
     (work / _UNFINISHED_JOURNAL).replace(work / _JOURNAL)
-    _sync(work)
+    sync(work)
     for number, change in enumerate(changes):
         (work / f"new-{number}").replace(folder / change["name"])
-    _sync(folder)
+    sync(folder)
     (work / _JOURNAL).unlink()
-    _sync(work)
+    sync(work)
 
 
 def _put_back(folder: Path) -> None:
@@ -159,9 +159,9 @@ def _put_back(folder: Path) -> None:
             place.unlink(missing_ok=True)
         elif os.path.lexists(old):
             old.replace(place)
-    _sync(folder)
+    sync(folder)
     (work / _JOURNAL).unlink()
-    _sync(work)
+    sync(work)
 
 
 def _is_new(place: Path, digest: str) -> bool:
@@ -196,7 +196,7 @@ def _stage(path: Path, content: bytes | Tree) -> None:
     path.mkdir()
     for name, inside in content.items():
         _stage(path / name, inside)
-    _sync(path)
+    sync(path)
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -217,7 +217,7 @@ def _pieces(content: bytes) -> Iterator[memoryview]:
     return (view[start : start + 2**20] for start in range(0, len(view), 2**20))
 
 
-def _sync(folder: Path) -> None:
+def sync(folder: Path) -> None:
     """Force the folder's entries to disk, where the system lets a folder be opened."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)

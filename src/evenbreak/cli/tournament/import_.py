@@ -8,7 +8,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import scale_option
 from evenbreak.cli.kit.paces import DISCIPLINES
-from evenbreak.cli.kit.values import LONGEST, Whole
+from evenbreak.cli.kit.values import LONGEST, Whole, refuse
 from evenbreak.cli.tournament.evening import answer_of, at_option
 from evenbreak.ratings.scale import Scale
 
@@ -67,6 +67,7 @@ def command(
     from evenbreak import files
     from evenbreak.answers.tournament import unrated_words
     from evenbreak.answers.wording import count_of
+    from evenbreak.files.evening_file import is_database
     from evenbreak.files.event_list import is_event_list, read_event_list
     from evenbreak.files.saved_tournament import read_saved_tournament
     from evenbreak.files.tournament_store import new_tournament
@@ -96,6 +97,11 @@ def command(
         tables=tables or 0,
         discipline=discipline or "",
     )
+    if is_database(saved):
+        refuse(
+            f"{saved} is a database already; go on with it as --file {saved}, or import what "
+            "evenbreak tournament export --events writes of it"
+        )
     if is_event_list(saved):
         events = read_event_list(saved)
     else:
