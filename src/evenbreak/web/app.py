@@ -15,7 +15,7 @@ from starlette.routing import Route
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
-from evenbreak.web.live import events
+from evenbreak.web.live import Watch, events
 from evenbreak.web.once import once_each
 from evenbreak.web.page import language, own_file, refused, script_hash
 from evenbreak.web.pages import (
@@ -42,13 +42,15 @@ _COOKIE_DAYS = 3
 _HTTP = {400: "refused_unreadable", 404: "refused_missing"}
 
 
-def make_app(site: Site) -> Starlette:
+def make_app(site: Site, *, streams: int = 500) -> Starlette:
     """Return the application that serves a site.
 
     Parameters
     ----------
     site
         the file, the addresses and the secrets.
+    streams
+        how many pages may follow what happens at once.
     """
     app = Starlette(
         routes=once_each(
@@ -89,6 +91,7 @@ def make_app(site: Site) -> Starlette:
     )
     app.state.site = site
     app.state.closing = False
+    app.state.watch = Watch(streams)
     return app
 
 

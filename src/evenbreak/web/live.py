@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from collections.abc import AsyncIterator
 
 from starlette.requests import Request
@@ -10,19 +11,30 @@ from starlette.responses import Response, StreamingResponse
 
 from evenbreak.web.night import version_of
 from evenbreak.web.page import site_of
+from evenbreak.web.sessions import address_of
 
 _LOOK = 0.7  # seconds between two looks at the file
 _ALIVE = 20.0  # seconds after which something is sent in any case
-_MOST = 500  # streams at once
 
 
 class Watch:
-    """One look at the file for all who follow it."""
+    """One look at the file for all who follow it.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    most
+        how many may follow it at once; an address may have half of that.
+    """
+
+    def __init__(self, most: int) -> None:
+        self.most = most
         self.version = -1
         self.looked = 0.0
-        self.followers = 0
+        self.followers: Counter[str] = Counter()
+
+    def is_full(self, address: str) -> bool:
+        """Return whether no more can follow from an address."""
+        return self.followers.total() >= self.most or self.followers[address] >= self.most // 2
 
     async def look(self, request: Request) -> int:
         """Return the number of events; the file is asked at most once in a while."""
@@ -33,29 +45,27 @@ class Watch:
         return self.version
 
 
-_WATCH = Watch()
-
-
 async def events(request: Request) -> Response:
     """Stream the number of events whenever it changes."""
-    if _WATCH.followers >= _MOST:  # the phone asks again by itself
+    watch, here = request.app.state.watch, address_of(request)
+    if watch.is_full(here):  # the phone asks again by itself
         return Response("retry: 30000\n\n", media_type="text/event-stream")
 
     async def stream() -> AsyncIterator[bytes]:
-        _WATCH.followers += 1
+        watch.followers[here] += 1
         try:
-            seen, quiet = await _WATCH.look(request), 0.0
+            seen, quiet = await watch.look(request), 0.0
             yield f"retry: 2000\ndata: {seen}\n\n".encode()
             state = request.app.state
             while not (state.closing or await request.is_disconnected()):
                 await asyncio.sleep(_LOOK)
                 quiet += _LOOK
-                version = await _WATCH.look(request)
+                version = await watch.look(request)
                 if version != seen or quiet > _ALIVE:
                     seen, quiet = version, 0.0
                     yield f"data: {seen}\n\n".encode()
         finally:
-            _WATCH.followers -= 1
+            watch.followers -= Counter([here])  # which forgets an address that has none
 
     return StreamingResponse(
         stream(), media_type="text/event-stream", headers={"cache-control": "no-store"}

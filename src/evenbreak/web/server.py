@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 from typing import Any
 
 import uvicorn
 
 from evenbreak.web.app import make_app
+from evenbreak.web.door import Door, behind, descriptors, in_few_lines, room
 from evenbreak.web.site import Site
 
-_MOST_CONNECTIONS = 1000
 _MOST_HEAD = 32 << 10  # bytes of the lines above a body
+_QUEUE = 1024  # connections that wait to be let in
 _IDLE = 200  # tenths of a second
 
 
@@ -25,11 +27,12 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
     host, port
         where it listens.
     """
+    most, at_a_turn = room(descriptors())
     config = uvicorn.Config(
-        make_app(site),
+        make_app(site, streams=most // 2),
         host=host,
         port=port,
-        http="h11",
+        http=behind(Door(most, site.hosts)),
         ws="none",
         lifespan="off",
         proxy_headers=False,
@@ -38,7 +41,7 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
         server_header=False,
         timeout_keep_alive=20,
         timeout_graceful_shutdown=3,
-        limit_concurrency=_MOST_CONNECTIONS,
+        backlog=at_a_turn,
         h11_max_incomplete_event_size=_MOST_HEAD,
     )
     return _Server(config)
@@ -54,6 +57,14 @@ class _Server(uvicorn.Server):
     def __init__(self, config: uvicorn.Config) -> None:
         super().__init__(config)
         self._idle: dict[Any, Any] = {}
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start to listen."""
+        asyncio.get_running_loop().set_exception_handler(in_few_lines())
+        await super().startup(sockets)
+        for listening in (one for server in self.servers for one in server.sockets):
+            with listening.dup() as same:  # many may wait, though few are let in at a turn
+                same.listen(_QUEUE)
 
     async def on_tick(self, counter: int) -> bool:
         """Look after the connections; called ten times a second."""
