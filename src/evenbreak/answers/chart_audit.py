@@ -6,12 +6,11 @@ from typing import Any
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.wording import decimals, listed, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.scale import NAMES, SCALES
 
 SAME_SCALE = 0.05
 """Scales that differ by a smaller share are the same scale to a reader."""

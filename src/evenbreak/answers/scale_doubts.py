@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.wording import some_of
-from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import NAMES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

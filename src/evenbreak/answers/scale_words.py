@@ -2,9 +2,8 @@
 
 import math
 
-from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.scale import NAMES, Scale
 
-NAMES = {"npl": "NPL", "fargo": "Fargo", "elo": "Elo"}
 LIKE = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
 
 

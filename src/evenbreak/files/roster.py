@@ -26,6 +26,7 @@ from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.ratings.unstated_scale import unstated_scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -112,6 +113,21 @@ class RosterFile:
     scale: Scale | None = None
     levels: bool = False
     form: float = 0.0
+
+    def scale_by(self, stated: Scale | None, remedy: str) -> Scale:
+        """Return the scale that the user states, else the file, else the ratings themselves.
+
+        Raises
+        ------
+        InputError
+            if nothing says it, as `unstated_scale` does; `remedy` ends the message.
+        """
+        rated = self.roster
+        return (
+            stated
+            or self.scale
+            or unstated_scale(rated.rating.tolist(), rated.players, remedy, self.source)
+        )
 
 
 def read_roster(path: str | Path) -> RosterFile:

@@ -197,6 +197,9 @@ SCALES: dict[str, Scale] = {
 }
 """The scales in use, by name."""
 
+NAMES = {"npl": "NPL", "fargo": "Fargo", "elo": "Elo"}
+"""What people call them."""
+
 
 def scale_of(text_or_number: Any) -> Scale:
     """Return a scale by its name, or the scale on which so many points double the odds.

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
 from starlette.requests import Request
 
+from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_form
@@ -23,6 +24,10 @@ RACES = {EVEN: "races_even", FAIR: "races_fair"}
 
 Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
 """The fields of a form by name: a text, or what is in a file."""
+
+
+CHOOSE_IT = "choose what ratings they are"
+"""What to do about ratings that do not show their scale."""
 
 
 class Form:
@@ -93,6 +98,15 @@ def whole(name: str, text: str, low: int, high: int) -> int:
     if not text.isascii() or not text.isdigit() or not low <= int(text) <= high:
         raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
     return int(text)
+
+
+def scale_in(form: Form) -> Scale | None:
+    """Return the scale that a form states; None: the ratings show it.
+
+    >>> scale_in(Form(Fields([("scale", "")]))), scale_in(Form(Fields([("scale", "npl")]))).name
+    (None, 'npl')
+    """
+    return SCALES.get(form.one_of("scale", ("", *SCALES)))
 
 
 async def form_of(request: Request) -> Form:

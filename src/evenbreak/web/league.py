@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.folder import write_files
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 from evenbreak.web.beside import Beside
 from evenbreak.web.uploads import ending_of, read_upload
 
@@ -190,7 +191,7 @@ class League:
             shown = json.loads(self._named("json").read_text(encoding="utf-8"))
             return scale_of(shown["scale"]), int(shown["race"])
         except (OSError, ValueError, KeyError, TypeError):
-            return SCALES["fargo"], 7
+            return SCALES[DEFAULT_SCALE], 7
 
     def _named(self, ending: str) -> Path:
         return self.beside.with_name(f"{self.beside.stem}.league.{ending}")

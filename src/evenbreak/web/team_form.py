@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -15,9 +16,11 @@ from evenbreak.files.player_names import clean_name, is_name
 from evenbreak.files.team_list import TeamList, read_team
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import unstated_scale
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
-from evenbreak.web.forms import FAIR, RACES, Form
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
+from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
@@ -35,7 +38,7 @@ ORDERS = {
 COUNT_WORDS = dict(zip(COUNTS, ("count_sets", "count_games", "count_points"), strict=True))
 """What decides the night, with its words."""
 
-MOST_SETS, LONGEST_RACE = 25, 100
+MOST_SETS = 25
 _NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
 _AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
 
@@ -124,7 +127,9 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     unrated = all(np.isnan(one.file.roster.rating).all() for one in lists)
     if unrated and league.sheet is not None:
         return league.sheet.ratings.scale
-    return SCALES[form.one_of("scale", tuple(SCALES))]
+    rated = [(one.file.roster.rating.tolist(), one.file.roster.players) for one in lists]
+    ratings, players = (list(chain.from_iterable(each)) for each in zip(*rated, strict=True))
+    return scale_in(form) or unstated_scale(ratings, players, CHOOSE_IT)
 
 
 def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:

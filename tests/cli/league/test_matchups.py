@@ -92,11 +92,11 @@ def test_the_scale_is_that_of_the_chart(run, roster):
 @pytest.mark.parametrize(
     ("ratings", "words", "doubted"),
     [
-        ((712, 421), SURE, True),
+        ((712, 421), SURE, False),
         ((712, 421), (*SURE, "--scale", "fargo"), False),
         ((92, 71), SURE, False),
         ((92, 71), ("--chart", "fargo_r6_hot"), True),
-        ((92, 710, 80), SURE, True),
+        ((92, 710, 80), (*SURE, "--chart", "npl_10"), True),
     ],
 )
 def test_ratings_of_another_scale_are_doubted(run, roster, ratings, words, doubted):

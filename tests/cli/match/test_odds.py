@@ -96,7 +96,8 @@ def test_one_number_is_for_both_players(odds):
 @pytest.mark.parametrize(
     ("line", "meant"),
     [
-        ("612 521", "--scale fargo"),
+        ("612 521 --scale npl", "--scale fargo"),
+        ("612 521", ""),
         ("85 40 --scale fargo", "--scale npl"),
         ("105 62", ""),
         ("-20 30", ""),
@@ -113,6 +114,14 @@ def test_ratings_that_look_like_those_of_another_scale_are_answered_with_a_warni
     assert result.exit_code == 0
     assert (result.stderr != "") == (meant != "")
     assert meant in result.stderr
+
+
+def test_two_ratings_without_a_scale_are_on_the_only_one_that_they_fit_or_refused(run, odds):
+    for line, scale in (("612 521", "fargo"), ("105 62", "npl"), ("1712 1540", "elo")):
+        assert odds(f"{line} --race 7")["scale"] == scale
+    result = run("odds", "190", "140", "--race", "7")
+    assert result.exit_code == 2
+    assert "A wins a game against B 76% of the time by NPL ratings, 59% by Fargo" in result.stderr
 
 
 def test_p1_p2_are_echoed_where_the_break_matters(odds):

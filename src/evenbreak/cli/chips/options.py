@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from evenbreak.cli.kit.options import Command, scale_option, seed_option, with_options
+from evenbreak.cli.kit.options import (
+    OF_LIST,
+    SAY_WHICH,
+    Command,
+    scale_option,
+    seed_option,
+    with_options,
+)
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import Whole, refuse
@@ -41,7 +48,7 @@ def field_options(command: Command) -> Command:
     wrapped = starter_options(wrapped)
     return with_options(  # type: ignore[no-any-return]
         wrapped,
-        scale_option("the one that the file states, else fargo", fixed=False),
+        scale_option(f"{OF_LIST}; without a file, fargo", fixed=False),
         click.option(
             "--tables",
             type=Whole(1, 1000),
@@ -71,7 +78,7 @@ def _field(
         refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
     else:
         refuse_levels(file, "say with --scale how many levels double the odds")
-    scale = stated or file.scale or ratings.SCALES["fargo"]
+    scale = file.scale_by(stated, SAY_WHICH)
     roster = with_starters(file.roster, scale, starter, starter_sd)
     if not 2 <= len(roster) <= MOST_PLAYERS:
         refuse(f"{entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")

@@ -13,6 +13,7 @@ from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]
@@ -60,7 +61,14 @@ def _scale(name: str) -> Scale:
     return scale
 
 
-def scale_option(without: str = "npl", *, fixed: bool = True) -> Decorator[Any]:
+OF_LIST = "the one that the file states, else the only one that the ratings can be on"
+"""What applies without --scale to a list of ratings."""
+
+SAY_WHICH = "say which with --scale npl, --scale fargo or --scale elo"
+"""What to do about ratings that do not show their scale."""
+
+
+def scale_option(without: str = DEFAULT_SCALE, *, fixed: bool = True) -> Decorator[Any]:
     """Return the option --scale.
 
     Parameters

@@ -7,10 +7,11 @@ import click
 
 from evenbreak.answers.two_players import FORMATS, TwoPlayers
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.options import Command, scale_option, with_options
+from evenbreak.cli.kit.options import SAY_WHICH, Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
-from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.unstated_scale import unstated_scale
 
 REMEDY = "give two ratings A B, or two names with --from, or --p, or --p1 and --p2 with --breaks"
 
@@ -52,7 +53,8 @@ def players_of(
     a, b = map(number_of, ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
-    return replace(TwoPlayers.rated(a, b, scale or scale_of("npl")), form=form or 0.0)
+    scale = scale or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
+    return replace(TwoPlayers.rated(a, b, scale), form=form or 0.0)
 
 
 def _named(
@@ -90,7 +92,7 @@ def _named(
     players = TwoPlayers.rated(
         float(roster.rating[a]),
         float(roster.rating[b]),
-        scale or file.scale or scale_of("npl"),
+        file.scale_by(scale, SAY_WHICH),
         names=(roster.players[a], roster.players[b]),
         errors=(errors[a], errors[b]),
     )
@@ -140,7 +142,10 @@ def player_options(command: Command) -> Command:
             "--p1", metavar="P", type=CHANCE, help="Chance that A wins a game that A breaks."
         ),
         click.option("--p", metavar="P", type=CHANCE, help="Chance that A wins a game."),
-        scale_option("the one that the file of --from states, else npl", fixed=False),
+        scale_option(
+            "the one that the file of --from states, else the one that the ratings can only be on",
+            fixed=False,
+        ),
         from_option,
         click.argument("ratings", nargs=-1, metavar="[A B]", shell_complete=completion.players),
     )

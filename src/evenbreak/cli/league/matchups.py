@@ -12,6 +12,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name, without_folders
 from evenbreak.cli.kit.options import (
+    SAY_WHICH,
     chart_option,
     form_option,
     players_file_option,
@@ -58,8 +59,8 @@ Examples:
 @players_file_option
 @click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
 @scale_option(
-    "the one that the file states, else the chart's, else npl; for skill levels, where the "
-    "chart's own races put them",
+    "the one that the file states, else the chart's, else the only one that the ratings can be on; "
+    "for skill levels, where the chart's own races put them",
     fixed=False,
 )
 @starter_options
@@ -196,13 +197,8 @@ def _scale_of_list(
         "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
         "levels double the odds",
     )
-    return _scale(of_league), None
-
-
-def _scale(chart: AnyChart | None) -> Scale:
-    """Return the scale of the chart, else the NPL's."""
-    of_chart = "" if chart is None else chart.name.partition("_")[0]
-    return SCALES.get(of_chart, SCALES["npl"])
+    of_chart = "" if of_league is None else of_league.name.partition("_")[0]
+    return file.scale_by(SCALES.get(of_chart), SAY_WHICH), None
 
 
 def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:

@@ -145,12 +145,13 @@ def _rate(
     save: str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.ratings.scale import scale_of
+    from evenbreak.ratings.scale import SCALES
+    from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
     file = files.read_seasons(paths, **reading)
     ratings, choice = rated(
         file,
-        scale or scale_of("npl"),
+        scale or SCALES[DEFAULT_SCALE],
         anchor=_anchor(file, anchors),
         break_advantage=break_advantage,
         **how,

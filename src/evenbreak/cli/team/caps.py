@@ -7,11 +7,12 @@ import click
 from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option
+from evenbreak.cli.kit.options import OF_LIST, chart_option, scale_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.team.lists import caps_of, race_of, scale_of_teams
 from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 MOST_TEAMS = 40
 
@@ -25,10 +26,10 @@ Examples:
 
 @click.command("caps", epilog=EXAMPLES)
 @click.argument("roster", metavar="TEAMS.csv")
-@click.option("--race", type=Whole(1, LONGEST), metavar="N", help="Even races to N games.")
+@click.option("--race", type=Whole(1, LONGEST_RACE), metavar="N", help="Even races to N games.")
 @click.option(
     "--race-to",
-    type=Whole(1, LONGEST),
+    type=Whole(1, LONGEST_RACE),
     metavar="N",
     help="Handicapped races, instead of --race: the stronger player needs N games, the weaker as "
     "many as is fairest.",
@@ -59,7 +60,7 @@ Examples:
     help="At most K players of this level or above, such as 2:6.",
 )
 @starter_options
-@scale_option("the one that the file states, else npl", fixed=False)
+@scale_option(OF_LIST, fixed=False)
 @faces()
 def command(
     roster: str,

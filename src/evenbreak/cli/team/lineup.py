@@ -10,11 +10,12 @@ from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option, seed_option
+from evenbreak.cli.kit.options import OF_LIST, chart_option, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.values import LONGEST, SCORE, Whole, refuse
+from evenbreak.cli.kit.values import SCORE, Whole, refuse
 from evenbreak.cli.team.lists import caps_of, race_of, scale_of_teams
 from evenbreak.cli.team.points import point_of
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 if TYPE_CHECKING:
     from evenbreak.ratings.scale import Scale
@@ -33,10 +34,10 @@ Examples:
 @click.command("lineup", epilog=EXAMPLES)
 @click.argument("ours", metavar="OURS.csv")
 @click.argument("theirs", metavar="THEIRS.csv")
-@click.option("--race", type=Whole(1, LONGEST), metavar="N", help="Even races to N games.")
+@click.option("--race", type=Whole(1, LONGEST_RACE), metavar="N", help="Even races to N games.")
 @click.option(
     "--race-to",
-    type=Whole(1, LONGEST),
+    type=Whole(1, LONGEST_RACE),
     metavar="N",
     help="Handicapped races, instead of --race: the stronger player needs N games, the weaker as "
     "many as is fairest.",
@@ -114,7 +115,7 @@ Examples:
     help="Take the ratings as right, even if the files state their standard errors.",
 )
 @starter_options
-@scale_option("the one that the files state, else npl", fixed=False)
+@scale_option(OF_LIST, fixed=False)
 @seed_option("The seed of the ratings that are drawn, where they have standard errors.")
 @faces()
 def command(

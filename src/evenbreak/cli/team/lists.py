@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from evenbreak import handicaps, teams
+from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
-from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.unstated_scale import unstated_scale
 
 if TYPE_CHECKING:
     from evenbreak.files.team_list import TeamList
@@ -35,11 +36,14 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     if any(not scales[0].same_points(other) for other in scales[1:]):
         files = " and ".join(dict.fromkeys(each.file.source for each in lists))
         refuse(f"{files}: different scales are stated; put all ratings on one")
-    points = stated or next(iter(scales), SCALES["npl"])
+    rated = np.concatenate([each.file.roster.rating for each in lists])
+    names = [name for each in lists for name in each.file.roster.players]
+    points = stated or next(iter(scales), None)
+    if points is None:
+        points = unstated_scale(rated.tolist(), names, SAY_WHICH)
     warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
-    if not scales and stated is None:
-        rated = np.concatenate([each.file.roster.rating for each in lists])
-        warnings += league_doubts(points, rated, "name the scale with --scale")
+    if not scales:
+        warnings += league_doubts(points, rated, "is it the right scale?")
     return points, warnings
 
 

@@ -9,11 +9,12 @@ import click
 from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, scale_option
+from evenbreak.cli.kit.options import OF_LIST, chart_option, scale_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.team.lists import race_of, scale_of_teams
 from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 EXAMPLES = """\b
 Examples:
@@ -27,10 +28,12 @@ Examples:
 @click.argument("ours", metavar="OURS.csv")
 @click.argument("theirs", metavar="THEIRS.csv")
 @click.option("--games", type=Whole(1, 100), metavar="K", help="Each match is K single games.")
-@click.option("--race", type=Whole(1, LONGEST), metavar="N", help="Or an even race to N games.")
+@click.option(
+    "--race", type=Whole(1, LONGEST_RACE), metavar="N", help="Or an even race to N games."
+)
 @click.option(
     "--race-to",
-    type=Whole(1, LONGEST),
+    type=Whole(1, LONGEST_RACE),
     metavar="N",
     help="Or a handicapped race: the stronger player needs N games, the weaker as many as is "
     "fairest.",
@@ -48,7 +51,7 @@ Examples:
     help="Take the ratings as right, even if the files state their standard errors.",
 )
 @starter_options
-@scale_option("the one that the files state, else npl", fixed=False)
+@scale_option(OF_LIST, fixed=False)
 @faces()
 def command(
     ours: str,

@@ -6,8 +6,9 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.values import LONGEST, Whole
+from evenbreak.cli.kit.values import Whole
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+from evenbreak.tournaments.evening.opening import LONGEST_RACE, MOST_TABLES
 
 EXAMPLES = """\b
 Examples:
@@ -17,12 +18,14 @@ Examples:
 
 
 @click.command("change", epilog=EXAMPLES)
-@click.option("--tables", type=Whole(1, 1000), metavar="T", help="The number of tables.")
-@click.option("--race", type=Whole(1, LONGEST), metavar="N", help="What is raced to.")
+@click.option("--tables", type=Whole(1, MOST_TABLES), metavar="T", help="The number of tables.")
+@click.option("--race", type=Whole(1, LONGEST_RACE), metavar="N", help="What is raced to.")
 @click.option(
-    "--losers-race", type=Whole(1, LONGEST), metavar="N", help="The same on the losers' side."
+    "--losers-race", type=Whole(1, LONGEST_RACE), metavar="N", help="The same on the losers' side."
 )
-@click.option("--final-race", type=Whole(1, LONGEST), metavar="N", help="The same in the final.")
+@click.option(
+    "--final-race", type=Whole(1, LONGEST_RACE), metavar="N", help="The same in the final."
+)
 @file_option
 @at_option
 @faces()

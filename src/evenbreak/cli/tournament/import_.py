@@ -6,11 +6,12 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import scale_option
+from evenbreak.cli.kit.options import OF_LIST, SAY_WHICH, scale_option
 from evenbreak.cli.kit.paces import DISCIPLINES
-from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.evening import answer_of, at_option
 from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 EXAMPLES = """\b
 Examples:
@@ -22,9 +23,12 @@ Examples:
 @click.command("import", epilog=EXAMPLES)
 @click.argument("saved", metavar="FILE")
 @click.option("--ratings", metavar="ENTRANTS.csv", help="The players' ratings.")
-@scale_option("the one that the ratings' file states, else fargo", fixed=False)
+@scale_option(OF_LIST, fixed=False)
 @click.option(
-    "--race", type=Whole(1, LONGEST), metavar="N", help="What is raced to.  [default: as saved]"
+    "--race",
+    type=Whole(1, LONGEST_RACE),
+    metavar="N",
+    help="What is raced to.  [default: as saved]",
 )
 @click.option(
     "--tables", type=Whole(1, 1000), metavar="T", help="The number of tables.  [default: as saved]"
@@ -72,14 +76,15 @@ def command(
     from evenbreak.files.saved_tournament import read_saved_tournament
     from evenbreak.files.tournament_store import new_tournament
     from evenbreak.ratings.scale import SCALES
+    from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
     from evenbreak.tournaments.evening.events import Entrant, Plan
 
     known: dict[str, Entrant] = {}
     warnings: list[str] = []
-    points = scale or SCALES["fargo"]
+    points = scale or SCALES[DEFAULT_SCALE]
     if ratings is not None:
         file = files.read_entrants(ratings)
-        points, warnings = scale or file.scale or points, [*file.warnings]
+        points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
         errors = np.nan_to_num(file.roster.standard_error).tolist()
         known = {
             name: Entrant(name, rating, error)

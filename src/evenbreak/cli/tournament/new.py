@@ -12,6 +12,7 @@ from evenbreak.cli.kit.paces import DISCIPLINES
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.evening import answer_of, at_option
 from evenbreak.cli.tournament.options import Entered, drawn_up, entry_options
+from evenbreak.tournaments.evening.opening import MOST_TABLES
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
@@ -27,7 +28,7 @@ Examples:
 @click.command("new", epilog=EXAMPLES)
 @entry_options
 @click.option(
-    "--tables", type=Whole(1, 1000), metavar="T", required=True, help="The number of tables."
+    "--tables", type=Whole(1, MOST_TABLES), metavar="T", required=True, help="The number of tables."
 )
 @click.option(
     "--discipline",

@@ -6,11 +6,12 @@ from functools import update_wrapper
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
-from click.core import ParameterSource
 
 from evenbreak import files, ratings, tournaments
 from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit.options import (
+    OF_LIST,
+    SAY_WHICH,
     Command,
     chart_option,
     scale_option,
@@ -19,7 +20,7 @@ from evenbreak.cli.kit.options import (
 )
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import LONGEST, Whole, refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.checked_options import (
     check_qualifiers,
     refuse_of_other_formats,
@@ -30,7 +31,13 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
-from evenbreak.tournaments.evening.opening import BYE, FORMATS, MOST_PLAYERS
+from evenbreak.tournaments.evening.opening import (
+    BYE,
+    FORMATS,
+    LONGEST_RACE,
+    MOST_PLAYERS,
+    usual_seeding,
+)
 from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
@@ -43,7 +50,7 @@ SEEDINGS = ("listed", "rating", "blind", "drawn")
 
 
 def _race_option(name: str, what: str) -> Any:
-    return click.option(name, type=Whole(1, LONGEST), metavar="N", help=what)
+    return click.option(name, type=Whole(1, LONGEST_RACE), metavar="N", help=what)
 
 
 class Entered(NamedTuple):
@@ -131,7 +138,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
         pod_size: int | None,
         rounds: int | None,
         third_place: bool,
-        seeding: str,
+        seeding: str | None,
         race: int | None,
         race_to: int | None,
         chart: str | None,
@@ -146,7 +153,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
     ) -> Any:
         if form == "chips":
             refuse_races(chips, race, race_to, chart, losers_race, final_race)
-            race, seeding = 1, _order_of_the_line(seeding)
+            race = 1
         races = _races(race, race_to, chart, losers_race, final_race)
         given = {
             "final": final,
@@ -164,7 +171,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
         refuse_of_other_formats(form, {name for name, value in given.items() if value is not None})
         check_qualifiers(form, qualifiers)
         file = files.read_entrants(entrants)
-        points, warnings = _scale(file, scale, starter, "fargo" if chips else "npl")
+        points, warnings = _scale(file, scale, starter)
         warnings += chart_doubts(races.race, points)
         roster = with_starters(file.roster, points, starter, starter_sd)
         if not 2 <= len(roster) <= MOST_PLAYERS:
@@ -181,7 +188,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
             pod_size=pod_size or 8,
             rounds=rounds,
             third_place=third_place,
-            seeding=seeding,
+            seeding=seeding or usual_seeding(form),
             losers_race=losers_race,
             final_race=final_race,
             handicapped=race_to is not None,
@@ -199,7 +206,7 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
     wrapped = starter_options(wrapped)
     return with_options(  # type: ignore[no-any-return]
         wrapped,
-        scale_option("the one that the file states, else npl, for chips fargo", fixed=False),
+        scale_option(OF_LIST, fixed=False),
         click.option(
             "--chips",
             metavar="NAME|FILE.csv",
@@ -220,11 +227,10 @@ def entry_options(command: Command, *, required: bool = True) -> Command:
         click.option(
             "--seeding",
             type=click.Choice(SEEDINGS),
-            default="listed",
             help="The order of the seeds: as the file lists them, by rating, or drawn at random "
-            "(blind; used for the line of a chip tournament unless given). Or no seeds (drawn): "
-            "the first two rows of the file meet, and so on, with rows named bye 1, bye 2 ... for "
-            "byes.",
+            "(blind). Or no seeds (drawn): the first two rows of the file meet, and so on, with "
+            "rows named bye 1, bye 2 ... for byes.  [default: listed; for the line of a chip "
+            "tournament blind]",
         ),
         click.option(
             "--third-place", is_flag=True, help="Single elimination with a match for third place."
@@ -312,14 +318,8 @@ def _races(
     )
 
 
-def _order_of_the_line(seeding: str) -> str:
-    """Return how the line of a chip tournament is drawn: blind unless --seeding is given."""
-    source = click.get_current_context().get_parameter_source("seeding")
-    return "blind" if source is ParameterSource.DEFAULT else seeding
-
-
 def _scale(
-    file: files.RosterFile, stated: Scale | None, starter: float | None, usual: str
+    file: files.RosterFile, stated: Scale | None, starter: float | None
 ) -> tuple[Scale, list[str]]:
     """Return the scale of the ratings, and what is doubtful about it."""
     from evenbreak.answers.scale_doubts import far_doubts, league_doubts, starter_doubts
@@ -328,7 +328,7 @@ def _scale(
         refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
     else:
         refuse_levels(file, "say with --scale how many levels double the odds")
-    scale = stated or file.scale or ratings.SCALES[usual]
+    scale = file.scale_by(stated, SAY_WHICH)
     warnings = []
     if file.scale is None:
         remedy = "if they are on another scale, name it with --scale"

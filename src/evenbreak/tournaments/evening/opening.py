@@ -39,7 +39,18 @@ FORMATS_WITH: Mapping[str, tuple[str, ...]] = {
 }
 """For the parts of a plan that only some formats have: which."""
 
-MOST_PLAYERS = 256
+MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100
+"""How large a tournament or a team night may be."""
+
+
+def usual_seeding(form: str) -> str:
+    """Return how the seeds of a format are ordered if nothing else is asked for.
+
+    >>> usual_seeding("double"), usual_seeding("chips")
+    ('listed', 'blind')
+    """
+    return "blind" if form == "chips" else "listed"
+
 
 BYE = re.compile(r"byes?[\s\d]*", re.IGNORECASE)
 """How a bye is written on a list."""

@@ -12,7 +12,6 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament import unrated_words
 from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
@@ -22,14 +21,22 @@ from evenbreak.files.roster import RosterFile
 from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
-from evenbreak.ratings.scale import SCALES, Scale
+from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH, opened
+from evenbreak.tournaments.evening.opening import (
+    FORMATS,
+    FORMATS_WITH,
+    LONGEST_RACE,
+    MOST_PLAYERS,
+    MOST_TABLES,
+    opened,
+    usual_seeding,
+)
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
-from evenbreak.web.forms import EVEN, FAIR, RACES, Form, form_of
+from evenbreak.web.forms import CHOOSE_IT, EVEN, FAIR, RACES, Form, form_of, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.pages.desk import BY
@@ -38,7 +45,7 @@ from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
 
-SEEDINGS = ("blind", "rating", "listed")
+SEEDINGS = ("", "listed", "rating", "blind")
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 
@@ -123,7 +130,10 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     if not content.strip():
         raise RefusalError("refused_nobody")
     file = read_upload(content, read_entrants)
-    scale = file.scale or SCALES[form.one_of("scale", tuple(SCALES))]
+    stated = scale_in(form)
+    if file.levels and stated is None:
+        raise RefusalError("refused_skill_levels")
+    scale = file.scale or file.scale_by(stated, CHOOSE_IT)
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
@@ -154,14 +164,14 @@ def _plan(form: Form, scale: Scale) -> Plan:
         raise RefusalError("refused_chart_races")
     return Plan(
         kind,
-        1 if kind == "chips" or races in CHARTS else form.whole("race", 1, 100),
+        1 if kind == "chips" or races in CHARTS else form.whole("race", 1, LONGEST_RACE),
         handicapped=races == FAIR,
         chart=_chart(races) if races in CHARTS else None,
-        seeding=form.one_of("seeding", SEEDINGS),
+        seeding=form.one_of("seeding", SEEDINGS) or usual_seeding(kind),
         scale=scale.text,
         starter=scale.centre,
         starter_error=scale.points_per_doubling,
-        tables=form.whole("tables", 1, 1000),
+        tables=form.whole("tables", 1, MOST_TABLES),
         discipline=form.one_of("discipline", DISCIPLINES),
         chips=CHIP_CHARTS[form.one_of("chips", tuple(CHIP_CHARTS))] if kind == "chips" else None,
         **given,
@@ -176,8 +186,13 @@ def _chart(name: str) -> Chart:
 
 def _given(form: Form) -> dict[str, Any]:
     """Return the parts of a plan that only some formats have, if they were filled in."""
-    numbers = ("losers_race", "final_race", "groups", "pod_size", "qualifiers", "rounds")
-    parts: dict[str, Any] = {name: form.whole(name, 1, 256, default=0) for name in numbers}
+    numbers = {
+        **dict.fromkeys(("losers_race", "final_race"), LONGEST_RACE),
+        **dict.fromkeys(("groups", "pod_size", "qualifiers", "rounds"), MOST_PLAYERS),
+    }
+    parts: dict[str, Any] = {
+        name: form.whole(name, 1, most, default=0) for name, most in numbers.items()
+    }
     parts |= {"final": form.text("final"), "third_place": bool(form.text("third_place"))}
     return {name: value for name, value in parts.items() if value}
 

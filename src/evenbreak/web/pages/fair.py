@@ -9,15 +9,15 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
 from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
-from evenbreak.ratings.scale import SCALES, Scale, scale_of
+from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of
+from evenbreak.ratings.unstated_scale import unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
-from evenbreak.web.forms import Form
+from evenbreak.web.forms import CHOOSE_IT, Form
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
 from evenbreak.web.refusals import RefusalError
@@ -40,13 +40,13 @@ async def fair(request: Request) -> Response:
     state = await asyncio.to_thread(night.state) if night.exists else None
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
-    scale = _scale(request, state, league)
+    stated = _scale(request, state, league)
     length = Form(request.query_params).whole("race", 1, 100, default=7)
     shown: dict[str, Any] = {
         "asked": asked,
         "length": length,
         "lengths": LENGTHS,
-        "scale": scale.text,
+        "scale": stated.text if stated else "",
         "scales": NAMES,
         "names": list(dict.fromkeys([*(state.entrants if state else ()), *in_league])),
         "races": [],
@@ -54,11 +54,14 @@ async def fair(request: Request) -> Response:
     }
     if asked["a"] and asked["b"]:
         sides = tuple(_side(asked[name], state, league) for name in ("a", "b"))
+        scale = stated or unstated_scale(
+            [one.rating for one in sides], [one.name for one in sides], CHOOSE_IT
+        )
         shown |= {"sides": sides, "races": await asyncio.to_thread(_races, sides, scale, length)}
     return page(request, "fair.html", **shown)
 
 
-def _scale(request: Request, state: Evening | None, league: League) -> Scale:
+def _scale(request: Request, state: Evening | None, league: League) -> Scale | None:
     given = request.query_params.get("scale", "")
     if given:
         try:
@@ -69,7 +72,7 @@ def _scale(request: Request, state: Evening | None, league: League) -> Scale:
             ) from None
     if state:
         return state.scale
-    return league.sheet.ratings.scale if league.sheet else SCALES["fargo"]
+    return league.sheet.ratings.scale if league.sheet else None
 
 
 def _side(text: str, state: Evening | None, league: League) -> Side:

@@ -14,9 +14,9 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.answers.tournament_matches import tournament_matches_answer
-from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.scale import NAMES, SCALES
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MOST_BYTES
@@ -74,6 +74,7 @@ async def league(request: Request) -> Response:
         league=found,
         rows=rows[:_MOST_LISTED],
         scales=NAMES,
+        default_scale=DEFAULT_SCALE,
         quick=found.progress is not None,
     )
 

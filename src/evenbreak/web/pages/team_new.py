@@ -11,10 +11,10 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.scale_words import NAMES
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.team_night_store import add_team_events
 from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.ratings.scale import NAMES
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, What
 from evenbreak.teams.evening.fold import TeamEvening

@@ -1,0 +1,152 @@
+"""What the page asks and the terminal asks too: the same choices, defaults, limits and answers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from evenbreak.cli.league.report import command as report
+from evenbreak.cli.program import program
+from evenbreak.cli.team.lineup import command as lineup
+from evenbreak.cli.tournament.new import command as new
+from evenbreak.files.tournament_store import read_tournament
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from web.phones import Phone, running
+
+
+class Fields(HTMLParser):
+    """The fields of a page's forms: what each may be and what it is unless changed."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.usual: dict[str, str] = {}
+        self.choices: dict[str, list[str]] = {}
+        self._select = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, pairs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in pairs}
+        if tag == "select":
+            self._select = given["name"]
+        elif tag == "option":
+            self.choices.setdefault(self._select, []).append(given["value"])
+            if "selected" in given or self._select not in self.usual:
+                self.usual[self._select] = given["value"]
+        elif tag == "input" and given.get("type") == "checkbox":
+            self.usual[given["name"]] = given["value"] if "checked" in given else ""
+        elif tag == "input":
+            self.usual[given.get("name", "")] = given.get("value", "")
+
+
+@pytest.fixture(scope="module")
+def director(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
+    with running(tmp_path_factory.mktemp("asked") / "tonight.db") as site:
+        yield Phone(site, director=True)
+
+
+def option(command: click.Command, name: str) -> click.Parameter:
+    return next(one for one in command.params if one.name == name)
+
+
+def usual(command: click.Command, name: str) -> str:
+    """Return the default of an option as a form writes it; '' if it has none, or is off."""
+    default: Any = option(command, name).default
+    return default if isinstance(default, str) else ""
+
+
+NAMED_BY_THE_PAGE = {"form": "format"}
+ASKED_BY_BOTH = (
+    *("form", "final", "qualifiers", "groups", "pod_size", "rounds", "third_place", "seeding"),
+    *("losers_race", "final_race", "discipline", "scale"),
+)
+
+
+@pytest.mark.parametrize("name", ASKED_BY_BOTH)
+def test_a_tournament_has_the_same_defaults_on_the_page(director: Phone, name: str) -> None:
+    fields = Fields(director.open("/new").text)
+    assert fields.usual[NAMED_BY_THE_PAGE.get(name, name)] == usual(new, name)
+
+
+@pytest.mark.parametrize("name", ["form", "seeding", "discipline"])
+def test_a_tournament_has_the_same_choices_on_the_page(director: Phone, name: str) -> None:
+    kind = option(new, name).type
+    assert isinstance(kind, click.Choice)
+    shown = set(Fields(director.open("/new").text).choices[NAMED_BY_THE_PAGE.get(name, name)])
+    assert shown - {""} == set(kind.choices) - {"drawn"}  # a draw on paper has rows for byes
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["race", "losers_race", "final_race", "tables", "qualifiers", "groups", "rounds"],
+)
+def test_a_tournament_has_the_same_limits_on_the_page(director: Phone, name: str) -> None:
+    kind = option(new, name).type
+    assert isinstance(kind, click.IntRange)
+    form = {
+        "qualifiers": "groups",
+        "groups": "groups",
+        "rounds": "swiss",
+    }.get(name, "double")
+    asked = {
+        "entrants": "Ann,612\nBo,540\nCy,500\nDi,480",
+        "format": form,
+        "races": "even",
+        "race": 5,
+        "tables": 2,
+        "discipline": "9-ball",
+        "seeding": "",
+        "scale": "",
+    }
+    refused = director.send("/new", **asked | {name: 10**6}).words
+    found = re.search(r"from ([\d,]+) to ([\d,]+)", refused)
+    assert found, refused
+    assert [int(end.replace(",", "")) for end in found.groups()] == [kind.min, kind.max]
+
+
+def test_a_league_and_a_team_night_have_the_same_scale_on_the_page(director: Phone) -> None:
+    assert Fields(director.open("/league").text).usual["scale"] == usual(report, "scale")
+    assert usual(report, "scale") == DEFAULT_SCALE
+    assert Fields(director.open("/team/new").text).usual["scale"] == usual(lineup, "scale") == ""
+    assert Fields(director.open("/fair").text).usual["scale"] == ""
+
+
+LISTS = {
+    "Ann Lee,612\nBo Diaz,540\nCy Young,500\nDi Ray,480": "fargo",
+    "Ann Lee,92\nBo Diaz,71\nCy Young,64\nDi Ray,55": "npl",
+    "Ann Lee,1712\nBo Diaz,1540\nCy Young,1500\nDi Ray,1480": "elo",
+    "Ann Lee\nBo Diaz\nCy Young\nDi Ray": DEFAULT_SCALE,
+    "Ann Lee,190\nBo Diaz,140\nCy Young,150\nDi Ray,160": "",
+    "Ann Lee,612\nBo Diaz,92\nCy Young,500\nDi Ray,480": "",
+}
+
+
+@pytest.mark.parametrize("text", LISTS)
+def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, text: str) -> None:
+    path, plans = tmp_path / "list.txt", []
+    path.write_text(text)
+    words = ["tournament", "new", str(path), "--race", "5", "--tables", "2"]
+    typed = CliRunner().invoke(program, [*words, "--out", str(tmp_path / "typed.db")])
+    with running(tmp_path / "page.db") as site:
+        fields = Fields(Phone(site, director=True).open("/new").text).usual
+        asked = {k: v for k, v in fields.items() if k not in ("csrf", "", "file", "in_place_of")}
+        shown = Phone(site, director=True).send(
+            "/new", **asked | {"entrants": text, "race": 5, "tables": 2}
+        )
+    if not LISTS[text]:
+        assert (typed.exit_code, shown.status) == (2, 400)
+        for said in (typed.stderr, shown.words):
+            assert re.search(r"Ann Lee wins a game against Bo Diaz \d+% of the time by NPL", said)
+        assert "--scale npl" in typed.stderr
+        assert "--" not in shown.words
+        return
+    assert (typed.exit_code, shown.status) == (0, 200), (typed.output, shown.words)
+    plans = [read_tournament(tmp_path / f"{face}.db").plan for face in ("typed", "page")]
+    assert plans[0] == plans[1]
+    assert plans[0].scale == LISTS[text]
