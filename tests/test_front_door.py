@@ -16,6 +16,7 @@ FRONT = [
     DOCS / "index.md",
     *INDEXES,
     *(page for page in PAGES if page.parent == DOCS / "tutorial" and page not in INDEXES),
+    DOCS / "gallery.md",
     DOCS / "explanation" / "how-it-compares.md",
 ]
 SPHINX_ONLY = re.compile(r"^ *:::|^ *```\{(?!include\})|^\(.*\)=$|\{[a-z:]+\}`", re.MULTILINE)

@@ -17,9 +17,9 @@ FIGURE = re.compile(r"!\[([^\]]*)\]\((figure_\w+)\.png\)")
 HEAD = """\
 # Gallery
 
-Every picture that evenbreak draws, with the command or the Python that drew the one shown. Each
-leads to its page. Commands write to the file that you name, as PNG or SVG; in a notebook pictures
-show themselves. The commands use the sample data in the folder `data/`.
+Every chart evenbreak draws, with the command or the Python behind it. Each leads to its page.
+Commands write to the file that you name, as PNG or SVG; in a notebook charts show themselves. The
+sample data are in the folder `data/`.
 """
 
 PAGES = """\
@@ -69,18 +69,24 @@ def _command(text: str) -> str:
 
 def _made(one: Shown) -> str:
     if one.python:
-        return f"```{{code-block}} python\n{one.python}```\n"
+        # Not "python": make_images.py has run it, which takes longer than an example may.
+        return f"```py\n{one.python}```\n"
     command = one.command.replace("FILE", PurePath(one.name).name)
     lines = "\n".join(map(_command, [*one.first.splitlines(), command]))
-    return f"```{{code-block}} sh\n{lines}\n```\n"
+    return f"```sh\n{lines}\n```\n"
+
+
+def _boxed(kind: str, *parts: str) -> str:
+    """Return parts in a box that `cards.css` lays out; elsewhere they stand one below the other."""
+    return "\n".join((f'<div class="{kind}">\n', *parts, "</div>\n"))
 
 
 def _card(one: Shown) -> str:
-    return (
-        ":::{container} picture\n"
-        f"[![{one.title}](images/{PurePath(one.name).name})]({one.page})\n\n"
-        f"[{one.title}]({one.page}). {one.says}\n\n"
-        f"{_made(one)}:::\n"
+    return _boxed(
+        "picture",
+        f"[![{one.title}](images/{PurePath(one.name).name})]({one.page})\n",
+        f"[{one.title}]({one.page}). {one.says}\n",
+        _made(one),
     )
 
 
@@ -88,10 +94,8 @@ def _on_a_phone() -> Iterator[str]:
     """Yield the cards of the page's pictures."""
     page = "tutorial/evening-by-page.md"
     for name, title, says in PHONE:
-        yield (
-            ":::{container} picture\n"
-            f"[![{title}](images/page/{name}.png)]({page})\n\n[{title}]({page}). {says}\n:::\n"
-        )
+        shown = f"[![{title}](images/page/{name}.png)]({page})\n\n[{title}]({page}). {says}\n"
+        yield _boxed("picture", shown)
 
 
 def _of_the_text() -> Iterator[str]:
@@ -101,15 +105,14 @@ def _of_the_text() -> Iterator[str]:
         for says, name in found:
             number = name.removeprefix("figure_").replace("p5_", "P5.").replace("_", ".")
             alt = " ".join(says.split())
-            yield f'```{{figure}} ../reports/{name}.svg\n:alt: "{alt}"\n\nFigure {number}\n```\n'
+            yield _boxed("picture", f"![{alt}](../reports/{name}.svg)\n\nFigure {number}\n")
 
 
 def gallery_page() -> str:
     """Return the page as Markdown."""
     parts = [HEAD]
     for group, shown in SHOWN.items():
-        parts += [f"## {group}\n", "::::{container} gallery\n"]
-        parts += [*map(_card, shown), "::::\n"]
-    parts += [PAGES, "::::{container} gallery\n", *_on_a_phone(), "::::\n"]
-    parts += [TEXT, "::::{container} gallery small\n", *_of_the_text(), "::::\n"]
+        parts += [f"## {group}\n", _boxed("gallery", *map(_card, shown))]
+    parts += [PAGES, _boxed("gallery", *_on_a_phone())]
+    parts += [TEXT, _boxed("gallery small", *_of_the_text())]
     return "\n".join(parts)
