@@ -1,6 +1,7 @@
 """What is refused: forged, replayed, oversized and foreign requests; each says why in one line."""
 
 import http.client
+import random
 import socket
 from contextlib import ExitStack
 from html import unescape
@@ -17,6 +18,7 @@ from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_tries
 from evenbreak.web.site import Site
+from files.test_hostile_workbooks import Make, cut, huge_row, repeated_columns, wide_cell
 from web.conftest import Hall, begun
 from web.phones import Phone, running
 
@@ -166,6 +168,16 @@ def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
     except (BrokenPipeError, ConnectionResetError):
         return  # refused before everything was sent
     assert status in (400, 413)
+
+
+@pytest.mark.parametrize("make", [huge_row, wide_cell, repeated_columns, cut])
+def test_a_hostile_workbook_ends_no_server(hall: Hall, make: Make) -> None:
+    content = make(random.Random(5))
+    shown = hall.director.send_files("/new", {"file": content}, entrants="", format="double")
+    assert shown.status == 400
+    assert len(shown.text) < 20_000
+    assert str(hall.site.path.parent) not in shown.words
+    assert hall.guest.open("/").status == 200
 
 
 def test_a_slow_body_is_cut_off(standing_hall: Hall, monkeypatch: pytest.MonkeyPatch) -> None:
