@@ -99,7 +99,7 @@ def test_a_season_of_forty_teams(beside: Beside) -> None:
     half = len(rows) // 2
     won = DRAW.integers(0, 6, half)
     played = np.column_stack([rows[:half], won, 5 - won])
-    law = score_chances(DRAW.normal(0.0, 0.4, (1, teams)), rows[half:], sets=5)
+    law = score_chances(DRAW.normal(0.0, 0.4, (1, teams)), rows[half:], scores_of(sets=5))
     names = [f"team {k}" for k in range(teams)]
     season = TeamSeason(names, played, rows[half:], scores_of(sets=5), law)
 

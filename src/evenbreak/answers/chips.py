@@ -12,6 +12,7 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.simulated import luck_words
 from evenbreak.answers.wording import chance, count_of, decimals, percent, share
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
@@ -323,8 +324,4 @@ def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
 
 
 def _luck_words(runs: int, error: Floats) -> str:
-    points = 200.0 * float(error.max())
-    return (
-        f"{runs:,} tournaments were played out; other luck would move no title odds by more than "
-        f"about {points:.1f} percentage points."
-    )
+    return f"{runs:,} tournaments were played out; {luck_words(error.tolist(), 'title odds')}."

@@ -6,6 +6,7 @@ from itertools import pairwise
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.simulated import luck_words
 from evenbreak.answers.wording import chance, count_of, decimals
 from evenbreak.files.drill_log import DrillLogFile
 from evenbreak.practice.log_analysis import LogAnalysis
@@ -48,7 +49,7 @@ def drill_log_answer(
             *_tests(analysis),
             "A p-value (p) is how often chance alone gives a result at least this extreme, here "
             f"among {count_of(analysis.replicas, 'log')} simulated for each test, with sessions "
-            "like yours.",
+            f"like yours; {_luck(analysis)}.",
             GAIN_WORDS,
         ],
         warnings=file.warnings,
@@ -64,6 +65,11 @@ def drill_log_answer(
             "seed": seed,
         },
     )
+
+
+def _luck(analysis: LogAnalysis) -> str:
+    tests = (analysis.difference, analysis.memory, analysis.model_test)
+    return luck_words((test.p_error for test in tests if test is not None), "p-value")
 
 
 def _heading(file: DrillLogFile, *, levels_given: bool) -> str:

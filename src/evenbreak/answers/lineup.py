@@ -12,6 +12,7 @@ from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
 from evenbreak.answers.team_meeting import cost_words, race_words
+from evenbreak.answers.simulated import error_of_share, luck_words
 from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
 from evenbreak.teams.meeting import SEALED, Meeting
@@ -75,7 +76,7 @@ def lineup_answer(
             rng=np.random.default_rng(seed),
         )
     named = point.named if point is not None else ()
-    table = _table(found, sure)
+    table = _table(found, sure, draws)
     tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
         _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
@@ -162,7 +163,7 @@ def _in_words(found: Advice, named: Sequence[str]) -> str:
     )
 
 
-def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
+def _table(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> Table:
     sign = 1.0 if found.ours else -1.0
     whose = "player" if found.ours else "their pick"
     columns = [
@@ -177,6 +178,7 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
         columns.append(Column("mix", "pick it", percent))
     if sure:
         columns.append(Column("p_best", "best pick if the\nratings are off", percent))
+        columns.append(Column("p_best_error", "standard\nerror", percent, detail=True))
     top = found.worth if found.blind else found.best.worth
     rows = []
     for option in found.options:
@@ -186,7 +188,8 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float]) -> Table:
         if found.blind:
             row.append(option.mix)
         if sure:
-            row.append(sure.get(option.names, 0.0))
+            often = sure.get(option.names, 0.0)
+            row += [often, error_of_share(often, draws)]
         rows.append(row)
     return Table("options", columns, rows)
 
@@ -249,5 +252,6 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -
     return (
         f"With ratings that are off by what their errors allow, {best} is the best pick "
         f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}, in "
-        f"{draws} draws; on average it is {best}."
+        f"{draws} draws ({luck_words([error_of_share(each, draws) for each in sure.values()])}); "
+        f"on average it is {best}."
     )

@@ -6,6 +6,7 @@ from typing import Any
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.sandbag_watch import HONEST_PLAYER, evidence
+from evenbreak.answers.simulated import luck_words
 from evenbreak.answers.wording import decimals, percent
 from evenbreak.league.sandbag_power import WatchPower
 
@@ -60,6 +61,8 @@ def sandbag_power_answer(
             "'Rating error': how far the ratings are above the skill at the end, in points, on "
             "average. 'Won in earnest': per cent of the matches that are not dumped.",
             f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}.",
+            f"With {found[0].replicas:,} players of each kind, "
+            f"{luck_words(float(one.se.max()) for one in found)}.",
         ],
         warnings=warnings,
         data={

@@ -10,7 +10,7 @@ import numpy as np
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import count_of, decimals, listed, percent, share
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Ints
 from evenbreak.teams.season.chances import SeasonChances
 from evenbreak.teams.season.season import TeamSeason
 
@@ -66,7 +66,11 @@ def team_season_answer(
         f"{_rules(season)}",
         parts,
         details=[_places(found)],
-        data={"exact": found.exact, "seasons": found.seasons},
+        data={
+            "exact": found.exact,
+            "seasons": found.seasons,
+            "standard_error": _error(found),
+        },
         warnings=warnings,
         csv=table,
     )
@@ -221,6 +225,11 @@ def _rules(season: TeamSeason) -> str:
     return f"{text}; teams that are level: {', '.join([*ties, 'lot'])}"
 
 
+def _error(found: SeasonChances) -> float:
+    """Return the largest standard error of the chances in the table."""
+    return max(float(found.error(found.p_first(many)).max()) for many in found.watched.places)
+
+
 def _how(found: SeasonChances, *, known: bool) -> str:
     strengths = (
         "the strengths are taken as right"
@@ -232,8 +241,7 @@ def _how(found: SeasonChances, *, known: bool) -> str:
             f"All {found.seasons:,} ways in which the matches to come may end were gone through; "
             f"{strengths}."
         )
-    worst: Floats = found.error(found.p_first(1))
     return (
-        f"{found.seasons:,} seasons were simulated; {strengths}. The chances of the title are "
-        f"right to within {percent(2.0 * float(worst.max()))}."
+        f"{found.seasons:,} seasons were simulated; {strengths}. The chances in the table are right "
+        f"to within {percent(2.0 * _error(found))}, 19 times in 20."
     )

@@ -86,12 +86,12 @@ def _redrawn(tournament: Tournament, win_of: Any, errors: Floats, asked: Any) ->
     """Return the odds averaged over the ratings and over some redraws."""
     bracket = tournament.bracket
     qualifiers = losers_qualifiers(bracket)
-    laws, variances = [], []
+    laws = []
     for _ in range(_REDRAWS):
         order = [qualifiers[k] for k in asked["rng"].permutation(len(qualifiers)).tolist()]
         ratings = tournament.ratings
         both = over_ratings(redrawn(bracket, order), win_of, ratings, errors, samples=100, **asked)
         laws.append(both.averaged.p_place)
-        variances.append(both.averaged.error**2)
-    error = np.sqrt(np.mean(variances, axis=0) / _REDRAWS)
+    # How the redraws differ holds both kinds of luck: theirs, and that of the ratings within each.
+    error = np.std(laws, axis=0, ddof=1) / np.sqrt(_REDRAWS)
     return PlaceOdds(bracket, np.mean(laws, axis=0), error, 100 * _REDRAWS)

@@ -75,6 +75,7 @@ def tournament_time_answer(
             Quantity("finish_p10", early),
             Quantity("finish_p50", middle),
             Quantity("finish_p90", late),
+            Quantity("finish_error", found.error),
             *(Quantity(f"minutes_saved_{what}", saved) for what, saved in savings(changes).items()),
         ]
     )
@@ -84,7 +85,11 @@ def tournament_time_answer(
     parts: list[Part] = [words, quantities, table, changes]
     assumed = assumed_words(tables, pace, turnover)
     unrated = tournament.unrated_words(spread=False)
-    lines = [tournament.byes, unrated, assumed, form_used_words(form, tournament.scale)]
+    luck = (
+        f"{count_of(len(found.finishes), 'evening')} were played out; other luck would move the "
+        f"times of the finish by no more than about {2.0 * found.error:.0f} minutes."
+    )
+    lines = [tournament.byes, unrated, assumed, form_used_words(form, tournament.scale), luck]
     parts += filter(None, lines)
     return Answer(
         tournament.heading,

@@ -9,7 +9,7 @@ from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
 from evenbreak.answers.wording import count_of, decimals, percent, range_words
 from evenbreak.ratings.by_experience import ByExperience
-from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.calibration import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.match_form import MatchForm
 from evenbreak.ratings.scale import Scale
@@ -23,7 +23,9 @@ _EXPLAINED = (
     "right: at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes "
     "the ratings at face value, 'integrated' averages over their uncertainty, and 'default' does "
     "so with the default prior. The prior, in points, is how far apart players are assumed to be "
-    "before any result."
+    "before any result. The intervals come from "
+    f"{REPLICAS:,} samples; other samples would move their ends by about "
+    f"{percent(2.0 * END_ERROR)} of their length."
 )
 _TESTS_EXPLAINED = (
     "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS, DrillLog
 from evenbreak.practice.levels import chances_seen, level_laws
 from evenbreak.practice.played_again import play_again
@@ -32,11 +32,14 @@ class PlayedAgainTest(NamedTuple):
         its mean over the simulated logs.
     p_value
         the probability that chance alone gives a figure at least as extreme.
+    p_error
+        its standard error, for want of more simulated logs.
     """
 
     seen: float
     by_chance: float
     p_value: float
+    p_error: float = 0.0
 
 
 def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
@@ -75,7 +78,23 @@ def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
         return None
     mean = float(by_chance.mean())
     test = _larger(abs(seen - mean), np.abs(by_chance - mean))
-    return PlayedAgainTest(seen, mean, test.p_value)
+    return PlayedAgainTest(seen, mean, test.p_value, _error_about_mean(seen, by_chance))
+
+
+def _error_about_mean(seen: float, by_chance: Floats) -> float:
+    """Return the standard error of P(as far from the mean as seen), whose mean is estimated too.
+
+    The delta method: each simulated log moves the share by itself, and by moving the mean.
+    """
+    mean, off = float(by_chance.mean()), float(by_chance.std()) / np.sqrt(len(by_chance))
+
+    def as_far(centre: float) -> Bools:
+        return np.asarray(np.abs(by_chance - centre) >= abs(seen - centre))
+
+    moved = as_far(mean + off).mean() - as_far(mean - off).mean()
+    slope = moved / (2.0 * off) if off > 0.0 else 0.0
+    influence = as_far(mean) + slope * (by_chance - mean)
+    return float(influence.std() / np.sqrt(len(by_chance)))
 
 
 def model_test(
@@ -132,4 +151,5 @@ def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
     """Return how often chance gives as large a figure; the log itself counts as one case."""
     as_large = int(np.count_nonzero(by_chance >= float(seen) * (1.0 - 1e-12)))
     p_value = (1 + as_large) / (1 + len(by_chance))
-    return PlayedAgainTest(float(seen), float(by_chance.mean()), p_value)
+    error = float(np.sqrt(p_value * (1.0 - p_value) / len(by_chance)))
+    return PlayedAgainTest(float(seen), float(by_chance.mean()), p_value, error)

@@ -27,6 +27,14 @@ TOSS_UP = 1e-9
 
 _Z = float(ndtri(0.5 + CONFIDENCE / 2))
 
+_DENSITY = math.exp(-(_Z**2) / 2.0) / math.sqrt(2.0 * math.pi)
+
+END_ERROR = math.sqrt((1.0 - CONFIDENCE**2) / (4.0 * REPLICAS)) / (2.0 * _Z * _DENSITY)
+"""The standard error of an end of an interval for want of more samples, as a share of its length.
+
+That of the quantile of a normal distribution, from so many draws of it.
+"""
+
 
 class Estimate(NamedTuple):
     """A figure with its 95% interval.

@@ -22,9 +22,10 @@ from .season.fixtures import circle as circle
 from .season.fixtures import still_to_play as still_to_play
 from .season.rules import TableRules as TableRules
 from .season.season import TeamSeason as TeamSeason
+from .season.strengths import TeamStrengths as TeamStrengths
 from .season.strengths import score_chances as score_chances
 from .season.strengths import scores_of as scores_of
-from .season.strengths import team_skills as team_skills
+from .season.strengths import team_strengths as team_strengths
 from .set_laws import Points as Points
 from .set_laws import law_in_play as law_in_play
 from .set_laws import set_laws as set_laws

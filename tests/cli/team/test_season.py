@@ -17,13 +17,16 @@ def test_chances_of_the_table(ask):
     assert {row["team"] for row in told["tonight"]} == {row["team"] for row in rows}
 
 
-def test_the_last_round_is_exact(ask, tmp_path):
+def test_the_last_round_is_exact_if_the_strengths_are(ask, tmp_path):
     lines = (DATA / "demo_team_schedule.csv").read_text().splitlines()
     last = tmp_path / "last.csv"
     last.write_text("\n".join([lines[0], *lines[-4:]]) + "\n")
-    told = ask("season", RESULTS, str(last), "--ties", "head-to-head,difference")
+    asked = ("season", RESULTS, str(last), "--ties", "head-to-head,difference")
+    told = ask(*asked, "--sure")
     assert told["exact"]
+    assert told["standard_error"] == 0.0
     assert told["seasons"] == 6**4
+    assert not ask(*asked, "--seasons", "1000")["exact"]
 
 
 def test_a_round_robin_needs_no_schedule(ask):

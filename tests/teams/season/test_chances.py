@@ -18,7 +18,7 @@ TO_COME = [[0, 2], [1, 3], [3, 1]]
 def season(ties: tuple[str, ...] = ("difference", "scored"), **more) -> TeamSeason:
     skills = np.array([[0.4, 0.1, -0.2, -0.3], [0.0, 0.3, 0.1, -0.4]])
     left = np.array(TO_COME)
-    chances = score_chances(skills, left, sets=5)
+    chances = score_chances(skills, left, scores_of(sets=5))
     rules = TableRules(ties=ties)
     return TeamSeason(NAMES, PLAYED, left, scores_of(sets=5), chances, rules=rules, **more)
 

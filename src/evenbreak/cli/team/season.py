@@ -73,7 +73,7 @@ _POINTS: Any = numbers(
     type=Whole(1000, 10_000_000),
     default=100_000,
     metavar="N",
-    help="How many seasons to simulate, if there are too many endings to go through.",
+    help="How many seasons to simulate, unless --sure and few endings give exact chances.",
 )
 @click.option(
     "--jobs", type=Whole(1, 256), default=1, metavar="N", help="Simulate with N processes."
@@ -137,15 +137,14 @@ def command(
     if (up or 0) + (down or 0) > count:
         refuse(f"--up {up} and --down {down} are more than the {count} teams; give fewer")
     length = _length(played.scores, sets, race)
-    rng = np.random.default_rng(seed)
     rows = np.hstack([played.pairs, played.scores])
-    skills = teams.team_skills(known.names, rows, draws=0 if sure else 200, rng=rng)
+    strengths, scores = teams.team_strengths(known.names, rows), teams.scores_of(**length)
     season = teams.TeamSeason(
         known.names,
         rows,
         to_come,
-        teams.scores_of(**length),
-        teams.score_chances(skills, to_come, **length),
+        scores,
+        teams.score_chances(strengths.estimate[None], to_come, scores),
         rules=_rules(points, ties),
         head_start=start,
     )
@@ -156,6 +155,7 @@ def command(
             season,
             places=tuple(dict.fromkeys(places)),
             matches=watched,
+            strengths=None if sure else strengths,
             seasons=seasons,
             seed=seed,
             jobs=jobs,

@@ -1,8 +1,9 @@
 """The chances of each final place: exact where few matches are left, else simulated.
 
-Where the strengths are uncertain, the chances are means over draws of them. All endings of the
-matches to come are gone through if there are few enough; otherwise seasons are drawn in pieces,
-each with its own random numbers, so that the result does not depend on who works on them.
+Where the strengths are known, all endings of the matches to come are gone through if there are few
+enough. Otherwise seasons are drawn in pieces, each with its own random numbers, so that the result
+does not depend on who works on them. Where the strengths are uncertain, every season has its own
+draw of them: the seasons are then independent, and the spread of their outcomes is the whole error.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from evenbreak.errors import InputError
 from evenbreak.league.workers import in_order
 from evenbreak.teams.season.ranking import ranks_of, standings_of
 from evenbreak.teams.season.season import TeamSeason
+from evenbreak.teams.season.strengths import TeamStrengths, score_chances
 
 if TYPE_CHECKING:
     import distributed
@@ -74,7 +76,7 @@ class SeasonChances:
         return np.asarray(self.p_place[:, :places].sum(axis=1))
 
     def error(self, p: Floats) -> Floats:
-        """Return the standard errors of chances: 0 where they are exact."""
+        """Return the standard errors of chances, how much they differ between seeds; 0 if exact."""
         if self.exact:
             return np.zeros(p.shape)
         return np.sqrt(p * (1.0 - p) / self.seasons)
@@ -90,6 +92,7 @@ def season_chances(
     *,
     places: tuple[int, ...] = (1,),
     matches: tuple[int, ...] = (),
+    strengths: TeamStrengths | None = None,
     seasons: int = 100_000,
     seed: int = 1,
     executor: Executor | distributed.Client | None = None,
@@ -105,8 +108,11 @@ def season_chances(
     places, matches
         what to watch: for which numbers of first places to say what which of the matches to come
         change.
+    strengths
+        how strong the teams may be: each season drawn has its own draw of them. None: the chances
+        of `season` hold.
     seasons
-        how many seasons are drawn, if the endings are too many to go through.
+        how many seasons are drawn, if the strengths are uncertain or the endings too many.
     seed
         of the random numbers.
     executor, jobs
@@ -137,11 +143,11 @@ def season_chances(
         if not 0 <= whole(match, "matches") < len(season.to_come):
             raise InputError(f"matches has {match}; {len(season.to_come)} are to come")
     watched = Watched(tuple(places), tuple(matches))
-    if len(season.scores) ** len(season.to_come) <= MOST_ENDINGS:
+    if strengths is None and len(season.scores) ** len(season.to_come) <= MOST_ENDINGS:
         return _exact(season, watched)
     pieces = _pieces(whole(seasons, "seasons", at_least=1), seed_of(seed))
     total = _Counts(season, watched)
-    shared = season, watched
+    shared = season, watched, strengths
     for done, counts in enumerate(
         in_order(_drawn, shared, pieces, executor=executor, jobs=jobs), start=1
     ):
@@ -226,18 +232,23 @@ def _exact(season: TeamSeason, watched: Watched) -> SeasonChances:
     return total.chances(exact=True, seasons=endings)
 
 
-def _drawn(shared: tuple[TeamSeason, Watched], piece: tuple[int, int, int]) -> Counted:
+Shared = tuple[TeamSeason, Watched, TeamStrengths | None]
+
+
+def _drawn(shared: Shared, piece: tuple[int, int, int]) -> Counted:
     """Return the sums over some drawn seasons: a piece is the seed, its number and its size."""
-    season, watched = shared
+    season, watched, strengths = shared
     seed, number, size = piece
     rng = np.random.default_rng([seed, number])
-    layers = len(season.chances)
-    which = (number * _PIECE + np.arange(size)) % layers
-    below = np.cumsum(season.chances, axis=2)[:, :, :-1]
+    which = (number * _PIECE + np.arange(size)) % len(season.chances)
+    skills = None if strengths is None else strengths.drawn(size, rng)
     ends = np.zeros((len(season.to_come), size), dtype=np.int64)
-    for match in range(len(season.to_come)):
+    for match, end in enumerate(ends):
+        if skills is None:
+            law = season.chances[which, match]
+        else:
+            law = score_chances(skills, season.to_come[match : match + 1], season.scores)[:, 0]
         draws = rng.random(size)
-        end = ends[match]
-        for limit in range(below.shape[2]):
-            end += draws > below[which, match, limit]
+        for limit in np.cumsum(law, axis=1)[:, :-1].T:
+            end += draws > limit
     return _counted(season, watched, ends, np.ones(size))

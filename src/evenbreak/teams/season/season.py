@@ -33,8 +33,8 @@ class TeamSeason:
     scores
         the scores that a match to come can have, a row each: sets of home and of away.
     chances
-        P(each of these scores) for each match to come, shape (draws, matches, scores): a layer for
-        each draw of the strengths, all alike likely; one layer if the strengths are known.
+        P(each of these scores) for each match to come, shape (layers, matches, scores): a layer for
+        each of the strengths that are possible, all equally likely; one if they are known.
     rules
         how the table is kept.
     head_start
@@ -76,7 +76,7 @@ class TeamSeason:
             law = law[None]
         if law.ndim != 3 or law.shape[1:] != (len(left), len(ends)):
             raise InputError(
-                f"chances has shape {law.shape}; give (draws, {len(left)} matches, "
+                f"chances has shape {law.shape}; give (layers, {len(left)} matches, "
                 f"{len(ends)} scores)"
             )
         if law.size and np.abs(law.sum(axis=2) - 1.0).max() > 1e-9:

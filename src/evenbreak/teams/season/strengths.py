@@ -7,10 +7,12 @@ chances of the scores to come are averaged over how far they may be off.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, short_repr
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
@@ -52,15 +54,32 @@ def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
     return np.array(lost + [(b, a) for a, b in reversed(lost)])
 
 
-def team_skills(
-    teams: Sequence[str],
-    played: Ints,
-    *,
-    draws: int = 200,
-    rng: np.random.Generator,
-    prior_sd: float = PRIOR_SD,
-) -> Floats:
-    """Return draws of the teams' strengths, given the matches played.
+@short_repr
+@dataclass(frozen=True, eq=False)
+class TeamStrengths:
+    """How strong the teams are, as far as their matches show: a normal distribution.
+
+    Parameters
+    ----------
+    estimate
+        log-odds of a set against an average team, shape (teams,).
+    root
+        a root of the covariance of the estimates, shape (teams, teams).
+    """
+
+    estimate: Floats
+    root: Floats
+
+    def drawn(self, draws: int, rng: np.random.Generator) -> Floats:
+        """Return draws of the strengths, shape (draws, teams)."""
+        off = rng.standard_normal((draws, len(self.estimate)))
+        return np.asarray(self.estimate + off @ self.root.T)
+
+
+def team_strengths(
+    teams: Sequence[str], played: Ints, *, prior_sd: float = PRIOR_SD
+) -> TeamStrengths:
+    """Return how strong the teams are, given the matches played.
 
     Parameters
     ----------
@@ -68,70 +87,51 @@ def team_skills(
         the names.
     played
         the matches: home, away, sets won by each, as in `TeamSeason`.
-    draws
-        how many draws; 0 gives one, the estimates themselves.
-    rng
-        numpy's random generator.
     prior_sd
         how much teams differ before there are results, in log-odds of a set.
 
-    Returns
-    -------
-    numpy.ndarray
-        log-odds of a set against an average team, shape (draws, teams).
-
-    >>> rng = np.random.default_rng(1)
-    >>> found = team_skills(["Acers", "Bankers"], np.array([[0, 1, 5, 0]]), draws=0, rng=rng)
-    >>> found.round(2).tolist()
-    [[0.39, -0.39]]
+    >>> found = team_strengths(["Acers", "Bankers"], np.array([[0, 1, 5, 0]]))
+    >>> found.estimate.round(2).tolist()
+    [0.39, -0.39]
     """
-    scale = np.log(2.0)  # so that points are log-odds
-    centre = np.zeros(len(teams))
     if not len(played):
-        spread = prior_sd * rng.standard_normal((draws, len(teams)))
-        return spread if draws else centre[None]
+        return TeamStrengths(np.zeros(len(teams)), prior_sd * np.eye(len(teams)))
+    scale = np.log(2.0)  # so that points are log-odds
     results = Results(tuple(teams), *played.T)
     ratings = fit(results, prior_sd=prior_sd, scale=scale, anchor=0.0)
-    if not whole(draws, "draws"):
-        return ratings.rating[None]
     covariance = ratings.covariance(teams) + _MOST_COVARIANCE * np.eye(len(teams))
-    return rng.multivariate_normal(ratings.rating, covariance, draws, method="cholesky")
+    return TeamStrengths(ratings.rating, np.linalg.cholesky(covariance))
 
 
-def score_chances(
-    skills: Floats, to_come: Ints, *, sets: int | None = None, race: int | None = None
-) -> Floats:
-    """Return P(each score of `scores_of`) for each match to come.
+def score_chances(skills: Floats, to_come: Ints, scores: Ints) -> Floats:
+    """Return P(each score) for each match to come.
 
     Parameters
     ----------
     skills
-        as `team_skills` returns them.
+        log-odds of a set against an average team, shape (draws, teams).
     to_come
         the matches: home, away.
-    sets, race
-        as for `scores_of`.
+    scores
+        as `scores_of` returns them.
 
     Returns
     -------
     numpy.ndarray
         shape (draws, matches, scores).
 
-    >>> score_chances(np.zeros((1, 2)), np.array([[0, 1]]), sets=2).round(9).tolist()
+    >>> score_chances(np.zeros((1, 2)), np.array([[0, 1]]), scores_of(sets=2)).tolist()
     [[[0.25, 0.5, 0.25]]]
     """
-    scores = scores_of(sets=sets, race=race)
     gaps = skills[:, to_come[:, 0]] - skills[:, to_come[:, 1]]
     p = 1.0 / (1.0 + np.exp(-gaps))
-    found = np.empty((*p.shape, len(scores)))
-    if sets is not None:
-        from scipy.stats import binom
-
-        for k in range(sets + 1):
-            found[:, :, k] = binom.pmf(k, sets, p)
-        return found
     first = int(scores.max())
-    won, lost = race_endings(first, first, Rack(p), None, 1)
-    for k, (a, b) in enumerate(scores.tolist()):
-        found[:, :, k] = (won if a > b else lost)[a + b]
-    return found
+    if (scores.sum(axis=1) == first).all():
+        # The powers of both chances one after the other: seasons are simulated in hundred thousands
+        won, lost = np.ones((2, first + 1, *p.shape))
+        np.cumprod(np.broadcast_to(p, won[1:].shape), axis=0, out=won[1:])
+        np.cumprod(np.broadcast_to(1.0 / (1.0 + np.exp(gaps)), won[1:].shape), axis=0, out=lost[1:])
+        ways = [comb(first, k) for k in range(first + 1)]
+        return np.stack([n * won[k] * lost[first - k] for k, n in enumerate(ways)], axis=-1)
+    ends = race_endings(first, first, Rack(p), None, 1)
+    return np.stack([ends[a < b][a + b] for a, b in scores.tolist()], axis=-1)

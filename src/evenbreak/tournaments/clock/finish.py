@@ -100,6 +100,18 @@ class Finish:
         one, two, three = np.quantile(self.finishes, QUANTILES)
         return float(one), float(two), float(three)
 
+    @property
+    def error(self) -> float:
+        """The standard error of the worst of the `bands`: the spread over it of so many evenings.
+
+        It takes evenings as independent. Their luck is spread evenly (a Latin hypercube), so the
+        error is this at most.
+        """
+        q = np.array(QUANTILES)
+        off = np.sqrt(q * (1.0 - q) / len(self.finishes))
+        above, below = (np.quantile(self.finishes, q + side) for side in (off, -off))
+        return float((above - below).max() / 2.0)
+
     def start(self, match: str) -> Start:
         """Return when a match begins."""
         if match not in self.names:

@@ -24,6 +24,7 @@ from evenbreak.tournaments.odds.meetings import group_meetings, place_odds, plan
 from evenbreak.tournaments.odds.over_subsets import meetings_before_the_draw
 from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import PlaceOdds, odds_now
+from evenbreak.tournaments.odds.uncertain import error_of_pairs
 
 _MOST_PLAYERS = 16
 _CELLS = 4_000_000
@@ -47,12 +48,12 @@ def blind_draw_odds(
         the bracket into which the players are drawn: who is on which line of it does not
         matter.
     win
-        as in `title_odds`. Tables may have a third axis for samples of the ratings; then each
-        sample has a draw of its own.
+        as in `title_odds`. Tables may have a third axis for samples of the ratings, an even number
+        of which the second half may mirror the first; then each sample has a draw of its own.
     walkovers
         as in `title_odds`.
     samples
-        how many draws are sampled where the odds are not exact.
+        how many draws are sampled where the odds are not exact; an odd number gets one more.
     rng
         where pseudo-random numbers come from then; None: a generator with the seed 0.
 
@@ -74,7 +75,7 @@ def blind_draw_odds(
     if law is not None:
         return PlaceOdds(bracket, law, np.zeros_like(law), 0)
     straight = None if many else _with_straight_drops(bracket)
-    many = many or whole(samples, "samples", at_least=2)
+    many = many or 2 * -(-whole(samples, "samples", at_least=4) // 2)
     players = np.tile(np.arange(len(bracket.players)), (many, 1))
     orders = rng.permuted(players, axis=1)
     laws = np.concatenate(list(_laws(bracket, chances, orders)), axis=2)
@@ -84,8 +85,8 @@ def blind_draw_odds(
         if law is not None:
             known = law
             laws -= np.concatenate(list(_laws(straight, chances, orders)), axis=2)
-    error = laws.std(axis=2, ddof=1) / np.sqrt(many)
-    return PlaceOdds(bracket, np.clip(known + laws.mean(axis=2), 0.0, 1.0), error, many)
+    p_place = np.clip(known + laws.mean(axis=2), 0.0, 1.0)
+    return PlaceOdds(bracket, p_place, error_of_pairs(laws), many)
 
 
 def _exact(bracket: Bracket, chances: Chances) -> Floats | None:

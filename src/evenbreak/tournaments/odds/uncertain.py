@@ -125,10 +125,20 @@ def over_ratings(
         meetings = sure.meetings
     else:
         laws, meetings = _exactly(now, plan, of_skills(drawn), 2 * pairs)
-    of_pair = laws.reshape(*laws.shape[:2], 2, pairs).mean(axis=2)
-    error = of_pair.std(axis=2, ddof=1) / np.sqrt(pairs)
-    odds = TitleOdds(bracket, laws.mean(axis=2), error, 2 * pairs, meetings)
+    odds = TitleOdds(bracket, laws.mean(axis=2), error_of_pairs(laws), 2 * pairs, meetings)
     return UncertainOdds(odds, sure)
+
+
+def error_of_pairs(laws: Floats) -> Floats:
+    """Return the standard error of a mean over samples, of which the second half may mirror the first.
+
+    Parameters
+    ----------
+    laws
+        an even number of samples, on the last axis.
+    """
+    of_pair = laws.reshape(*laws.shape[:-1], 2, -1).mean(axis=-2)
+    return np.asarray(of_pair.std(axis=-1, ddof=1) / np.sqrt(of_pair.shape[-1]))
 
 
 def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator) -> Floats:
