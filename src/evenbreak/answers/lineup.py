@@ -11,8 +11,8 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.sealed_lineup import sealed_answer
-from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.simulated import error_of_share, luck_words
+from evenbreak.answers.team_meeting import cost_words, race_words
 from evenbreak.answers.wording import chance, listed, percent
 from evenbreak.teams.advice import Advice, Option, Point, advice
 from evenbreak.teams.meeting import SEALED, Meeting

@@ -242,6 +242,6 @@ def _how(found: SeasonChances, *, known: bool) -> str:
             f"{strengths}."
         )
     return (
-        f"{found.seasons:,} seasons were simulated; {strengths}. The chances in the table are right "
-        f"to within {percent(2.0 * _error(found))}, 19 times in 20."
+        f"{found.seasons:,} seasons were simulated; {strengths}. The chances in the table are "
+        f"right to within {percent(2.0 * _error(found))}, 19 times in 20."
     )

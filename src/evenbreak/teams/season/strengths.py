@@ -100,7 +100,7 @@ def team_strengths(
     results = Results(tuple(teams), *played.T)
     ratings = fit(results, prior_sd=prior_sd, scale=scale, anchor=0.0)
     covariance = ratings.covariance(teams) + _MOST_COVARIANCE * np.eye(len(teams))
-    return TeamStrengths(ratings.rating, np.linalg.cholesky(covariance))
+    return TeamStrengths(ratings.rating, np.asarray(np.linalg.cholesky(covariance), dtype=float))
 
 
 def score_chances(skills: Floats, to_come: Ints, scores: Ints) -> Floats:

@@ -130,7 +130,7 @@ def over_ratings(
 
 
 def error_of_pairs(laws: Floats) -> Floats:
-    """Return the standard error of a mean over samples, of which the second half may mirror the first.
+    """Return the standard error of a mean of samples whose second half may mirror the first.
 
     Parameters
     ----------
