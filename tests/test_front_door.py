@@ -14,8 +14,8 @@ INDEXES = [page for page in PAGES if page.name == "index.md" and page.parent.par
 FRONT = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")),
     DOCS / "index.md",
-    *INDEXES,
-    *(page for page in PAGES if page.parent == DOCS / "tutorial" and page not in INDEXES),
+    *(page for page in INDEXES if page.parent.name not in {"tutorial", "how-to"}),
+    *(page for page in PAGES if page.parent.name in {"tutorial", "how-to"}),
     DOCS / "gallery.md",
     DOCS / "explanation" / "how-it-compares.md",
 ]
