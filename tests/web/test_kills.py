@@ -9,14 +9,17 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
+
+import pytest
 
 from evenbreak.files.tournament_desk import back_up, kept_secrets
 from evenbreak.files.tournament_store import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
-from web.phones import Phone, free_port
+from web.phones import Phone, free_port, running
 
 KILLS = int(os.environ.get("EVENBREAK_KILLS", "1"))
 """How often the server is killed; 200 takes minutes."""
@@ -43,11 +46,14 @@ def started(path: Path, port: int) -> subprocess.Popen[bytes]:
     raise AssertionError("the server does not answer")
 
 
-def test_a_killed_server_has_lost_nothing(tmp_path: Path) -> None:
+@pytest.mark.parametrize("company", [False, True], ids=["alone", "beside another server"])
+def test_a_killed_server_has_lost_nothing(tmp_path: Path, company: bool) -> None:
     path, port, luck = tmp_path / "tonight.db", free_port(), random.Random(1)
     begun(path, 256)
     matches = list(read_tournament(path).standing.to_play)
     acknowledged: set[str] = set()
+    beside = ExitStack()
+    other = Phone(beside.enter_context(running(path)), director=True) if company else None
     server = started(path, port)
     site = Site(path, address=f"http://127.0.0.1:{port}")
     phone = Phone(site, director=True)
@@ -62,6 +68,10 @@ def test_a_killed_server_has_lost_nothing(tmp_path: Path) -> None:
                     break
                 assert shown.status == 200
                 acknowledged.add(matches.pop(0))
+                if other is not None and matches:
+                    shown = other.send("/desk/result", match=matches[-1], a=2, b=5, how="new")
+                    assert shown.status == 200
+                    acknowledged.add(matches.pop())
             moment.join()
             server.wait()
             assert acknowledged <= set(read_tournament(path).counted)
@@ -77,6 +87,7 @@ def test_a_killed_server_has_lost_nothing(tmp_path: Path) -> None:
     finally:
         server.kill()
         server.wait()
+        beside.close()
 
 
 def test_copies_of_one_second_are_all_kept(tmp_path: Path) -> None:
