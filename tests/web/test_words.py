@@ -8,6 +8,7 @@ from string import Formatter
 
 import pytest
 
+from evenbreak.files import evening_file
 from evenbreak.tournaments.evening.opening import FORMATS_WITH
 from evenbreak.web.words import LANGUAGES, catalogue
 from evenbreak.web.words.sentences import in_language, patterns
@@ -75,6 +76,12 @@ REFUSALS = sorted(
 @pytest.mark.parametrize("text", [t for t in REFUSALS if not ASKED_BY_COMMANDS_ONLY.search(t)])
 def test_every_refusal_of_the_evening_is_said_in_german(text: str) -> None:
     assert in_language("de", text) != text
+
+
+@pytest.mark.parametrize("text", [*evening_file.WHY.values(), evening_file.DAMAGED])
+def test_what_is_wrong_with_the_file_is_said_in_german(text: str) -> None:
+    said = text.format(name="tonight.db", error="database disk image is malformed")
+    assert in_language("de", said) != said
 
 
 def test_no_refusal_on_the_page_names_a_command() -> None:

@@ -29,7 +29,7 @@ _LOG = logging.getLogger(__name__)
 _MARK = 0x45564252  # application_id: an evening of this program
 _FORMAT = 2  # user_version: how its events are written; 1 in version 0.2.0
 _WAIT = 30.0  # seconds for another program to finish its move
-_WHY = {
+WHY = {  # by the code of SQLite's error
     sqlite3.SQLITE_NOTADB: "{name} is not the file of a tournament",
     sqlite3.SQLITE_FULL: (
         "there is no room on the disk of {name}, so nothing was changed; make room and try again"
@@ -44,7 +44,7 @@ _WHY = {
     sqlite3.SQLITE_BUSY: "{name} is in use by another program; try again",
     sqlite3.SQLITE_CANTOPEN: "{name} cannot be opened; check that it and its folder may be read",
 }
-_DAMAGED = "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
+DAMAGED = "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
 
 Result = TypeVar("Result")
 
@@ -170,7 +170,7 @@ def _connected(place: Path, part: Path | None = None) -> Iterator[sqlite3.Connec
         with closing(_connection(part or place, "rwc" if part else "rw")) as base:
             yield base
     except sqlite3.Error as error:
-        words = _WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, _DAMAGED)
+        words = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
         raise DataError([words.format(name=place.name, error=error)]) from error
 
 
@@ -225,7 +225,7 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
         )
     if version < 1:
         why = f"no version of evenbreak has written a format {version}"
-        raise DataError([_DAMAGED.format(name=name, error=why)])
+        raise DataError([DAMAGED.format(name=name, error=why)])
 
 
 def _update(base: sqlite3.Connection, place: Path) -> None:

@@ -11,7 +11,8 @@ import sqlite3
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import InputError
+from evenbreak.files.evening_entries import folded, happened, named
 from evenbreak.files.evening_file import TEAM_NIGHT, begin, has_table, is_there, opened
 from evenbreak.teams.evening.events import NAMES, Event, What, as_dict, event_of
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
@@ -86,12 +87,12 @@ def add_team_events(
     def write(base: sqlite3.Connection) -> tuple[TeamEvening | None, bool]:
         base.execute(_TABLE)
         earlier = _events(base, path)
-        before = _state(earlier, path)
+        before = team_night_of(path, earlier)
         again = f"SELECT 1 FROM {TEAM_NIGHT} WHERE form = ?"  # noqa: S608 (the name of a table)
         if form and base.execute(again, (form,)).fetchone():
             return before, False
         added = [Event(at, what, by) for what in decide(earlier, before)]
-        after = _state([*earlier, *added], path)
+        after = team_night_of(path, [*earlier, *added])
         base.executemany(
             f"INSERT INTO {TEAM_NIGHT} VALUES (?, ?, ?, ?, ?, ?)",  # noqa: S608
             [
@@ -114,18 +115,32 @@ def add_team_events(
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
     if not has_table(base, TEAM_NIGHT):
         return []
-    asked = f"SELECT at, kind, what, author FROM {TEAM_NIGHT} ORDER BY number"  # noqa: S608
-    try:
-        return [
-            Event(at, event_of(kind, json.loads(what)), by)
-            for at, kind, what, by in base.execute(asked)
-        ]
-    except (InputError, json.JSONDecodeError) as error:
-        raise DataError([f"{path}: {error}"]) from error
+    asked = f"SELECT number, at, kind, what, author FROM {TEAM_NIGHT} ORDER BY number"  # noqa: S608
+    events = []
+    for number, at, kind, what, by in base.execute(asked).fetchall():
+        with named(path, f"entry {number} ({kind})"):
+            if not isinstance(by, str):
+                raise InputError("author is not text")
+            events.append(Event(at, happened(at, kind, what, event_of), by))
+    return events
 
 
-def _state(events: Sequence[Event], path: str | Path) -> TeamEvening | None:
-    try:
-        return team_evening(events)
-    except (InputError, IndexError) as error:
-        raise DataError([f"{path}: {error}"]) from error
+def team_night_of(path: str | Path, events: Sequence[Event]) -> TeamEvening | None:
+    """Return the state after the events of a file, if it can be shown; None: no night has begun.
+
+    Raises
+    ------
+    DataError
+        if it cannot; it names the entry that does not fit.
+    """
+    return folded(path, events, _shown, NAMES)
+
+
+def _shown(events: Sequence[Event]) -> TeamEvening | None:
+    state = team_evening(events)
+    if state is not None:
+        _ = state.meeting, state.score, state.due
+        for line in state.sets:
+            if line.named:
+                state.needs(line)
+    return state

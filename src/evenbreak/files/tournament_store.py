@@ -11,8 +11,10 @@ import sqlite3
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from evenbreak.errors import DataError, InputError
+from evenbreak.files.evening_entries import folded, happened, named
 from evenbreak.files.evening_file import TOURNAMENT, begin, changing, has_table, opened
 from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
@@ -100,7 +102,7 @@ def read_tournament(path: str | Path) -> Evening:
     DataError
         if the file is not that of a tournament, or cannot be read.
     """
-    return _state(read_events(path), path)
+    return tournament_of(path, read_events(path))
 
 
 def add_events(
@@ -136,7 +138,7 @@ def add_events(
         if form:
             _refuse_taken(base, form)
         earlier = _events(base, path)
-        before = _state(earlier, path)
+        before = tournament_of(path, earlier)
         added = list(decide(before))
         after = _shown(evening([*earlier, *added]))
         _write(base, len(earlier), added)
@@ -150,7 +152,9 @@ def add_events(
 def _shown(state: Evening) -> Evening:
     """Return a state; one that cannot be shown is never written."""
     if state.drawn:
-        _ = state.standing
+        _ = state.on_tables, state.live, state.ratings, state.whole
+        for match in state.standing.to_play:
+            state.needed(match, state.pair(match))
     return state
 
 
@@ -178,28 +182,33 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
     if not has_table(base, TOURNAMENT):
         raise DataError(
             [
-                f"{path} holds a team night and no tournament; open it with evenbreak serve, or "
-                "begin a tournament in it with evenbreak tournament new"
+                f"{Path(path).name} holds a team night and no tournament; open it with evenbreak "
+                "serve, or begin a tournament in it with evenbreak tournament new"
             ]
         )
-    rows = base.execute("SELECT at, kind, what FROM event ORDER BY number").fetchall()
-    try:
-        return [_event(*row) for row in rows]
-    except (InputError, json.JSONDecodeError) as error:
-        raise DataError([f"{path}: {error}"]) from error
+    rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number")
+    events = []
+    for number, at, kind, what in rows.fetchall():
+        with named(path, f"entry {number} ({kind})"):
+            events.append(_event(at, kind, what))
+    return events
 
 
 @lru_cache(maxsize=4096)
-def _event(at: str, kind: str, what: str) -> Event:
+def _event(at: Any, kind: Any, what: Any) -> Event:
     """Return the event in a row; a page reads all rows again after each new one."""
-    return Event(at, event_of(kind, json.loads(what)))
+    return Event(at, happened(at, kind, what, event_of))
 
 
-def _state(events: Sequence[Event], path: str | Path) -> Evening:
-    try:
-        return evening(events)
-    except InputError as error:
-        raise DataError([f"{path}: {error}"]) from error
+def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
+    """Return the state after the events of a file, if it can be shown.
+
+    Raises
+    ------
+    DataError
+        if it cannot; it names the entry that does not fit.
+    """
+    return folded(path, events, lambda some: _shown(evening(some)), NAMES)
 
 
 def _write(base: sqlite3.Connection, count: int, events: Sequence[Event]) -> None:

@@ -22,9 +22,9 @@ from evenbreak.errors import InputError
 from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
 from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.tournament_store import read_events, tournament_of
 from evenbreak.tournaments.evening.events import Event
-from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
@@ -114,7 +114,7 @@ class Night:
         if self._read is None or self._read[0] != mark:
             events = read_events(self.path)
             same = self._read is not None and self._read[1] == events
-            state = self._read[2] if self._read and same else evening(events)
+            state = self._read[2] if self._read and same else tournament_of(self.path, events)
             self._read = mark, events, state
         return self._read[2]
 

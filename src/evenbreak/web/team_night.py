@@ -14,10 +14,10 @@ from starlette.requests import Request
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.lineup import lineup_answer
 from evenbreak.answers.sealed_lineup import sealed_answer
-from evenbreak.files.team_night_store import read_team_events
+from evenbreak.files.team_night_store import read_team_events, team_night_of
 from evenbreak.teams.advice import Advice, advice
 from evenbreak.teams.evening.events import Event
-from evenbreak.teams.evening.fold import TeamEvening, team_evening
+from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.outlook import Side, chance, point_of, side_of
 from evenbreak.teams.sealed import SealedNight
 from evenbreak.teams.solve import SolvedNight
@@ -86,7 +86,7 @@ class TeamNights:
         mark = mark_of(self.path)
         if self._read is None or self._read[0] != mark:
             events = read_team_events(self.path)
-            state = team_evening(events)
+            state = team_night_of(self.path, events)
             self._read = mark, None if state is None else TeamNow(events, state)
         return self._read[1]
 

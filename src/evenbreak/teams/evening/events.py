@@ -5,17 +5,21 @@ An event is a frozen value; `as_dict` and `event_of` turn it into plain data and
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
+from evenbreak.checks import Between, made
 from evenbreak.errors import InputError
-from evenbreak.teams.evening.plan import NightPlan, TeamSheet
+from evenbreak.teams.evening.plan import NightPlan
 
 Pick: TypeAlias = tuple[str, ...]
 """Who plays a set: one player, or the pair of a doubles set."""
 
-Score: TypeAlias = tuple[int, int]
+Team: TypeAlias = Annotated[int, Between(0, 1)]
+Number: TypeAlias = Annotated[int, Between(1, 100)]
+Games: TypeAlias = Annotated[int, Between(0, 10_000)]
+
+Score: TypeAlias = tuple[Games, Games]
 """The games of team A and team B."""
 
 
@@ -30,8 +34,8 @@ class Begun:
 class PutUp:
     """A team (0: A, 1: B) puts up a pick in a set, counted from 1."""
 
-    team: int
-    number: int
+    team: Team
+    number: Number
     pick: Pick
 
 
@@ -39,7 +43,7 @@ class PutUp:
 class HandedIn:
     """A team hands in its whole line-up, where line-ups are sealed."""
 
-    team: int
+    team: Team
     picks: tuple[Pick, ...]
 
 
@@ -47,8 +51,8 @@ class HandedIn:
 class Proposed:
     """A team says how a set ended; it counts once the other says the same."""
 
-    team: int
-    number: int
+    team: Team
+    number: Number
     score: Score
 
 
@@ -56,7 +60,7 @@ class Proposed:
 class Result:
     """The director says how a set ended, for the first time or as a correction."""
 
-    number: int
+    number: Number
     score: Score
 
 
@@ -95,33 +99,17 @@ def as_dict(what: What) -> dict[str, Any]:
     return asdict(what)
 
 
-def event_of(kind: str, data: Mapping[str, Any]) -> What:
+def event_of(kind: str, data: Any) -> What:
     """Return what happened from plain data.
 
     Raises
     ------
     InputError
-        if it is no event.
+        if it is no event; the message names the field.
 
     >>> event_of("handed in", {"team": 1, "picks": [["Cy"], ["Di"]]})
     HandedIn(team=1, picks=(('Cy',), ('Di',)))
     """
-    try:
-        values = {name: _frozen(value) for name, value in data.items()}
-        if kind == "begun":
-            plan = dict(values["plan"])
-            teams = tuple(
-                TeamSheet(**{name: _frozen(value) for name, value in team.items()})
-                for team in plan.pop("teams")
-            )
-            plan = {name: _frozen(value) for name, value in plan.items()}
-            return Begun(NightPlan(teams, **plan))  # type: ignore[arg-type]
-        make: Any = KINDS[kind]
-        made: What = make(**values)
-        return made
-    except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(f"{kind!r} with {data!r} is not an event of a team night") from error
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+    if kind not in KINDS:
+        raise InputError(f"{kind[:40]!r} is not an event of a team night")
+    return made(KINDS[kind], data)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Annotated
 
-from evenbreak.checks import one_of, whole
+from evenbreak.checks import Between, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
@@ -40,8 +41,8 @@ class TeamSheet:
 
     name: str
     players: tuple[str, ...]
-    ratings: tuple[float, ...]
-    errors: tuple[float, ...]
+    ratings: tuple[Annotated[float, Between(-1_000_000, 1_000_000)], ...]
+    errors: tuple[Annotated[float, Between(0, 1_000_000)], ...]
     weights: tuple[float, ...]
 
     @property
@@ -83,8 +84,8 @@ class NightPlan:
     """
 
     teams: tuple[TeamSheet, TeamSheet]
-    sets: int
-    race: int = 0
+    sets: Annotated[int, Between(1, 100)]
+    race: Annotated[int, Between(0, 1_000)] = 0
     handicapped: bool = False
     chart: str = ""
     order: str = "alternate"
@@ -92,7 +93,7 @@ class NightPlan:
     doubles: tuple[int, ...] = ()
     cap: float | None = None
     at_most: tuple[int, float] | None = None
-    times: int = 1
+    times: Annotated[int, Between(1, 100)] = 1
     scale: str = "fargo"
 
 

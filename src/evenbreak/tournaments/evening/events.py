@@ -5,15 +5,23 @@ An event is a frozen value; `as_dict` and `event_of` turn it into plain data and
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
+from evenbreak.checks import Between, made
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.tournaments.brackets.bracket import Source
-from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot
+from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
+
+Games: TypeAlias = Annotated[int, Between(0, 10_000)]
+Race: TypeAlias = Annotated[int, Between(1, 1_000)]
+Table: TypeAlias = Annotated[int, Between(1, 1_000)]
+Few: TypeAlias = Annotated[int, Between(1, 256)]
+Seat: TypeAlias = Annotated[int, Between(0, 255)]
+Points: TypeAlias = Annotated[float, Between(-1_000_000, 1_000_000)]
+Error: TypeAlias = Annotated[float, Between(0, 1_000_000)]
 
 
 @dataclass(frozen=True)
@@ -60,27 +68,27 @@ class Plan:
     """
 
     form: str
-    race: int
+    race: Race
     final: str = "true"
-    qualifiers: int | None = None
+    qualifiers: Few | None = None
     drops: str = "fewest rematches"
     third_place: bool = False
     seeding: str = "listed"
-    losers_race: int | None = None
-    final_race: int | None = None
+    losers_race: Race | None = None
+    final_race: Race | None = None
     handicapped: bool = False
     chart: Chart | None = field(default=None, hash=False)
     scale: str = "npl"
-    starter: float = 0.0
-    starter_error: float = 0.0
-    tables: int = 4
+    starter: Points = 0.0
+    starter_error: Error = 0.0
+    tables: Table = 4
     discipline: str = "9-ball"
     placement: str = "half shift"
-    groups: int | None = None
-    pod_size: int = 8
-    rounds: int | None = None
+    groups: Few | None = None
+    pod_size: Few = 8
+    rounds: Few | None = None
     layout: tuple[Draft, ...] = ()
-    by_match: Mapping[str, int] = field(default_factory=dict, hash=False)
+    by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
     chips: ChipChart | None = field(default=None, hash=False)
 
 
@@ -89,8 +97,8 @@ class Entrant:
     """A player with a rating and how far off it may be."""
 
     name: str
-    rating: float
-    standard_error: float = 0.0
+    rating: Points
+    standard_error: Error = 0.0
 
 
 @dataclass(frozen=True)
@@ -109,7 +117,7 @@ class Drawn:
     """
 
     order: tuple[str, ...]
-    lines: tuple[int | None, ...] | None
+    lines: tuple[Seat | None, ...] | None
 
 
 @dataclass(frozen=True)
@@ -117,7 +125,7 @@ class Late:
     """A late entry: before the draw, onto the line of a bye, or to the end of a line of players."""
 
     entrant: Entrant
-    line: int | None = None
+    line: Seat | None = None
 
 
 @dataclass(frozen=True)
@@ -132,7 +140,7 @@ class Called:
     """A match is called to a table."""
 
     match: str
-    table: int
+    table: Table
     players: tuple[str, str]
 
 
@@ -142,7 +150,7 @@ class Scored:
 
     match: str
     players: tuple[str, str]
-    score: tuple[int, int]
+    score: tuple[Games, Games]
 
 
 @dataclass(frozen=True)
@@ -158,12 +166,12 @@ class Result:
 
     match: str
     players: tuple[str, str]
-    score: tuple[int, int]
+    score: tuple[Games, Games]
     winner: str
     forfeit: bool = False
     corrects: bool = False
     stands: bool = False
-    race: tuple[int, int] | None = None
+    race: tuple[Race, Race] | None = None
 
     @property
     def loser(self) -> str:
@@ -205,10 +213,10 @@ class LaterDraw:
 class Changed:
     """Other tables or races from now on, in the matches that have not begun; None: as before."""
 
-    tables: int | None = None
-    race: int | None = None
-    losers_race: int | None = None
-    final_race: int | None = None
+    tables: Table | None = None
+    race: Race | None = None
+    losers_race: Race | None = None
+    final_race: Race | None = None
 
 
 @dataclass(frozen=True)
@@ -262,39 +270,17 @@ def as_dict(what: What) -> dict[str, Any]:
     return asdict(what)
 
 
-def event_of(kind: str, data: Mapping[str, Any]) -> What:
+def event_of(kind: str, data: Any) -> What:
     """Return what happened from plain data.
 
     Raises
     ------
     InputError
-        if it is no event.
+        if it is no event; the message names the field.
 
     >>> event_of("dropped", {"name": "Bo"})
     Dropped(name='Bo')
     """
-    try:
-        values: Any = {name: tuple(v) if isinstance(v, list) else v for name, v in data.items()}
-        if kind == "opened":
-            entrants = tuple(Entrant(**one) for one in values["entrants"])
-            plan = dict(values["plan"])
-            if plan.get("chart") is not None:
-                plan["chart"] = Chart(**plan["chart"])
-            if plan.get("chips") is not None:
-                plan["chips"] = ChipChart(**plan["chips"])
-            plan["layout"] = tuple(_draft(*one) for one in plan.get("layout", ()))
-            return Opened(Plan(**plan), entrants)
-        if kind == "late":
-            return Late(Entrant(**values["entrant"]), values["line"])
-        make: Any = KINDS[kind]
-        made: What = make(**values)
-        return made
-    except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(f"{kind!r} with {data!r} is not an event of a tournament") from error
-
-
-def _draft(name: str, side: str, number: int, slots: Sequence[Any]) -> Draft:
-    def slot(one: Any) -> DraftSlot:
-        return one if one is None or isinstance(one, int) else Source(*one)
-
-    return Draft(name, side, number, (slot(slots[0]), slot(slots[1])))
+    if kind not in KINDS:
+        raise InputError(f"{kind[:40]!r} is not an event of a tournament")
+    return made(KINDS[kind], data)
