@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
 
+from evenbreak.errors import DataError
 from evenbreak.files.evening_file import changing, copied, has_table, opened
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 
@@ -23,6 +24,8 @@ CREATE TABLE IF NOT EXISTS prize (
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
     """Return the secrets of a tournament by name; those that it has none of are kept from now on.
 
+    In a file that cannot be written to now they are not kept: it is shown all the same.
+
     Parameters
     ----------
     path
@@ -33,10 +36,13 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
     with opened(path) as base:
         found = _secrets(base)
     if not first.keys() <= found.keys():
-        with changing(path) as base:
-            base.execute(_SECRETS)
-            base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
-            found = _secrets(base)
+        try:
+            with changing(path) as base:
+                base.execute(_SECRETS)
+                base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
+                found = _secrets(base)
+        except DataError:
+            return {**first, **found}
     return found
 
 

@@ -65,12 +65,31 @@ def check_form(request: Request, token: str) -> None:
         raise RefusalError("refused_form", status=403)
 
 
+def let_in(request: Request, role: str, mark: str) -> None:
+    """Keep that a PIN was entered in this session, for a visit of its own."""
+    request.session[role] = f"{mark} {secrets.token_urlsafe(9)}"
+
+
+def let_out(request: Request, role: str) -> None:
+    """End a visit: a copy of its cookie is good for nothing from now on."""
+    held = request.session.pop(role, None)
+    if isinstance(held, str):
+        request.app.state.site.end_visit(held.rpartition(" ")[2])
+
+
+def _is_in(request: Request, role: str, mark: str) -> bool:
+    """Return whether a PIN was entered in this session, and its visit goes on."""
+    held = request.session.get(role)
+    if not isinstance(held, str):
+        return False
+    own, _, visit = held.rpartition(" ")
+    ended: bool = request.app.state.site.has_ended(visit)
+    return hmac.compare_digest(own.encode(), mark.encode()) and not ended
+
+
 def is_director(request: Request) -> bool:
     """Return whether the director's PIN was entered in this session."""
-    mark = request.session.get(DIRECTOR)
-    return isinstance(mark, str) and hmac.compare_digest(
-        mark.encode(), request.app.state.site.director_mark.encode()
-    )
+    return _is_in(request, DIRECTOR, request.app.state.site.director_mark)
 
 
 def check_director(request: Request) -> None:
@@ -89,12 +108,10 @@ def captain_of(request: Request, night: int) -> int | None:
     night
         the number of the event with which the team night began.
     """
-    mark = request.session.get(CAPTAIN)
-    for team in (0, 1):
-        own = request.app.state.site.captain_mark(night, team)
-        if isinstance(mark, str) and hmac.compare_digest(mark.encode(), own.encode()):
-            return team
-    return None
+    site = request.app.state.site
+    return next(
+        (team for team in (0, 1) if _is_in(request, CAPTAIN, site.captain_mark(night, team))), None
+    )
 
 
 def check_tries(request: Request) -> None:

@@ -9,17 +9,20 @@ import math
 import secrets
 import time
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from evenbreak.errors import DataError
 from evenbreak.files.evening_file import is_there
 from evenbreak.files.tournament_desk import change_secrets, kept_secrets, new_pin
 from evenbreak.web.league import League
-from evenbreak.web.night import Night, now
+from evenbreak.web.night import Night, mark_of, now
 from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
 _SECOND_TAP = 10.0  # seconds
+_ENDED = "ended"
 
 
 @dataclass(eq=False)
@@ -52,21 +55,42 @@ class Site:
         self.night = Night(self.path, clock=self.clock)
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
-        self._secrets = {
+        self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},
         }
-        self._kept = False
+        self._secrets = dict(self._first)
+        self._read_at: tuple[int, int, int] | None = None
         self._pin_change = "", -math.inf
 
     def keep_secrets(self) -> None:
-        """Keep the secrets in the file, if it is there, so that phones go on after a restart."""
-        if not self._kept and is_there(self.path):
-            self._secrets, self._kept = kept_secrets(self.path, self._secrets), True
+        """Keep the secrets in the file, if it is there, so that phones go on after a restart.
+
+        They are read again whenever the file has changed: another server on it may have drawn
+        another PIN.
+        """
+        if not is_there(self.path):
+            return
+        mark = mark_of(self.path)
+        if mark != self._read_at:
+            self._secrets, self._read_at = kept_secrets(self.path, self._first), mark
 
     def _secret(self, name: str) -> str:
         self.keep_secrets()  # the file may have been begun by a command
         return self._secrets[name]
+
+    def end_visit(self, visit: str) -> None:
+        """Keep that a visit has ended, for every server on the file."""
+        found = {f"{_ENDED} {visit}": ""}
+        self._first |= found
+        if is_there(self.path):
+            with suppress(DataError):  # of a file that can only be read, this server knows it
+                change_secrets(self.path, found)
+
+    def has_ended(self, visit: str) -> bool:
+        """Return whether whoever entered a PIN then has left since."""
+        self.keep_secrets()
+        return f"{_ENDED} {visit}" in self._first | self._secrets
 
     def change_pin(self, by: str) -> None:
         """Draw another PIN of the director; whoever entered the earlier one is none any more.
@@ -79,6 +103,7 @@ class Site:
         found = {"pin": new_pin(), "director": _mark()}
         if is_there(self.path):
             change_secrets(self.path, found)
+        self._first |= found
         self._secrets |= found
         self._pin_change = by, time.monotonic()
 
@@ -129,12 +154,11 @@ class Site:
 
     def match_tokens(self, matches: Iterable[str]) -> dict[str, str]:
         """Return the token of each match."""
-        begun = self.night.begun_at
-        return {match: self._token(f"{begun} {match}") for match in matches}
+        begun, key = self.night.begun_at, self._secret("match")
+        return {match: _token(key, f"{begun} {match}") for match in matches}
 
     def _token(self, what: str) -> str:
-        key = self._secret("match").encode()
-        return hmac.new(key, what.encode(), hashlib.sha256).hexdigest()[:20]
+        return _token(self._secret("match"), what)
 
     def match_of(self, token: str, matches: Iterable[str]) -> str | None:
         """Return the match that a token is for."""
@@ -142,6 +166,10 @@ class Site:
             if hmac.compare_digest(its.encode(), token.encode()):
                 return name
         return None
+
+
+def _token(key: str, what: str) -> str:
+    return hmac.new(key.encode(), what.encode(), hashlib.sha256).hexdigest()[:20]
 
 
 def _mark() -> str:

@@ -22,7 +22,7 @@ from evenbreak.web.forms import form_of
 from evenbreak.web.page import answer_shown, done, language, page, site_of
 from evenbreak.web.pages.match import phone_label, phone_words
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import DIRECTOR, check_director, form_token
+from evenbreak.web.sessions import DIRECTOR, check_director, form_token, let_in
 from evenbreak.web.words import say
 
 
@@ -41,7 +41,7 @@ async def change_pin(request: Request) -> Response:
     if not site.has_changed_pin(session):
         check_director(request)
         await asyncio.to_thread(site.change_pin, session)
-    request.session[DIRECTOR] = site.director_mark
+    let_in(request, DIRECTOR, site.director_mark)
     return done(request, "/desk", say(language(request), "pin_changed", pin=site.pin))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
@@ -9,7 +11,7 @@ from starlette.routing import Route
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import choose_language, done, page, site_of
-from evenbreak.web.sessions import DIRECTOR, check_tries, wrong_pin
+from evenbreak.web.sessions import DIRECTOR, check_tries, let_in, let_out, wrong_pin
 
 
 async def tonight(request: Request) -> Response:
@@ -37,14 +39,14 @@ async def enter_pin(request: Request) -> Response:
     check_tries(request)
     if not site.is_pin(form.text("pin")):
         raise wrong_pin(request)
-    request.session[DIRECTOR] = site.director_mark
+    let_in(request, DIRECTOR, site.director_mark)
     return done(request, "/")
 
 
 async def leave(request: Request) -> Response:
     """Let the director out."""
     await form_of(request)
-    request.session.pop(DIRECTOR, None)
+    await asyncio.to_thread(let_out, request, DIRECTOR)
     return done(request, "/")
 
 

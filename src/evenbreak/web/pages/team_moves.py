@@ -19,7 +19,15 @@ from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, language, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import CAPTAIN, captain_of, check_director, check_tries, wrong_pin
+from evenbreak.web.sessions import (
+    CAPTAIN,
+    captain_of,
+    check_director,
+    check_tries,
+    let_in,
+    let_out,
+    wrong_pin,
+)
 from evenbreak.web.team_night import night_on
 from evenbreak.web.words import say
 
@@ -37,7 +45,7 @@ async def enter_pin(request: Request) -> Response:
     given = form.text("pin").encode()
     for side in (0, 1):
         if hmac.compare_digest(given, site.captain_pin(now.state.began, side).encode()):
-            request.session[CAPTAIN] = site.captain_mark(now.state.began, side)
+            let_in(request, CAPTAIN, site.captain_mark(now.state.began, side))
             return done(request, "/team")
     raise wrong_pin(request)
 
@@ -45,7 +53,7 @@ async def enter_pin(request: Request) -> Response:
 async def leave(request: Request) -> Response:
     """Let a captain out."""
     await form_of(request)
-    request.session.pop(CAPTAIN, None)
+    await asyncio.to_thread(let_out, request, CAPTAIN)
     return done(request, "/team")
 
 
