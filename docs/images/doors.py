@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterable
+from datetime import datetime
 from html import escape
 from pathlib import Path
 
 from at_work import run
-from shown import NIGHT
+
+from evenbreak.files.demo import write_demo_evening
 
 WIDTH, HEIGHT, LINE = 240, 136, 19
 INK, GREY, BLUE = "#222", "#aaa", "#0072b2"
@@ -29,7 +31,8 @@ def _box(x: float, y: float, width: float, height: float, colour: str) -> str:
 
 def _picture(heading: str, parts: Iterable[str]) -> str:
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" '
+        f'viewBox="0 0 {WIDTH} {HEIGHT}" '
         f'font-family="system-ui, sans-serif" font-size="12.5" fill="{INK}">\n'
         f"{_text(10, 22, heading, strong=True)}{''.join(parts)}</svg>\n"
     )
@@ -49,10 +52,9 @@ def _chances(heading: str, chances: list[tuple[str, float]]) -> str:
 
 
 def director() -> str:
-    """Draw who wins tonight's tournament, after a result."""
-    for line in NIGHT.splitlines():
-        run(line)
-    odds = json.loads(run("tournament odds --json"))["players"]
+    """Draw who wins the demo's tournament, as it is half played."""
+    write_demo_evening("demo.db", datetime(2025, 3, 1, 18))
+    odds = json.loads(run("tournament odds demo.db --json"))["players"]
     first = sorted(((one["name"], one["p_title"]) for one in odds), key=lambda one: -one[1])
     return _chances("Who wins tonight", first[:4])
 
