@@ -49,7 +49,7 @@ def test_a_name_with_a_comma_is_a_name(written):
         ("Player 101\nPlayer 102\n", ("Player 101", "Player 102"), [np.nan, np.nan]),
         ("Ann Lee,\nBo,\n", ("Ann Lee", "Bo"), [np.nan, np.nan]),
         ("1. Ann Lee,92\n\n2. Bo,71\n", ("Ann Lee", "Bo"), [92, 71]),
-        ("1) Ann\n3) Bo\n", ("1) Ann", "3) Bo"), [np.nan, np.nan]),
+        ("1) Ann\n3) Bo\n", ("Ann", "Bo"), [np.nan, np.nan]),
     ],
 )
 def test_ratings_may_follow_the_names(written, text, names, ratings):

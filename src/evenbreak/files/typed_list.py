@@ -6,32 +6,24 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.files.encoding import content_of, text_of
 from evenbreak.files.header import Header
-from evenbreak.files.player_names import clean_name, same_name
+from evenbreak.files.player_names import same_name
 from evenbreak.files.problems import Problems, quoted
 from evenbreak.files.spreadsheet import is_spreadsheet
 from evenbreak.files.text_table import Texts, TextTable, read_table
+from evenbreak.files.typed_line import TypedLine, typed_line
 
-_NUMBER = re.compile(r"[-+]?[0-9]+(?:[.,][0-9]+)?", re.ASCII)
-_AFTER_BLANKS = re.compile(r"(.*?[^\s0-9].*?)((?:\s+[0-9]+(?:[.,][0-9]+)?)+)", re.ASCII)
-_RATED = re.compile(rf"[,;\t]\s*{_NUMBER.pattern}\s*", re.ASCII)
-_NUMBERED = re.compile(r"\s*([0-9]+)[.)]\s+", re.ASCII)
 _RATING_DIGITS = 3
 """A number after a blank that is as long as this is a rating rather than part of a name."""
 
+_HIGHEST_PLACE = 256
+"""A number in front of a name that is higher than this is no place on a list."""
 
-class _Line(NamedTuple):
-    """A line: where it is, the name, the numbers after it, and how they were set apart."""
-
-    number: int
-    name: str
-    cells: tuple[str, ...]
-    after_blank: bool = False
+_WRITE_IT = "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
 
 
 def read_players(
@@ -76,10 +68,10 @@ def read_players(
     if _has_header(lines, header):
         return read_table(path, required, optional, rows="players")
     problems = Problems(source)
-    found = [
-        _line(number, line, len(numbers)) for number, line in enumerate(_without_numbers(lines), 1)
-    ]
-    rows = _with_numbers_after_blanks([one for one in found if one.name], len(numbers))
+    most = len(numbers)
+    found = _lines(lines, most)
+    warnings = _fronts(found, problems)
+    rows = _with_numbers_after_blanks(found, most)
     _refuse_other_text(rows, problems)
     if not rows:
         problems.add(None, "names nobody; write one player on each line")
@@ -94,7 +86,7 @@ def read_players(
         columns,
         frozenset({"player", *stated}),
         problems,
-        (*text.warnings, *_taken_as_ratings(rows, source)),
+        (*text.warnings, *warnings, *_doubts(rows, source)),
         content,
         {name: name for name in ("player", *stated)},
     )
@@ -109,35 +101,51 @@ def _has_header(lines: Sequence[str], header: Header) -> bool:
     )
 
 
-def _without_numbers(lines: Sequence[str]) -> list[str]:
-    """Return the lines without 1., 2., ... in front, if all that are not empty have them."""
-    numbered = [_NUMBERED.match(line) for line in lines if line.strip()]
-    counts = [int(found[1]) if found else None for found in numbered]
-    if counts != list(range(1, len(counts) + 1)):
-        return list(lines)
-    return [_NUMBERED.sub("", line) for line in lines]
+def _lines(lines: Sequence[str], most: int) -> list[TypedLine]:
+    """Return the lines that are not empty; a number in front needs no sign if all have one."""
+
+    def read(*, numbered: bool) -> list[TypedLine]:
+        every = (typed_line(k, text, most, numbered=numbered) for k, text in enumerate(lines, 1))
+        return [one for one in every if one.name]
+
+    rows = read(numbered=True)
+    counted = [one.front for one in rows] == list(range(1, len(rows) + 1))
+    return rows if counted else read(numbered=False)
 
 
-def _line(number: int, text: str, most: int) -> _Line:
-    """Return a name and the numbers after it; what else has commas is a name, such as Lee, Ann."""
-    for separator in "\t;,":
-        name, *cells = (cell.strip() for cell in text.split(separator))
-        if cells and len(cells) <= most and all(not c or _NUMBER.fullmatch(c) for c in cells):
-            return _Line(number, clean_name(name), tuple(cells))
-    return _Line(number, clean_name(text), ())
-
-
-def _with_numbers_after_blanks(rows: list[_Line], most: int) -> list[_Line]:
-    """Return the lines, those with a rating after a blank split: Ann Lee 612, but not Player 7."""
-    parts = [None if one.cells else _AFTER_BLANKS.fullmatch(one.name) for one in rows]
-    cells = [tuple(part[2].split()) if part else () for part in parts]
-    cells = [each if len(each) <= most else () for each in cells]
-    if not all(one.cells or each for one, each in zip(rows, cells, strict=True)):
-        cells = [each if each and len(each[0]) >= _RATING_DIGITS else () for each in cells]
-    split = [
-        one._replace(name=part[1], cells=each, after_blank=True) if part and each else one
-        for one, part, each in zip(rows, parts, cells, strict=True)
+def _fronts(rows: Sequence[TypedLine], problems: Problems) -> list[str]:
+    """Return a warning if places in front of the names are left out; refuse what is no place."""
+    numbered = [one for one in rows if one.front is not None]
+    fronts = [one.front or 0 for one in numbered]
+    if fronts == list(range(1, len(fronts) + 1)):
+        return []
+    if fronts != sorted(set(fronts)) or fronts[-1] > _HIGHEST_PLACE:
+        first = next(
+            one
+            for k, one in enumerate(numbered)
+            if fronts[k] > _HIGHEST_PLACE or (k and fronts[k] <= fronts[k - 1])
+        )
+        problems.add(
+            first.number,
+            f"the number {first.front} in front of {quoted(first.name)} is no place in that order; "
+            f"sort the lines or leave the numbers out, and {_WRITE_IT}",
+        )
+        return []
+    one = numbered[0]
+    return [
+        f"{problems.source}:{one.number}: the number {one.front} in front of {quoted(one.name)} is "
+        "left out, and so are the others; the order is that of the lines"
     ]
+
+
+def _with_numbers_after_blanks(rows: list[TypedLine], most: int) -> list[TypedLine]:
+    """Return the lines, those with a rating after a blank split: Ann Lee 612, but not Player 7."""
+    split = [one.split_at_blanks(most) for one in rows]
+    if not all(one.cells for one in split):
+        split = [
+            after if len(after.cells and after.cells[0]) >= _RATING_DIGITS else one
+            for one, after in zip(rows, split, strict=True)
+        ]
     names = Counter(same_name(one.name) for one in split)
     return [
         after if names[same_name(after.name)] == 1 else one
@@ -145,27 +153,31 @@ def _with_numbers_after_blanks(rows: list[_Line], most: int) -> list[_Line]:
     ]
 
 
-def _refuse_other_text(rows: list[_Line], problems: Problems) -> None:
-    """Refuse lines that look like a title or a slip."""
-    some_have_numbers = any(one.cells for one in rows)
+def _refuse_other_text(rows: list[TypedLine], problems: Problems) -> None:
+    """Refuse lines that look like a title or a slip, and those that could mean two ratings."""
+    rated = any(one.cells for one in rows)
     for one in rows:
-        if one.cells or not re.search(r"[,;\t]", one.name):
-            continue
-        if some_have_numbers or _RATED.search(one.name):
-            problems.add(
-                one.number,
-                f"{quoted(one.name)} is not a name and a rating; write it such as Ann Lee,612, or "
-                "make player,rating the first line",
-            )
+        slip = rated and not one.cells and re.search(r",|[0-9]{2}", one.name)
+        if one.left_over or slip:
+            problems.add(one.number, f"{quoted(one.name)} is not a name and a rating; {_WRITE_IT}")
 
 
-def _taken_as_ratings(rows: list[_Line], source: str) -> list[str]:
-    """Return a warning where numbers after a blank were taken as ratings."""
-    split = [one for one in rows if one.after_blank]
-    if not split:
-        return []
-    one = split[0]
+def _doubts(rows: list[TypedLine], source: str) -> list[str]:
+    """Return a warning for each kind of line that could mean something else."""
+    kinds: dict[str, list[str]] = {}
+    for one in (row for row in rows if not row.left_over):
+        at, rating = f"{source}:{one.number}: ", one.cells[0] if one.cells else ""
+        if one.after_blank:
+            whole = quoted(f"{one.name} {rating}")
+            said = f"{at}{whole} is read as {one.name} with the rating {rating}"
+            kinds.setdefault("split", []).append(said)
+        elif re.search(r"^\W*[0-9]" if one.cells else r"[0-9()\[\]]", one.name):
+            said = f"{at}{quoted(one.name)} is taken as a name"
+            kinds.setdefault("name", []).append(said)
+        if rating and float(rating.replace(",", ".")) <= 0:
+            said = f"{at}{quoted(one.name)} has the rating {rating}; leave it out if it means none"
+            kinds.setdefault("low", []).append(said)
     return [
-        f"{source}:{one.number}: {quoted(f'{one.name} {one.cells[0]}')} is read as {one.name} with "
-        f"the rating {one.cells[0]}" + (f", and so are {len(split) - 1} more" if split[1:] else "")
+        said[0] + (f", and so are {len(said) - 1} more" if said[1:] else "")
+        for said in kinds.values()
     ]
