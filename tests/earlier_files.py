@@ -9,7 +9,7 @@ from evenbreak.files.match_phones import PROPOSED, phone_entries
 from evenbreak.files.saved_ratings import read_saved
 from evenbreak.files.several_results import read_seasons
 from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_desk import authors, kept_prizes
+from evenbreak.files.tournament_desk import kept_prizes
 from evenbreak.files.tournament_store import read_events, read_tournament
 from evenbreak.ratings.scale import SCALES
 from evenbreak.teams.evening.fold import team_evening
@@ -47,7 +47,7 @@ def tournament(path: Path) -> dict[str, Any]:
         "live": {name: one.what.score for name, one in state.live.items()},
         "times": [event.at for event in read_events(path)],
         **_beside(path),
-        "authors": list(authors(path).values()),
+        "authors": [one.by for one in read_events(path) if one.by],
         "proposals": [
             [*map(str, (one.match, one.player, one.score))]
             for one in phone_entries(path)

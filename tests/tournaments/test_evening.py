@@ -30,6 +30,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
+from evenbreak.tournaments.evening.undoing import undo
 from evenbreak.tournaments.odds.races import Fairest
 
 AT = "2025-03-01T19:30:00"
@@ -191,7 +192,7 @@ class Night(RuleBasedStateMachine):
     @precondition(lambda self: len(self.states) > 1)
     @rule()
     def undo(self) -> None:
-        self.events.append(Event(AT, moves.undo(self.state)))
+        self.events.append(Event(AT, undo(self.state)))
         self.states.pop()
 
     @invariant()

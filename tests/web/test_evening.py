@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.files.match_phones import phone_entries
-from evenbreak.files.tournament_desk import authors, kept_prizes
+from evenbreak.files.tournament_desk import kept_prizes
 from evenbreak.files.tournament_store import (
     add_events,
     new_tournament,
@@ -79,7 +79,7 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
     for decide in done:
         add_events(plain, lambda state, d=decide: [Event("2025-03-01T20:00:00", d(state))])
     assert read_tournament(plain).counted == hall.state.counted
-    assert "phones: " in " ".join(authors(hall.site.path).values())
+    assert "phones: " in " ".join(one.by for one in events)
 
 
 def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
@@ -101,7 +101,7 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
 def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -> None:
     scored_by_phones(hall, "W1.1", (3, 1))
     assert "W1.1" in hall.state.counted
-    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
     assert "says:" not in hall.director.open("/desk").words
     token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
     phone = Phone(hall.site)

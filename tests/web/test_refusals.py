@@ -230,7 +230,7 @@ def test_names_are_text_everywhere(hall: Hall) -> None:
             "/desk/drop", player=f"Player {16 - NASTY.index(name)}", sure="yes"
         )
         assert shown.status == 200
-    hall.director.send("/desk/undo", seen=len(hall.state.events))
+    hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
     for page in ("/", "/desk", "/bracket", "/screen", "/desk/history"):
         assert hall.director.open(page).status == 200
     other = hall.site.path.with_name("other.db")
@@ -258,7 +258,7 @@ def test_the_same_tap_twice_enters_once(hall: Hall) -> None:
 def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:
     seen = len(hall.state.events)
     hall.director.send("/desk/call", match="W1.1", table=1)
-    shown = hall.director.send("/desk/undo", seen=seen)
+    shown = hall.director.send("/desk/undo", entry=seen)
     assert shown.status == 409
     assert len(hall.state.events) == seen + 1
 

@@ -10,9 +10,11 @@ from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import (
     Called,
+    CalledBack,
     Changed,
     Drawn,
     Dropped,
+    Edited,
     Event,
     Late,
     LaterDraw,
@@ -24,6 +26,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
+from evenbreak.tournaments.evening.losses import losses
 from evenbreak.tournaments.evening.moves import score_words
 from evenbreak.tournaments.evening.settling import TieBreak
 
@@ -108,6 +111,21 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
     ]
     if back:
         said.append(f"Counts again: {'; '.join(back)}.")
+    return said
+
+
+def lost_words(before: Evening, after: Evening) -> list[str]:
+    """Return in words what an entry takes away besides that which it is about."""
+    said = []
+    for one in losses(before, after):
+        match = f"{one.match}, {' against '.join(one.players)},"
+        at = "" if one.score is None or not any(one.score) else "{}:{}".format(*one.score)
+        if one.result is not None:
+            said.append(f"{one.match}, {score_words(one.result)}, would no longer count.")
+        elif one.table is None:
+            said.append(f"{match} would end at {at}.")
+        else:
+            said.append(f"{match} would leave table {one.table}{f' at {at}' if at else ''}.")
     return said
 
 
@@ -224,19 +242,32 @@ def event_words(what: What) -> str:
             return "the breaking of the ties"
         case Called():
             return f"the call of {what.match} to table {what.table}"
+        case CalledBack(match=match):
+            return f"{match} taken off its table"
         case Drawn():
             return "the draw"
         case LaterDraw(stage=stage):
             round_of = stage != KNOCK_OUT
             return f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
+        case _:
+            return _entry_words(what)
+
+
+def _entry_words(what: What) -> str:
+    """Return in words what concerns the list of players, or the evening as a whole."""
+    match what:
         case Changed():
             return "the change of tables or races"
         case Late():
             return f"the entry of {what.entrant.name}"
+        case Edited(name=name, entrant=entrant):
+            return f"{name} corrected to {entrant.name}, {entrant.rating:g}"
         case Dropped():
             return f"{what.name} dropping out"
-        case Undone():
+        case Undone(entry=None):
             return "the last entry taken back"
+        case Undone(entry=entry):
+            return f"entry {entry} taken back"
         case _:
             return "the beginning"
 

@@ -1,4 +1,4 @@
-"""What the file of an evening holds besides its events: secrets, authors, prizes."""
+"""What the file of an evening holds besides its events: secrets, prizes."""
 
 from __future__ import annotations
 
@@ -79,14 +79,6 @@ def kept_prizes(path: str | Path) -> PrizeMoney | None:
             return None
         row = base.execute("SELECT fee, added, house, payout FROM prize").fetchone()
     return PrizeMoney(*row) if row else None
-
-
-def authors(path: str | Path) -> dict[int, str]:
-    """Return who entered each event, by its number from 1, where that is known."""
-    with opened(path) as base:
-        if not has_table(base, "author"):
-            return {}
-        return dict(base.execute("SELECT number, name FROM author").fetchall())
 
 
 def back_up(path: str | Path, now: datetime) -> Path:

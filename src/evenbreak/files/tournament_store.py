@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -111,6 +112,7 @@ def add_events(
     *,
     by: str = "",
     form: str | None = None,
+    check: Callable[[Evening, Evening], None] | None = None,
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
@@ -126,6 +128,8 @@ def add_events(
     form
         what the form is known by that they come from. If it was taken before, nothing is asked and
         nothing is added.
+    check
+        gets the state before and after; if it raises an error, nothing is added.
 
     Raises
     ------
@@ -139,8 +143,10 @@ def add_events(
             _refuse_taken(base, form)
         earlier = _events(base, path)
         before = tournament_of(path, earlier)
-        added = list(decide(before))
+        added = [replace(one, by=by) for one in decide(before)]
         after = _shown(evening([*earlier, *added]))
+        if check:
+            check(before, after)
         _write(base, len(earlier), added)
         if by:
             _sign(base, len(earlier), len(added), by)
@@ -186,18 +192,20 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
                 "serve, or begin a tournament in it with evenbreak tournament new"
             ]
         )
-    rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number")
+    rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number").fetchall()
+    signed = has_table(base, "author")
+    by = dict(base.execute("SELECT number, name FROM author").fetchall() if signed else ())
     events = []
-    for number, at, kind, what in rows.fetchall():
+    for number, at, kind, what in rows:
         with named(path, f"entry {number} ({kind})"):
-            events.append(_event(at, kind, what))
+            events.append(_event(at, kind, what, str(by.get(number, ""))))
     return events
 
 
 @lru_cache(maxsize=4096)
-def _event(at: Any, kind: Any, what: Any) -> Event:
+def _event(at: Any, kind: Any, what: Any, by: str) -> Event:
     """Return the event in a row; a page reads all rows again after each new one."""
-    return Event(at, happened(at, kind, what, event_of))
+    return Event(at, happened(at, kind, what, event_of), by)
 
 
 def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:

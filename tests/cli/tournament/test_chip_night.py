@@ -107,10 +107,11 @@ def test_a_wrong_winner_long_ago_sets_racks_aside(night):
     for table, winner in ("1", "Ann"), ("2", "Cy"), ("2", "Ed"), ("2", "Ann"):
         answer = night("result", table, winner)
     assert [row["name"] for row in answer["players"]] == ["Ann", "Ed", "Cy", "Di", "Bo"]
-    wrong = night("correct", "R1", "Bo")
+    night("correct", "R1", "Bo", fails=2)
+    wrong = night("correct", "R1", "Bo", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == ["R4"]
     assert {row["name"] for row in wrong["players"] if row["p_title"]} == {"Bo", "Ed"}
-    assert not night("undo")["set_aside"]
+    assert not night("undo", "--yes")["set_aside"]
 
 
 def test_what_a_chip_night_has_not_is_refused_in_one_line(begun):

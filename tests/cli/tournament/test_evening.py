@@ -45,14 +45,14 @@ def test_a_whole_evening(night):
     assert sorted(one["table"] for one in called["next"] if one["table"]) == [1, 2, 3, 4]
     assert called["finish_p10"] < called["finish_p50"] < called["finish_p90"]
     answer = play(night, called, 3)
-    wrong = night("correct", "W1.1", "1:3", "--at", "20:30")
+    wrong = night("correct", "W1.1", "1:3", "--at", "20:30", "--yes")
     aside = {one["match"] for one in wrong["set_aside"]}
     assert aside >= {"W2.1", "L1.1"}
     matches = {one["match"]: one for one in night("show")["matches"]}
     assert matches["W1.1"]["winner"] == "Zoe Late"
     assert matches["W2.1"]["winner"] is None
     assert not night("undo")["set_aside"]
-    answer = night("correct", "W1.1", "1:3", "--at", "20:31")
+    answer = night("correct", "W1.1", "1:3", "--at", "20:31", "--yes")
     while "places" not in answer:
         answer = play(night, answer, 1)
     places = [one["place"] for one in answer["places"]]

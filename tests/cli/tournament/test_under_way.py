@@ -84,12 +84,16 @@ def test_next_says_what_each_match_decides(begun):
 def test_a_match_stands_and_results_count_again(begun):
     for match, score in (("W1.1", "3:0"), ("W1.2", "3:0"), ("W2.1", "3:1")):
         begun("result", match, score)
-    wrong = begun("correct", "W1.1", "0:3")
+    asked = begun.run("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
+    assert asked.exit_code == 2
+    assert "W2.1, Ann beat Bo 3:1, would no longer count. Give --yes" in asked.stderr
+    wrong = begun("correct", "W1.1", "0:3", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == ["W2.1"]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
     assert "Counts again" in shown
     assert not begun("next")["set_aside"]
-    assert "Open again" in begun.run("tournament", "undo", "--file", begun.file, "--text").stdout
+    undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
+    assert "Open again" in undone.stdout
 
 
 def test_ties_of_a_round_robin(night):

@@ -7,7 +7,7 @@ import click
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import SCORE_OR_NAME
-from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
 EXAMPLES = """\b
 Examples:
@@ -22,12 +22,14 @@ Examples:
 @click.argument("score", metavar="SCORE", type=SCORE_OR_NAME)
 @file_option
 @at_option
+@yes_option
 @faces()
-def command(*, match: str, score: tuple[int, int] | str, file: str, at: str) -> Answer:
+def command(*, match: str, score: tuple[int, int] | str, file: str, at: str, yes: bool) -> Answer:
     """Correct the result of a match, at any time.
 
     If others move on because of it, later matches that the wrong players have played are open
-    again. Their results are kept, and count again if the correction is undone.
+    again, and those that they are playing leave their tables: it is then refused without --yes.
+    Results and scores are kept, and count again if the correction is undone or corrected.
 
     In a chip tournament name the winner, and the rack or, for the last rack on a table, the table.
     The chip goes back to its owner; racks that were played since still count, unless a player had
@@ -36,5 +38,5 @@ def command(*, match: str, score: tuple[int, int] | str, file: str, at: str) -> 
     from evenbreak.answers.tournament_moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(file, at, lambda state: [moves.correct(state, match, score)])
+    before, state = add(file, at, lambda state: [moves.correct(state, match, score)], yes=yes)
     return answer_of(file, state, at, happened(before, state, state.events[-1]))

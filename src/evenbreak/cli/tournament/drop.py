@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.events import Dropped
+    from evenbreak.tournaments.evening.fold import Evening
 
 
 @click.command("drop")
 @click.argument("player")
 @file_option
 @at_option
+@yes_option
 @faces()
-def command(*, player: str, file: str, at: str) -> Answer:
+def command(*, player: str, file: str, at: str, yes: bool) -> Answer:
     """Let PLAYER go home: they forfeit all their matches to come.
 
     In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
@@ -23,7 +30,8 @@ def command(*, player: str, file: str, at: str) -> Answer:
     from evenbreak.answers.tournament_moves import forfeited
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(
-        file, at, lambda state: [moves.drop(state, moves.known_player(state, player))]
-    )
+    def decide(state: Evening) -> list[Dropped]:
+        return [moves.drop(state, moves.known_player(state, player))]
+
+    before, state = add(file, at, decide, yes=yes)
     return answer_of(file, state, at, forfeited(before, state))

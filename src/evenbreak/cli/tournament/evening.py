@@ -134,15 +134,39 @@ def _near(reference: datetime, at: int, *, same_day: bool) -> datetime:
     return moment + timedelta(days=1 if moment < reference else -1)
 
 
-def add(file: str, at: str, decide: Callable[[Evening], Sequence[What]]) -> tuple[Evening, Evening]:
-    """Add what a function decides to the file, and return the state before and after."""
+def yes_option(command: Command) -> Command:
+    """Add --yes, without which nothing is entered that takes away a match in play or a result."""
+    return with_options(
+        command,
+        click.option(
+            "--yes",
+            is_flag=True,
+            help="Enter it even if a match in play leaves its table, or a result no longer counts.",
+        ),
+    )
+
+
+def add(
+    file: str, at: str, decide: Callable[[Evening], Sequence[What]], *, yes: bool = False
+) -> tuple[Evening, Evening]:
+    """Add what a function decides to the file, and return the state before and after.
+
+    What takes away a match in play or a result besides is refused, unless `yes` says that it is
+    meant.
+    """
+    from evenbreak.answers.tournament_moves import lost_words
     from evenbreak.files.tournament_store import add_events
     from evenbreak.tournaments.evening.events import Event
 
     def events(state: Evening) -> list[Event]:
         return [Event(at, what) for what in decide(state)]
 
-    return add_events(file, events)
+    def check(before: Evening, after: Evening) -> None:
+        lost = [] if yes else lost_words(before, after)
+        if lost:
+            refuse(f"nothing was entered yet. {' '.join(lost)} Give --yes if that is meant")
+
+    return add_events(file, events, check=check)
 
 
 def answer_of(file: str, state: Evening, at: str, said: Sequence[str] = ()) -> Answer:

@@ -8,7 +8,7 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.events import Result
@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 @click.argument("match", required=False)
 @file_option
 @at_option
+@yes_option
 @faces()
-def command(*, player: str, match: str | None, file: str, at: str) -> Answer:
+def command(*, player: str, match: str | None, file: str, at: str, yes: bool) -> Answer:
     """Let PLAYER forfeit the match they are to play; they play on if the format lets them.
 
     MATCH is needed only if they have several to play, as in a round robin.
@@ -32,5 +33,5 @@ def command(*, player: str, match: str | None, file: str, at: str) -> Answer:
     def decide(state: Evening) -> list[Result]:
         return [moves.forfeit(state, moves.known_player(state, player), match)]
 
-    before, state = add(file, at, decide)
+    before, state = add(file, at, decide, yes=yes)
     return answer_of(file, state, at, happened(before, state, state.events[-1]))

@@ -1,4 +1,4 @@
-"""`evenbreak tournament undo`: take back what happened last."""
+"""`evenbreak tournament undo`: take back an entry."""
 
 from __future__ import annotations
 
@@ -6,18 +6,33 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
+from evenbreak.cli.kit.values import Whole
+from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
 
 @click.command("undo")
+@click.option(
+    "--entry",
+    type=Whole(2, 10**7),
+    metavar="N",
+    help="A result that both players entered, by its number in the history.  "
+    "[default: the director's last entry]",
+)
 @file_option
 @at_option
+@yes_option
 @faces()
-def command(*, file: str, at: str) -> Answer:
-    """Take back what happened last; once more takes back what happened before that."""
-    from evenbreak.answers.tournament_moves import reopened, undone_words
-    from evenbreak.tournaments.evening import moves
+def command(*, entry: int | None, file: str, at: str, yes: bool) -> Answer:
+    """Take back the director's last entry; once more takes back the one before that.
 
-    before, state = add(file, at, lambda state: [moves.undo(state)])
-    said = [undone_words(before.events[-1].what), *reopened(before, state)]
+    Scores that players tap on their phones stay. A result that both players entered is taken back
+    only if --entry names it, or corrected.
+    """
+    from evenbreak.answers.tournament_moves import reopened, undone_words
+    from evenbreak.tournaments.evening.undoing import undo
+
+    before, state = add(file, at, lambda state: [undo(state, entry)], yes=yes)
+    events = dict(zip(before.numbers, before.events, strict=True))
+    (gone,) = events.keys() - set(state.numbers)
+    said = [undone_words(events[gone].what), *reopened(before, state)]
     return answer_of(file, state, at, said)

@@ -22,6 +22,7 @@ from evenbreak.tournaments.evening.events import (
     Changed,
     Drawn,
     Dropped,
+    Edited,
     Entrant,
     Event,
     Late,
@@ -134,6 +135,8 @@ def chip_night(events: Sequence[Event]) -> ChipNight:
         match event.what:
             case Late(entrant=late) if not walk.start:
                 entrants[late.name] = late
+            case Edited(entrant=edited):
+                entrants[edited.name] = edited
             case Drawn(order=order):
                 for name in order:
                     walk.enter(entrants[name])

@@ -129,6 +129,22 @@ class Late:
 
 
 @dataclass(frozen=True)
+class Edited:
+    """Another name or rating of a player before the draw; they keep their place among the others.
+
+    Parameters
+    ----------
+    name
+        as they entered.
+    entrant
+        as they are from now on.
+    """
+
+    name: str
+    entrant: Entrant
+
+
+@dataclass(frozen=True)
 class Dropped:
     """A player goes home; their matches to come are lost by forfeit."""
 
@@ -141,6 +157,14 @@ class Called:
 
     match: str
     table: Table
+    players: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class CalledBack:
+    """A match is taken off its table, before it is over; its score is kept."""
+
+    match: str
     players: tuple[str, str]
 
 
@@ -221,15 +245,19 @@ class Changed:
 
 @dataclass(frozen=True)
 class Undone:
-    """The last event that has not been undone yet is undone."""
+    """An event is undone: that of a number, or else the last one that has not been undone yet."""
+
+    entry: Annotated[int, Between(2, 1_000_000_000)] | None = None
 
 
 What: TypeAlias = (
     Opened
     | Drawn
     | Late
+    | Edited
     | Dropped
     | Called
+    | CalledBack
     | Scored
     | Result
     | Ranked
@@ -241,8 +269,10 @@ KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
     "late": Late,
+    "edited": Edited,
     "dropped": Dropped,
     "called": Called,
+    "called back": CalledBack,
     "scored": Scored,
     "result": Result,
     "ranked": Ranked,
@@ -255,10 +285,19 @@ NAMES = {kind: name for name, kind in KINDS.items()}
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened, and when: local time, such as 2025-03-01T19:30:00."""
+    """Something that happened, when (local time, such as 2025-03-01T19:30:00), and who entered it.
+
+    Commands leave out who did; they are the director's, as is the page of the desk.
+    """
 
     at: str
     what: What
+    by: str = ""
+
+    @property
+    def by_phones(self) -> bool:
+        """Whether players entered it on their phones."""
+        return self.by.startswith("phone")
 
 
 def as_dict(what: What) -> dict[str, Any]:

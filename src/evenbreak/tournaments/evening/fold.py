@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,11 +21,14 @@ from evenbreak.tournaments.brackets.group_ranks import ranked
 from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
+from evenbreak.tournaments.evening.entering import let_in, listed
 from evenbreak.tournaments.evening.events import (
     Called,
+    CalledBack,
     Changed,
     Drawn,
     Dropped,
+    Edited,
     Entrant,
     Event,
     Late,
@@ -42,6 +45,10 @@ from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
+
+
+Pairing: TypeAlias = tuple[str, frozenset[str]]
+"""A match and its players: a correction may send others into it, and them back."""
 
 
 class Played(NamedTuple):
@@ -84,15 +91,17 @@ class Evening:
     dropped
         the players who have gone home.
     calls
-        the last call of each match, in the order in which they came.
+        the last call of each match and its players, in the order in which they came.
     scores
-        the last live score of each match.
+        the last live score of each match and its players.
     ties
         the last breaking of the ties of each group.
     later
         what was drawn in the course of the evening, by stage.
     events
         the events that were not undone.
+    numbers
+        the number of each of them in the file, from 1.
     """
 
     plan: Plan
@@ -101,11 +110,12 @@ class Evening:
     lines: tuple[int | None, ...] | None
     records: Mapping[str, tuple[Played, ...]]
     dropped: tuple[str, ...]
-    calls: Mapping[str, OnTable]
-    scores: Mapping[str, LiveScore]
+    calls: Mapping[Pairing, OnTable]
+    scores: Mapping[Pairing, LiveScore]
     ties: Mapping[str, Ranked]
     later: Mapping[str, tuple[str | None, ...]]
     events: tuple[Event, ...]
+    numbers: tuple[int, ...]
 
     @property
     def drawn(self) -> bool:
@@ -195,14 +205,14 @@ class Evening:
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
                 for one in self.chip_night.playing
             }
-        last = {one.call.table: name for name, one in self.calls.items()}
+        called = {n: one for (n, who), one in self.calls.items() if self._sitting(n) == who}
+        last = {one.call.table: name for name, one in called.items()}
         return {
             name: one
-            for name, one in self.calls.items()
+            for name, one in called.items()
             if last[one.call.table] == name
             and one.call.table <= self.plan.tables
             and name in self.standing.to_play
-            and set(self.pair(name)) == set(one.call.players)
         }
 
     @cached_property
@@ -210,9 +220,14 @@ class Evening:
         """The scores of the matches in play."""
         return {
             name: one
-            for name, one in self.scores.items()
-            if name in self.standing.to_play and set(self.pair(name)) == set(one.what.players)
+            for (name, players), one in self.scores.items()
+            if name in self.standing.to_play and self._sitting(name) == players
         }
+
+    def _sitting(self, match: str) -> frozenset[str]:
+        """Return the players who are known to be in a match."""
+        seats = self.standing.seats.get(match, ())
+        return frozenset(self.order[k] for k in seats if k is not None and k >= 0)
 
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""
@@ -280,47 +295,44 @@ def evening(events: Iterable[Event]) -> Evening:
     >>> evening([Event("2025-03-01T19:30:00", what) for what in happened]).winners
     {'F': 'Bo'}
     """
-    first, kept = _kept(events)
+    first, numbered = _kept(events)
+    kept = list(numbered.values())
     plan = first.plan
     entrants = {entrant.name: entrant for entrant in first.entrants}
     order: list[str] = []
     lines: list[int | None] | None = None
     records: dict[str, list[Played]] = {}
     dropped: list[str] = []
-    calls: dict[str, OnTable] = {}
-    scores: dict[str, LiveScore] = {}
+    calls: dict[Pairing, OnTable] = {}
+    scores: dict[Pairing, LiveScore] = {}
     ties: dict[str, Ranked] = {}
     for event in kept[1:]:
         match event.what:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
-            case Called() as call:
-                earlier = calls.pop(call.match, None)  # so that they are in the order of time
-                moved = (
-                    earlier is not None
-                    and earlier.call.players == call.players
-                    and call.match not in records
-                )
-                calls[call.match] = OnTable(call, earlier.at if earlier and moved else event.at)
+            case Called() | CalledBack() as call:
+                earlier = calls.pop((call.match, frozenset(call.players)), None)
+                if isinstance(call, Called):  # anew, so that calls are in the order of time
+                    moved = earlier is not None and call.match not in records
+                    since = earlier.at if earlier and moved else event.at
+                    calls[call.match, frozenset(call.players)] = OnTable(call, since)
             case Changed() as change:
-                begun = {*records, *calls, *scores}
+                begun = {*records, *(name for name, _ in (*calls, *scores))}
                 drawn_up = tuple(order), None if lines is None else tuple(lines)
                 bracket = bracket_of(plan, *drawn_up) if order else None
                 plan = changed(plan, change, bracket, begun)
             case Scored() as scored:
-                scores[scored.match] = LiveScore(scored, event.at)
+                scores[scored.match, frozenset(scored.players)] = LiveScore(scored, event.at)
             case Ranked() as tie:
                 ties[tie.group] = tie
             case Drawn(order=drawn, lines=drawn_lines):
                 order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
-            case Late() as late:
-                entrants[late.entrant.name] = late.entrant
-                _let_in(late, order, lines)
-            case Dropped(name=name):
-                if order:
-                    dropped.append(name)
-                else:
-                    del entrants[name]
+            case Late() | Edited() | Dropped() as entry:
+                entrants = listed(entrants, entry, drawn=bool(order))
+                if isinstance(entry, Late):
+                    let_in(entry, order, lines)
+                elif isinstance(entry, Dropped) and order:
+                    dropped.append(entry.name)
     return Evening(
         plan,
         entrants,
@@ -333,16 +345,8 @@ def evening(events: Iterable[Event]) -> Evening:
         ties,
         {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
         tuple(kept),
+        tuple(numbered),
     )
-
-
-def _let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None:
-    """Let a player in who comes after the draw."""
-    if not order:
-        return
-    if late.line is not None and lines is not None:
-        lines[late.line] = len(order)
-    order.append(late.entrant.name)
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:
@@ -364,16 +368,16 @@ def _breaks_ties(now: Standing, tie: Ranked) -> bool:
     return False
 
 
-def _kept(events: Iterable[Event]) -> tuple[Opened, list[Event]]:
-    """Return the first event, and all those that were not undone."""
-    kept: list[Event] = []
-    for event in events:
+def _kept(events: Iterable[Event]) -> tuple[Opened, dict[int, Event]]:
+    """Return the first event, and all those that were not undone by their numbers from 1."""
+    kept: dict[int, Event] = {}
+    for number, event in enumerate(events, 1):
         if not isinstance(event.what, Undone):
-            kept.append(event)
-        elif len(kept) > 1:
-            kept.pop()
-        else:
+            kept[number] = event
+            continue
+        entry = max(kept, default=1) if event.what.entry is None else event.what.entry
+        if entry == 1 or kept.pop(entry, None) is None:
             raise InputError("there is nothing to undo")
-    if not kept or not isinstance(first := kept[0].what, Opened):
+    if 1 not in kept or not isinstance(first := kept[1].what, Opened):
         raise InputError("the first event does not open a tournament")
     return first, kept

@@ -19,18 +19,20 @@ from evenbreak.tournaments.brackets.seeding import (
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import (
     Called,
+    CalledBack,
     Changed,
     Drawn,
     Dropped,
+    Edited,
     Entrant,
     Late,
     LaterDraw,
     Result,
     Scored,
-    Undone,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.later_draws import draw_later
+from evenbreak.tournaments.evening.losses import losses
 from evenbreak.tournaments.evening.opening import MOST_PLAYERS, refuse_bye
 
 
@@ -160,16 +162,10 @@ def late(state: Evening, entrant: Entrant) -> Late:
     A bye is open as long as filling it changes no match that was played or called. In a chip
     tournament a late player goes to the end of the line, as long as two are still in.
     """
-    refuse_bye(entrant.name)
-    if not math.isfinite(entrant.rating):
-        raise InputError(f"the rating of {entrant.name} is {entrant.rating}; give a finite number")
-    names = {folded(name): name for name in state.entrants}
-    if folded(entrant.name) in names:
-        raise InputError(f"{names[folded(entrant.name)]} has entered already")
+    _check_entrant(state, entrant)
     if len(state.entrants) >= MOST_PLAYERS:
         raise InputError(f"a tournament takes {MOST_PLAYERS} players at most")
     if state.plan.form == "chips":
-        chips_of(state.plan, entrant)  # refuses a rating below the chart
         if state.drawn and len(state.chip_night.order) < 2:
             raise InputError(f"{entrant.name} cannot enter: the tournament is over")
         return Late(entrant)
@@ -238,11 +234,27 @@ def change(
     return found
 
 
-def undo(state: Evening) -> Undone:
-    """Take back what happened last."""
-    if len(state.events) < 2:
-        raise InputError("there is nothing to undo")
-    return Undone()
+def call_back(state: Evening, match: str) -> CalledBack:
+    """Take a match off its table; its score is kept."""
+    name = known_match(state, match)
+    if state.plan.form == "chips":
+        raise InputError("a chip tournament has no calls: the players at the tables play on")
+    if name not in state.on_tables:
+        raise InputError(f"{name} is on no table, so it cannot be called back")
+    return CalledBack(name, state.pair(name))
+
+
+def edit(state: Evening, player: str, *, name: str = "", rating: float | None = None) -> Edited:
+    """Correct the name or the rating of a player, by their full name, before the draw."""
+    before = state.entrants[_entered(state, player)]
+    if state.drawn:
+        raise InputError("the draw has been made; names and ratings stay as they are")
+    rated = before if rating is None else Entrant(player, rating)
+    after = replace(rated, name=name or player)
+    if after == before:
+        raise InputError(f"nothing about {player} is changed; give another name or rating")
+    _check_entrant(state, after, besides=player)
+    return Edited(player, after)
 
 
 def free_tables(state: Evening) -> list[int]:
@@ -286,6 +298,18 @@ def known_player(state: Evening, text: str) -> str:
         hint = f"; did you mean {names[near[0]]}?" if near else ""
         raise InputError(f"{text!r} is not in this tournament{hint}")
     return names[wanted]
+
+
+def _check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
+    """Refuse an entrant without a name or rating of their own."""
+    refuse_bye(entrant.name)
+    if not math.isfinite(entrant.rating):
+        raise InputError(f"the rating of {entrant.name} is {entrant.rating}; give a finite number")
+    names = {folded(name): name for name in state.entrants if name != besides}
+    if folded(entrant.name) in names:
+        raise InputError(f"{names[folded(entrant.name)]} has entered already")
+    if state.plan.form == "chips":
+        chips_of(state.plan, entrant)  # refuses a rating below the chart
 
 
 def _entered(state: Evening, name: str) -> str:
@@ -368,7 +392,5 @@ def _fits(state: Evening, entrant: Entrant, line: int) -> bool:
         order=(*state.order, entrant.name),
         lines=tuple(lines),
     )
-    return (
-        all(tried.counted.get(name) == one for name, one in state.counted.items())
-        and tried.on_tables.keys() >= state.on_tables.keys()
-    )
+    same = all(tried.counted.get(name) == one for name, one in state.counted.items())
+    return same and not losses(state, tried)

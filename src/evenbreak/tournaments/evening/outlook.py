@@ -337,7 +337,7 @@ class Outlook:
         state, found = self.state, []
         chips = state.plan.form == "chips"
         for name, result in state.counted.items():
-            call = state.calls.get(name)
+            call = state.calls.get((name, frozenset(result.players)))
             began = state.chip_night.racks[name].since if chips else call and call.at
             pair = result.players
             ends = [one.at for one in state.records.get(name, ()) if one.result.players == pair]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import secrets
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -18,19 +19,24 @@ from evenbreak.answers.tournament_moves import (
     event_words,
     forfeited,
     happened,
+    lost_words,
     reopened,
     settled_words,
     tie_words,
+    undone_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
 from evenbreak.files.match_phones import phone_entries, sides_between
 from evenbreak.files.tournament_store import add_events
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Entrant, Event, Result, What
+from evenbreak.tournaments.evening.events import Event, Result, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.losses import losses, matches_of
 from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
+from evenbreak.tournaments.evening.undoing import undo as take_back
+from evenbreak.tournaments.evening.undoing import undoable
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
@@ -65,7 +71,7 @@ async def desk(request: Request) -> Response:
         "tied": [],
         "drawable": False,
         "changeable": _changeable(state),
-        "last": event_words(state.events[-1].what) if len(state.events) > 1 else "",
+        "undoable": [(n, event_words(e.what), e.by_phones) for n, e in undoable(state).items()],
     }
     if state.drawn:
         entered = [one.what.match for one in state.events if isinstance(one.what, Result)]
@@ -97,39 +103,59 @@ def _changeable(state: Evening) -> dict[str, int]:
     return found
 
 
-async def _enter(request: Request, form: Form, decide: Decide, said: Said) -> Response:
+class _AskError(Exception):
+    """What is entered takes something away, or is to be asked about in any case."""
+
+    def __init__(self, before: Evening, after: Evening) -> None:
+        self.before, self.after = before, after
+
+
+async def _enter(
+    request: Request, form: Form, decide: Decide, said: Said, *, always: bool = False
+) -> Response:
+    """Enter what is decided; if it takes something away, ask first, and name it.
+
+    The answer is for what was named: if that has changed by then, it is asked again.
+    """
     site = site_of(request)
     at, key = site.clock(), form.key(request.url.path)
+    named, sure = form.text("named"), form.text("sure")
+
+    def check(before: Evening, after: Evening) -> None:
+        found = losses(before, after)
+        meant = sure and named in ("", _name_of(before, after))
+        if (found or always) and not meant:
+            raise _AskError(before, after)
 
     def work() -> tuple[Evening, Evening]:
-        return add_events(
-            site.path, lambda state: [Event(at, what) for what in decide(state)], by=BY, form=key
-        )
+        def events(state: Evening) -> list[Event]:
+            return [Event(at, what) for what in decide(state)]
 
-    before, after = await asyncio.to_thread(work)
+        return add_events(site.path, events, by=BY, form=key, check=check)
+
+    try:
+        before, after = await asyncio.to_thread(work)
+    except _AskError as asked:
+        return _ask(request, form, said, asked)
     return done(request, "/desk", *said(before, after))
 
 
-async def _ask_first(
-    request: Request, form: Form, decide: Decide, said: Said, *, always: bool = False
-) -> Response | None:
-    """Return the question whether something is meant that takes back what was played.
+def _ask(request: Request, form: Form, said: Said, asked: _AskError) -> Response:
+    """Ask whether it is meant, with the same number, so that two answers enter it once."""
+    fields: dict[str, Any] = {"once": secrets.token_urlsafe(9)} | dict(form.fields.items())
+    fields |= {"named": _name_of(asked.before, asked.after)}
+    for name in ("csrf", "sure"):
+        fields.pop(name, None)
+    lines = [*lost_words(asked.before, asked.after), *said(asked.before, asked.after)]
+    shown = [in_language(language(request), line) for line in lines]
+    return page(request, "sure.html", fields=fields, lines=shown)
 
-    None: there is nothing to ask, or it was answered.
-    """
-    if form.text("sure"):
-        return None
-    site = site_of(request)
-    before = await asyncio.to_thread(site.night.state)
-    at = site.clock()
-    after = evening([*before.events, *(Event(at, what) for what in decide(before))])
-    gone = set(before.counted) - set(after.counted) if before.drawn else set()
-    if not (gone or always):
-        return None
-    fields = {"once": secrets.token_urlsafe(9)} | dict(form.fields.items())
-    fields.pop("csrf")
-    lines = [in_language(language(request), line) for line in said(before, after)]
-    return page(request, "sure.html", fields=fields, lines=lines)
+
+def _name_of(before: Evening, after: Evening) -> str:
+    """Return what a question is known by: the matches that it is about, and those in play."""
+    lost = sorted((one.match, *sorted(one.players)) for one in losses(before, after))
+    text = repr((sorted(matches_of(before, after)), lost))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 async def _form(request: Request) -> Form:
@@ -207,8 +233,7 @@ async def result(request: Request) -> Response:
             return [say(language(request), "there_already")]
         return happened(before, after, after.events[-1])
 
-    asked = await _ask_first(request, form, decide, said) if correct else None
-    return asked or await _enter(request, form, decide, said)
+    return await _enter(request, form, decide, said)
 
 
 async def forfeit(request: Request) -> Response:
@@ -219,8 +244,7 @@ async def forfeit(request: Request) -> Response:
     def decide(state: Evening) -> list[What]:
         return [moves.forfeit(state, player)]
 
-    asked = await _ask_first(request, form, decide, forfeited, always=True)
-    return asked or await _enter(request, form, decide, forfeited)
+    return await _enter(request, form, decide, forfeited, always=True)
 
 
 async def drop(request: Request) -> Response:
@@ -231,8 +255,7 @@ async def drop(request: Request) -> Response:
     def decide(state: Evening) -> list[What]:
         return [moves.drop(state, player)]
 
-    asked = await _ask_first(request, form, decide, forfeited, always=True)
-    return asked or await _enter(request, form, decide, forfeited)
+    return await _enter(request, form, decide, forfeited, always=True)
 
 
 async def entrant(request: Request) -> Response:
@@ -243,12 +266,7 @@ async def entrant(request: Request) -> Response:
     def decide(state: Evening) -> list[What]:
         if state.drawn:
             raise RefusalError("refused_drawn", status=409)
-        gone = moves.drop(state, player)
-        before = state.entrants[gone.name]
-        without = evening([*state.events, Event(site_of(request).clock(), gone)])
-        error = before.standard_error if stated is None else 0.0
-        rating = before.rating if stated is None else stated
-        return [gone, moves.late(without, Entrant(name or gone.name, rating, error))]
+        return [moves.edit(state, player, name=name, rating=stated)]
 
     return await _enter(request, form, decide, lambda _, after: rating_doubts(after))
 
@@ -295,18 +313,31 @@ async def let_stand(request: Request) -> Response:
     )
 
 
-async def undo(request: Request) -> Response:
-    """Take back what happened last, if nothing has come in since the page was made."""
+async def call_back(request: Request) -> Response:
+    """Take a match off its table."""
     form = await _form(request)
-    seen = form.whole("seen", 0, 10**7)
+    match = form.text("match")
+
+    def said(before: Evening, _: Evening) -> list[str]:
+        table = before.on_tables[moves.known_match(before, match)].call.table
+        return [say(language(request), "called_back", match=match, table=table)]
+
+    return await _enter(request, form, lambda state: [moves.call_back(state, match)], said)
+
+
+async def undo(request: Request) -> Response:
+    """Take back the entry that the page named, as long as it is the last of its kind."""
+    form = await _form(request)
+    entry = form.whole("entry", 2, 10**7)
 
     def decide(state: Evening) -> list[What]:
-        if len(state.events) != seen:
+        if entry not in undoable(state):
             raise RefusalError("refused_changed", status=409)
-        return [moves.undo(state)]
+        return [take_back(state, entry)]
 
     def said(before: Evening, after: Evening) -> list[str]:
-        return [say(language(request), "undone"), *reopened(before, after)]
+        gone = dict(zip(before.numbers, before.events, strict=True))[entry]
+        return [undone_words(gone.what), *reopened(before, after)]
 
     return await _enter(request, form, decide, said)
 
@@ -314,6 +345,7 @@ async def undo(request: Request) -> Response:
 ROUTES = [
     Route("/desk", desk),
     Route("/desk/stand", let_stand, methods=["POST"]),
+    Route("/desk/back", call_back, methods=["POST"]),
     *(
         Route(f"/desk/{one.__name__}", one, methods=["POST"])
         for one in (draw, call, result, forfeit, drop, entrant, change, tiebreak, undo)

@@ -15,8 +15,10 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.tournament_moves import event_words
 from evenbreak.answers.tournament_under_way import time_under_way
 from evenbreak.files.match_phones import ENTERED, phone_entries
-from evenbreak.files.tournament_desk import authors, back_up
+from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import read_events
+from evenbreak.tournaments.evening.events import Undone
+from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import answer_shown, done, language, page, site_of
@@ -70,25 +72,21 @@ async def history(request: Request) -> Response:
     if not path.exists():
         raise RefusalError("refused_no_tournament", status=404)
     found = await asyncio.to_thread(read_events, path)
-    by = await asyncio.to_thread(authors, path)
-    rows = [
-        (one.at, str(number), event_words(one.what), by.get(number, ""))
-        for number, one in enumerate(found, 1)
+    rows: list[tuple[str, int | str, str, str]] = [
+        (one.at, k, event_words(one.what), one.by) for k, one in enumerate(found, 1)
     ]
+    undos = {k for k, one in enumerate(found, 1) if isinstance(one.what, Undone)}
+    gone = set(range(1, len(found) + 1)) - undos - set(evening(found).numbers)
     rows += [
         (one.at, "", phone_words(request, one), phone_label(request, one))
         for one in await asyncio.to_thread(phone_entries, path)
         if one.kind != ENTERED  # it is among the events
     ]
     rows.sort(key=lambda row: row[0])
-    return page(
-        request,
-        "history.html",
-        rows=[
-            (number, f"{datetime.fromisoformat(at):%H:%M:%S}", *row)
-            for at, number, *row in rows[::-1]
-        ],
-    )
+    shown = [
+        (number, f"{datetime.fromisoformat(at):%H:%M:%S}", *row) for at, number, *row in rows[::-1]
+    ]
+    return page(request, "history.html", rows=shown, gone=gone)
 
 
 async def codes(request: Request) -> Response:

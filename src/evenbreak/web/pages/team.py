@@ -92,7 +92,7 @@ async def history(request: Request) -> Response:
         (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", said, one.by)
         for number, (one, said) in enumerate(zip(now.events, words, strict=True), 1)
     ]
-    return page(request, "history.html", rows=rows[::-1])
+    return page(request, "history.html", rows=rows[::-1], gone=())
 
 
 ROUTES = [Route("/team", team), Route("/team/history", history)]

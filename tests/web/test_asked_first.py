@@ -1,0 +1,113 @@
+"""The desk asks before it takes anything away, and undoes what the director has entered."""
+
+import re
+from typing import Any
+
+import pytest
+
+from evenbreak.files.tournament_store import read_events
+from web.conftest import Hall
+from web.phones import Phone, Shown
+
+
+def tap(hall: Hall, phone: Phone, match: str, a: int, b: int) -> Shown:
+    """Tap the score of a match in play on a player's phone."""
+    pair, token = hall.state.pair(match), hall.site.match_token(match)
+    return phone.send(f"/m/{token}/score", a=a, b=b, player_a=pair[0], player_b=pair[1])
+
+
+@pytest.fixture
+def busy(hall: Hall) -> Hall:
+    """W2.2 is on table 4 at 2:0, as its players' phones have it; L1.2 on table 1."""
+    for name in ("W1.1", "W1.2", "W1.3", "W1.4"):
+        hall.director.send("/desk/result", match=name, a=3, b=1, how="new")
+    hall.director.send("/desk/call", match="L1.2", table=1)
+    hall.director.send("/desk/call", match="W2.2", table=4)
+    assert tap(hall, hall.guest, "W2.2", 2, 0).status == 200
+    return hall
+
+
+def answered(hall: Hall, path: str, shown: Shown, **more: Any) -> Shown:
+    """Answer the question with yes."""
+    assert "Please confirm" in shown.words, shown.words
+    form = shown.text.split("<h1>Please confirm</h1>")[1]
+    fields = dict(re.findall(r'name="([^"]+)" value="([^"]*)"', form.split("</form>")[0]))
+    return hall.director.send_raw(path, {**fields, "sure": "yes", **more})
+
+
+WRONG = {"match": "W1.3", "a": 1, "b": 3, "how": "correct"}
+
+
+def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy: Hall) -> None:
+    before = busy.state
+    pair = " against ".join(before.pair("W2.2"))
+    shown = busy.director.send("/desk/result", **WRONG)
+    assert f"W2.2, {pair}, would leave table 4 at 2:0." in shown.words
+    assert "would leave table 1." in shown.words
+    assert busy.state.on_tables == before.on_tables
+    assert answered(busy, "/desk/result", shown).status == 200
+    assert not busy.state.on_tables
+    right = {**WRONG, "a": 3, "b": 1}
+    assert busy.director.send("/desk/result", **right).status == 200
+    assert (busy.state.on_tables, busy.state.live) == (before.on_tables, before.live)
+
+
+def test_the_answer_is_for_what_was_named(busy: Hall) -> None:
+    asked = busy.director.send("/desk/result", **WRONG)
+    assert tap(busy, busy.guest, "W2.2", 2, 1).status == 200  # the same match, one game further
+    busy.director.send("/desk/back", match="L1.2")
+    again = answered(busy, "/desk/result", asked)
+    assert "would leave table 4 at 2:1." in again.words
+    assert busy.state.counted["W1.3"].score == (3, 1)
+    entries = len(read_events(busy.site.path))
+    for _ in range(2):
+        assert answered(busy, "/desk/result", again).status == 200
+    assert len(read_events(busy.site.path)) == entries + 1
+
+
+@pytest.mark.parametrize(
+    ("path", "fields"),
+    [("drop", {"player": "Player 4"}), ("forfeit", {"player": "Player 4"})],
+)
+def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
+    busy: Hall, path: str, fields: dict[str, str]
+) -> None:
+    (name,) = [n for n, one in busy.state.live.items() if "Player 4" in one.what.players]
+    shown = busy.director.send(f"/desk/{path}", **fields)
+    assert re.search(rf"{name}, [^.]*, would (leave table 4|end) at 2:0\.", shown.words), (
+        shown.words
+    )
+
+
+def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hall) -> None:
+    desk = busy.director.open("/desk").words
+    assert "Undo: the call of W2.2 to table 4" in desk
+    entry = busy.state.numbers[-2]
+    for k in range(25):
+        assert tap(busy, busy.guest, "W2.2", 2, 1 - k % 2).status == 200
+        shown = busy.director.send("/desk/undo", entry=entry)
+        assert shown.status == 200
+        assert "Taken back: the call of W2.2 to table 4." in shown.words
+        busy.director.send("/desk/call", match="W2.2", table=4)
+        entry = len(read_events(busy.site.path))
+    assert busy.state.live["W2.2"].what.score == (2, 1)
+    assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
+    history = busy.director.open("/desk/history").text
+    assert history.count("<s>The call of W2.2 to table 4</s> (taken back)") == 25
+
+
+def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
+    assert "Take it off the table" in busy.director.open("/desk").words
+    shown = busy.director.send("/desk/back", match="W2.2")
+    assert "W2.2 is off table 4." in shown.words
+    assert busy.state.live["W2.2"].what.score == (2, 0)
+    assert busy.guest.send("/desk/back", match="L1.2").status == 403
+
+
+def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
+    hall.director.send("/desk/undo", entry=2)
+    shown = hall.director.send("/desk/entrant", player="Player 1", name="Player One")
+    assert shown.status == 200
+    shown = hall.director.send("/desk/entrant", player="Player 2", name="", rating="655")
+    assert list(hall.state.entrants)[:3] == ["Player One", "Player 2", "Player 3"]
+    assert hall.state.entrants["Player 2"].rating == 655.0
