@@ -6,6 +6,7 @@ import hashlib
 from typing import TypeAlias
 
 from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
 from evenbreak.ratings.scale import SCALES, Scale
@@ -114,9 +115,19 @@ async def form_of(request: Request) -> Form:
     read: Form | None = getattr(request.state, "form", None)
     if read is not None:
         return read
+    try:
+        form = await _read(request)
+    except (ValueError, LookupError):  # such as a charset that cannot be read with
+        raise HTTPException(400) from None
+    check_form(request, form.text("csrf"))
+    request.state.form = form
+    return form
+
+
+async def _read(request: Request) -> Form:
     limits = {"max_files": _MOST_FILES, "max_fields": _MOST_FIELDS, "max_part_size": MOST_BYTES}
     async with request.form(**limits) as sent:
-        form = Form(
+        return Form(
             Fields(
                 [
                     (name, await value.read() if isinstance(value, UploadFile) else value)
@@ -124,6 +135,3 @@ async def form_of(request: Request) -> Form:
                 ]
             )
         )
-    check_form(request, form.text("csrf"))
-    request.state.form = form
-    return form

@@ -6,10 +6,15 @@ import asyncio
 from collections.abc import Collection
 from typing import Any
 
+from h11 import LocalProtocolError
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MOST_BYTES = 2 << 20
 """The largest body: a season of results, pasted or uploaded."""
+
+MOST_HEAD = 32 << 10
+"""Bytes of the lines above a body, with the address that is asked for."""
 
 PATIENCE = 15.0
 """Seconds in which a body must have arrived."""
@@ -69,6 +74,9 @@ class Guard:
         if host not in self.hosts:
             await _refuse(send, 421, "This address is not that of the tournament's computer.")
             return
+        if len(scope["raw_path"]) + len(scope["query_string"]) + _size(scope) > MOST_HEAD:
+            await _refuse(send, 431, f"More than {MOST_HEAD >> 10} KB stand above the form.")
+            return
         length = given.get(b"content-length", b"0")
         if not length.isdigit() or int(length) > MOST_BYTES:
             await _refuse(send, 413, f"More than {MOST_BYTES >> 20} MB was sent; send less.")
@@ -86,12 +94,18 @@ class Guard:
 
         try:
             await self.app(scope, _Body(receive), answer)
+        except (ClientDisconnect, LocalProtocolError):
+            return  # whoever asked has gone, or has sent what nobody can answer
         except (_TooLargeError, TimeoutError) as error:
             if started:
                 raise
             large = isinstance(error, _TooLargeError)
             words = "More was sent than is allowed." if large else "The form came too slowly."
             await _refuse(send, 413 if large else 408, words)
+
+
+def _size(scope: Scope) -> int:
+    return sum(len(name) + len(value) + len(": \r\n") for name, value in scope["headers"])
 
 
 class _TooLargeError(Exception):

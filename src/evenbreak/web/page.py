@@ -163,13 +163,20 @@ def asked_again(
 def refused(request: Request, why: Exception | str, status: int) -> Response:
     """Return why a request is refused, with the way back to the page that it came from."""
     words = why if isinstance(why, str) else reason(request, why)
-    came = urllib.parse.urlsplit(request.headers.get("referer", ""))
+    back = _came_from(request) or ("/desk" if is_director(request) else "/")
+    return page(request, "refused.html", status=status, why=words, back=back)
+
+
+def _came_from(request: Request) -> str:
+    """Return the page of ours that a request came from; '' if it came from elsewhere."""
+    try:
+        came = urllib.parse.urlsplit(request.headers.get("referer", ""))
+    except ValueError:
+        return ""
     own = came.netloc == request.headers.get("host") and not came.path.startswith("//")
     if own and _can_be_opened(request, came.path):
-        back = came._replace(scheme="", netloc="").geturl()
-    else:
-        back = "/desk" if is_director(request) else "/"
-    return page(request, "refused.html", status=status, why=words, back=back)
+        return came._replace(scheme="", netloc="").geturl()
+    return ""
 
 
 def _can_be_opened(request: Request, path: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import socket
 from typing import Any
 
@@ -10,9 +11,9 @@ import uvicorn
 
 from evenbreak.web.app import make_app
 from evenbreak.web.door import Door, behind, descriptors, in_few_lines, room
+from evenbreak.web.guard import MOST_HEAD
 from evenbreak.web.site import Site
 
-_MOST_HEAD = 32 << 10  # bytes of the lines above a body
 _QUEUE = 1024  # connections that wait to be let in
 _IDLE = 200  # tenths of a second
 
@@ -27,6 +28,8 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
     host, port
         where it listens.
     """
+    # It warns of each form that is cut or wrong, which any guest can send.
+    logging.getLogger("python_multipart").setLevel(logging.ERROR)
     most, at_a_turn = room(descriptors())
     config = uvicorn.Config(
         make_app(site, streams=most // 2),
@@ -42,7 +45,7 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
         timeout_keep_alive=20,
         timeout_graceful_shutdown=3,
         backlog=at_a_turn,
-        h11_max_incomplete_event_size=_MOST_HEAD,
+        h11_max_incomplete_event_size=MOST_HEAD,
     )
     return _Server(config)
 
