@@ -48,3 +48,32 @@ class Beside:
     def _serve(self) -> None:
         while True:
             self._asked.get()()
+
+
+class Made:
+    """Files that take long to make, each made once of what it shows, one after another."""
+
+    def __init__(self) -> None:
+        self._beside = Beside()
+        self._made: dict[str, tuple[object, asyncio.Future[bytes]]] = {}
+
+    async def file(self, name: str, of: object, make: Callable[[], bytes]) -> bytes:
+        """Return a file, which is made again only when it is to show something else.
+
+        Parameters
+        ----------
+        name
+            of the file.
+        of
+            what it shows; another object when that has changed.
+        make
+            makes it.
+        """
+        made = self._made.get(name)
+        if made is None or made[0] is not of:
+            made = self._made[name] = of, asyncio.ensure_future(self._beside.run(make))
+        try:
+            return await asyncio.shield(made[1])  # others wait for it, if this reader goes
+        except Exception:
+            self._made.pop(name, None)
+            raise

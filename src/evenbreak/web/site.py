@@ -16,6 +16,7 @@ from pathlib import Path
 from evenbreak.errors import DataError
 from evenbreak.files.evening_file import is_there
 from evenbreak.files.tournament_desk import change_secrets, kept_secrets, new_pin
+from evenbreak.web.beside import Made
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, mark_of, now
 from evenbreak.web.sessions import Tries
@@ -55,6 +56,7 @@ class Site:
         self.night = Night(self.path, clock=self.clock)
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
+        self.made = Made()
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},

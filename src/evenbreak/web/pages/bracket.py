@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from functools import partial
 
 from starlette.requests import Request
@@ -39,8 +40,9 @@ async def bracket_on_paper(request: Request) -> Response:
     state = await _drawn(request)
     name = site_of(request).path.stem
     heading = [name, races_words(state.races)]
-    pdf = await asyncio.to_thread(bracket_pdf, bracket_panels(state), heading, name)
-    return _pdf(pdf, "bracket.pdf")
+    return await _pdf(
+        request, "bracket.pdf", state, lambda: bracket_pdf(bracket_panels(state), heading, name)
+    )
 
 
 async def cards_on_paper(request: Request) -> Response:
@@ -52,7 +54,7 @@ async def cards_on_paper(request: Request) -> Response:
     if not cards:
         raise RefusalError("refused_no_card", status=404)
     make = partial(score_cards_pdf, cards, site_of(request).path.stem, per_page=4)
-    return _pdf(await asyncio.to_thread(make), "cards.pdf")
+    return await _pdf(request, "cards.pdf", state, make)
 
 
 async def _drawn(request: Request) -> Evening:
@@ -65,7 +67,8 @@ async def _drawn(request: Request) -> Evening:
     return state
 
 
-def _pdf(content: bytes, name: str) -> Response:
+async def _pdf(request: Request, name: str, state: Evening, make: Callable[[], bytes]) -> Response:
+    content = await site_of(request).made.file(name, state, make)
     shown = {"content-disposition": f'inline; filename="{name}"'}
     return Response(content, media_type="application/pdf", headers=shown)
 

@@ -212,7 +212,8 @@ def _made(name: str) -> Callable[[Sheet], bytes]:
 
 async def download(request: Request, name: str) -> Response:
     """Return the sheet, or its tables, as a file."""
-    return saved(await asyncio.to_thread(_made(name), _sheet(request)), name)
+    sheet = _sheet(request)
+    return saved(await site_of(request).made.file(name, sheet, partial(_made(name), sheet)), name)
 
 
 def saved(content: bytes, name: str) -> Response:
