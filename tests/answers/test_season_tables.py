@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.season_tables import fairness_frame, standings_frame, weeks_frame
+from evenbreak.handicaps.charts.chart import Chart, ChartRow
+from evenbreak.handicaps.ladders.comparison import near
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league import (
     FixedSchedule,
     LeaguePlayers,
@@ -17,10 +20,14 @@ from evenbreak.league import (
     run_chunk,
     season_matches,
 )
+from evenbreak.ratings.scale import SCALES, Scale
 
 NAMES = ["Ann", "Bo", "Cy", "Di", "Ed"]
 
 WITNESSES = 1_200
+
+EVEN = Chart("even", [ChartRow(0, None, 5, 5)])
+"""A chart whose races are even whatever the ratings are."""
 
 
 def a_season(**columns: Any) -> Season:
@@ -107,7 +114,7 @@ def test_ratings_after_the_season_are_as_wrong_as_those_of_single_seasons(simula
     assert abs(stays.std() - last["error_sd"]) < 4.5 * math.hypot(
         last["error_sd_se"], stays.std() / math.sqrt(2 * WITNESSES)
     )
-    assert abs((np.abs(stays) <= 5).mean() - last["p_within_5"]) < 0.03
+    assert abs(near(stays, SCALES["npl"]).mean() - last["p_near"]) < 0.03
     quantile = np.quantile(stays, [0.05, 0.5, 0.95], method="inverted_cdf")
     assert np.abs(quantile - last[["error_p05", "error_p50", "error_p95"]].to_numpy()).max() <= 1
 
@@ -190,3 +197,30 @@ def test_one_replica_has_no_errors_and_somebody_who_never_plays_no_part():
     assert frame["p_win"].isna().tolist().count(True) == 1
     assert frame["player"].iloc[0] in {"player 1", "player 2"}
     assert weeks_frame(tally)["error_mean_se"].isna().all()
+
+
+def near_after(weeks: int, step: int, times: int = 1) -> float:
+    """The share of ratings near their skill, which they begin with; points are `times` as many."""
+    points = times * step
+    system = System("even", Scale("even", 30.0 * times), (), lambda _: (points, -points), "", EVEN)
+    rating = [times * one for one in (40, 50, 60, 70, 80, 90, 100, 110)]
+    season = Season(LeaguePlayers.of(rating, skill=rating), system, weeks=weeks)
+    tally = run_chunk(season, 500, np.random.SeedSequence(7))
+    return float(weeks_frame(tally, cycle=system.cycle).iloc[-1]["p_near"])
+
+
+@pytest.mark.parametrize("step", [1, 2, 4])
+def test_the_share_near_the_skill_does_not_swing_from_week_to_week(step):
+    """After an odd number of matches no rating of a +-4 ladder is right, after an even one many."""
+    shares = [near_after(weeks, step) for weeks in (27, 28, 29, 30)]
+    assert max(shares) - min(shares) < 0.03
+
+
+def test_the_ladder_with_the_smaller_steps_is_the_more_accurate_one_in_any_week():
+    for weeks in (29, 30):
+        shares = [near_after(weeks, step) for step in (1, 2, 4)]
+        assert shares == sorted(shares, reverse=True)
+
+
+def test_the_share_near_the_skill_is_the_same_on_any_scale():
+    assert near_after(30, 1, times=10) == near_after(30, 1)

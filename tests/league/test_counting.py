@@ -65,7 +65,7 @@ def test_rating_errors_are_counted_and_cut_at_the_widest():
     values = np.arange(-count.widest, count.widest + 1)
     found = {int(value): int(n) for value, n in zip(values, count.errors[1], strict=True) if n}
     assert found == {0: 1, 3: 1, -2: 1, count.widest: 1, 1: 1}
-    assert count.weeks[0, 1].tolist() == [5, 2 + count.widest, 14 + count.widest**2]
+    assert count.weeks[0, 1].tolist() == [5, 2 + count.widest, 14 + count.widest**2, 4]
 
 
 def test_players_who_are_not_there_are_not_counted():

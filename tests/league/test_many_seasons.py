@@ -36,7 +36,7 @@ def chunks(season: Season, replicas: int, many: int) -> Tally:
 
 def spread(tally: Tally, since: int) -> tuple[float, float]:
     """Return the sd of the rating errors from a week on, and its standard error."""
-    players, error, square = np.moveaxis(tally.weeks[:, since:].sum(axis=1), 1, 0)
+    players, error, square, _ = np.moveaxis(tally.weeks[:, since:].sum(axis=1), 1, 0)
     variance, off = tally.mean_and_error(square - error**2 / players, players)
     return float(np.sqrt(variance)), float(off / (2 * np.sqrt(variance)))
 

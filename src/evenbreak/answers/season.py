@@ -11,9 +11,10 @@ import pandas as pd
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.season_summary import Row, summary_rows
-from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
+from evenbreak.answers.season_tables import SeasonTables, weeks_with_players
 from evenbreak.answers.wording import count_of, decimals
 from evenbreak.files.csv_writer import rows_of
+from evenbreak.handicaps.ladders.comparison import NEAR
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
 
@@ -81,7 +82,7 @@ def season_answer(
     return Answer(
         heading,
         [
-            _ratings(tables.weeks),
+            _ratings(tables.weeks, season),
             _fairness(tables.fairness),
             _who_gains(tables.standings, len(tally.replicas)),
             _luck(data),
@@ -109,16 +110,17 @@ def _assumed(players: int, drawn: int, exact: int) -> Iterator[str]:
         )
 
 
-def _ratings(weeks: pd.DataFrame) -> str:
+def _ratings(weeks: pd.DataFrame, season: Season) -> str:
     there = weeks_with_players(weeks)
     first, last = there.iloc[0], there.iloc[-1]
-    near = f"p_within_{NEAR}"
+    points = f"{season.system.scale.points_per_doubling * NEAR:.1f}".removesuffix(".0")
     start = "At the start" if first["week"] == 0 else f"After week {first['week']:.0f}"
     text = (
-        f"How far off are the ratings? {start}, {_percent(first[near])} are within {NEAR} points "
-        f"of the true skill; after week {last['week']:.0f}, {_percent(last[near])} are, and 9 "
-        f"out of 10 are off by {last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (minus: "
-        "rated too low)."
+        f"How far off are the ratings? {start}, {_percent(first['p_near'], first['p_near_se'])} "
+        f"are within {points} points of the true skill (a sixth of a doubling of the odds); "
+        f"{_end(int(last['week']), season.system.cycle)}, "
+        f"{_percent(last['p_near'], last['p_near_se'])} are, and 9 out of 10 are off by "
+        f"{last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (minus: rated too low)."
     )
     empty = int((weeks["players"][1:] == 0).sum())
     if not empty:
@@ -127,6 +129,18 @@ def _ratings(weeks: pd.DataFrame) -> str:
         f"{text} In {empty:,} of {count_of(len(weeks) - 1, 'week')} nobody is in the league; "
         f"these figures are for weeks {max(first['week'], 1):.0f} to {last['week']:.0f}."
     )
+
+
+def _end(week: int, cycle: int) -> str:
+    """Return the weeks over which shares are averaged.
+
+    >>> _end(30, 1), _end(30, 2), _end(1, 2)
+    ('after week 30', 'after weeks 29 and 30', 'after week 1')
+    """
+    first = max(1, week - cycle + 1)
+    if first == week:
+        return f"after week {week}"
+    return f"after weeks {first} {'and' if week - first == 1 else 'to'} {week}"
 
 
 def _fairness(fairness: pd.DataFrame) -> str:

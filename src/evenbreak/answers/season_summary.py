@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from evenbreak import __version__
-from evenbreak.answers.season_tables import NEAR, SeasonTables, weeks_with_players
+from evenbreak.answers.season_tables import SeasonTables, weeks_with_players
+from evenbreak.handicaps.ladders.comparison import NEAR
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.season import Season
 from evenbreak.league.tally import Tally
@@ -33,6 +34,7 @@ def summary_rows(
         **settings,
         "system": season.system.name,
         "points_per_doubling": season.system.scale.points_per_doubling,
+        "near_points": NEAR * season.system.scale.points_per_doubling,
         "chart": season.chart.name,
         "schedule": _schedule(season),
         "play": season.play,
@@ -61,9 +63,8 @@ def _of_ratings(weeks: pd.DataFrame) -> Iterator[Row]:
     if not len(there):
         return
     for when, row in (("start", there.iloc[0]), ("end", there.iloc[-1])):
-        for what in ("error_mean", "error_sd"):
+        for what in ("error_mean", "error_sd", "p_near"):
             yield f"{what}_{when}", float(row[what]), float(row[f"{what}_se"])
-        yield f"p_within_{NEAR}_{when}", float(row[f"p_within_{NEAR}"]), None
 
 
 def _of_fairness(fairness: pd.DataFrame) -> Iterator[Row]:

@@ -25,9 +25,6 @@ SPREAD = (0.05, 0.25, 0.5, 0.75, 0.95)
 RARE = 0.001
 """Wide gaps of skill are put together until they hold this share of all matches."""
 
-NEAR = 5
-"""A rating within this many points of the skill counts as near."""
-
 
 class SeasonTables(NamedTuple):
     """The three tables of a simulated season, as DataFrames."""
@@ -39,9 +36,8 @@ class SeasonTables(NamedTuple):
 
 def season_tables(season: Season, tally: Tally) -> SeasonTables:
     """Return the tables of a simulated season."""
-    return SeasonTables(
-        standings_frame(season, tally), weeks_frame(tally), fairness_frame(season, tally)
-    )
+    weeks = weeks_frame(tally, cycle=season.system.cycle)
+    return SeasonTables(standings_frame(season, tally), weeks, fairness_frame(season, tally))
 
 
 def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
@@ -123,27 +119,36 @@ def reached(summed: NDArray[np.int64], q: float) -> NDArray[np.intp]:
     return np.asarray(there.argmax(axis=1))
 
 
-def weeks_frame(tally: Tally) -> pd.DataFrame:
+def weeks_frame(tally: Tally, *, cycle: int = 1) -> pd.DataFrame:
     """Return how far off the ratings are, week by week.
+
+    Parameters
+    ----------
+    tally
+        of a season.
+    cycle
+        of its system.
 
     Returns
     -------
     pandas.DataFrame
         week, 0 before the first; players in the league; error_mean and error_sd of the rating
         error (rating less true skill) over players and replicas, with their standard errors;
-        p_within_5, P(the rating is at most 5 points off); and error_p05 ... error_p95, its
-        quantiles in whole points. In weeks with nobody in the league only week and players are
-        filled in.
+        p_near, P(the rating is within a sixth of a doubling of the odds), with its standard error,
+        and error_p05 ... error_p95, quantiles of the error in whole points; these over the cycle of
+        weeks that ends with this one, without the start. In weeks with nobody in the league only
+        week and players are filled in.
     """
-    players, error, square = np.moveaxis(tally.weeks, 2, 0)
+    players, error, square, _ = np.moveaxis(tally.weeks, 2, 0)
     mean, mean_se = tally.mean_and_error(error, players)
     spread = square - 2.0 * mean * error + mean**2 * players
     variance, variance_se = tally.mean_and_error(spread, players)
     sd = np.sqrt(np.maximum(variance, 0.0))
-    values, summed = tally.error_values, np.cumsum(tally.errors, axis=1)
-    near = np.abs(values) <= NEAR
-    anybody = summed[:, -1] > 0
-    empty = np.full(len(mean), np.nan)
+    errors = _over_cycle(tally.errors[None], cycle)[0]
+    values, summed = tally.error_values, np.cumsum(errors, axis=1)
+    anybody = players.sum(axis=0) > 0
+    over_cycle = _over_cycle(tally.weeks, cycle)
+    p_near, p_near_se = tally.mean_and_error(over_cycle[..., 3], over_cycle[..., 0])
     columns: dict[str, Any] = {
         "week": np.arange(len(mean)),
         "players": players.sum(axis=0) / tally.replicas.sum(),
@@ -154,15 +159,22 @@ def weeks_frame(tally: Tally) -> pd.DataFrame:
         "error_sd_se": np.divide(
             variance_se, 2.0 * sd, out=np.where(anybody, 0.0, np.nan), where=sd > 0
         ),
-        f"p_within_{NEAR}": np.divide(
-            tally.errors[:, near].sum(axis=1), summed[:, -1], out=empty, where=anybody
-        ),
+        "p_near": np.where(anybody, p_near, np.nan),
+        "p_near_se": np.where(anybody, p_near_se, np.nan),
     }
     for q in SPREAD:
         quantile = pd.array(values[reached(summed, q)], dtype="Int64")
         quantile[~anybody] = pd.NA
         columns[f"error_p{100 * q:02.0f}"] = quantile
     return pd.DataFrame(columns)
+
+
+def _over_cycle(weeks: Floats, cycle: int) -> Floats:
+    """Return sums over the cycle that ends with each week, the second axis; the start is alone."""
+    found = weeks.copy()
+    for back in range(1, min(cycle, weeks.shape[1] - 1)):
+        found[:, 1 + back :] += weeks[:, 1:-back]
+    return found
 
 
 def weeks_with_players(weeks: pd.DataFrame) -> pd.DataFrame:

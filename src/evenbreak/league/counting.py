@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Floats, Ints, Places
+from evenbreak.handicaps.ladders.comparison import near
 from evenbreak.league.season import Season
 from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
 
@@ -53,7 +54,9 @@ class Counting:
         bins = 2 * self.widest + 1
         self.errors = np.zeros((season.weeks + 1, bins), dtype=np.int64)
         self.weeks = np.zeros((batches, season.weeks + 1, len(WEEK_COLUMNS)))
-        self.powers = np.arange(-self.widest, self.widest + 1)[:, None] ** np.arange(3)
+        errors = np.arange(-self.widest, self.widest + 1)
+        is_near = near(errors, season.system.scale)
+        self.noted = np.column_stack([errors**0, errors, errors**2, is_near])
         # The bin of no error, among the bins of a row's batch.
         small = np.int16 if batches * bins < _SMALL else np.intp  # fewer bytes are faster
         zeros = (bins * np.arange(batches) + self.widest).astype(small)
@@ -81,7 +84,7 @@ class Counting:
             counted += np.bincount(where.ravel(), minlength=len(counted))
         by_batch = counted.reshape(self.batches, bins)
         self.errors[week] = by_batch.sum(axis=0)
-        self.weeks[:, week] = by_batch @ self.powers
+        self.weeks[:, week] = by_batch @ self.noted
 
     def matches(self, cell: Places, won: Bools, played: Any) -> None:
         """Count matches by their place in the tables of all batches, and by winner.

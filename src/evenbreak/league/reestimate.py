@@ -20,7 +20,7 @@ from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow
+from evenbreak.handicaps.ladders.comparison import SystemRow, near
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import fit
@@ -220,8 +220,8 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
             sd.append(float(error[:there].std()))
             chances.append(wins)
         else:
-            near = np.abs(error[plan.begun_with :]) <= NEAR * plan.scale.points_per_doubling
-            settled[near] = np.minimum(settled[near], week - first + 1)
+            there = near(error[plan.begun_with :], plan.scale) > 0.0
+            settled[there] = np.minimum(settled[there], week - first + 1)
     half = slice(first // 2, first)
     games = np.concatenate(nights[half], axis=1)[2:].sum(axis=0)
     return _Course(sd, settled, np.concatenate(chances[half]), games)

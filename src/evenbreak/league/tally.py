@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
 """What is summed for each gap between the two skills."""
 
-WEEK_COLUMNS = ("players", "error", "error_squared")
+WEEK_COLUMNS = ("players", "error", "error_squared", "near")
 """What is summed for each week."""
 
 PRODUCTS = (
@@ -75,8 +75,9 @@ class Tally:
         loser won no game), and games in all. If matches are not played rack by rack, the last
         three are means given the two ratings and skills of each match, not drawn.
     weeks
-        shape (batches, weeks + 1, 3), the columns of `WEEK_COLUMNS`: players in the league, and
-        the sums of their rating errors (as in `errors`) and of the squares of these.
+        shape (batches, weeks + 1, 4), the columns of `WEEK_COLUMNS`: players in the league, the
+        sums of their rating errors (as in `errors`) and of the squares of these, and how many of
+        them are `near` their skill.
     fifths
         shape (batches, 5, 2): matches and wins by fifth of true skill at the start.
 
@@ -85,7 +86,7 @@ class Tally:
     >>> one, two = (run_chunk(season, 50, seed) for seed in np.random.SeedSequence(1).spawn(2))
     >>> both = one + two
     >>> both.replicas, both.matches, both.weeks.shape
-    (array([50, 50]), array([10000, 10000]), (2, 101, 3))
+    (array([50, 50]), array([10000, 10000]), (2, 101, 4))
     """
 
     replicas: Ints

@@ -200,10 +200,11 @@ def say_if_long(ladder: handicaps.Ladder) -> None:
 def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
     """Return what is asked of the ladder, or refuse what it cannot answer."""
     from evenbreak.answers.ladder_findings import LadderQuestion
+    from evenbreak.handicaps.ladders.comparison import NEAR
 
     doubling = round(ladder.system.scale.points_per_doubling)
     start = -doubling if asked["start"] is None else asked["start"]
-    within = round(doubling / 6) if asked["within"] is None else asked["within"]
+    within = round(NEAR * doubling) if asked["within"] is None else asked["within"]
     if abs(start) > ladder.widest:
         refuse(
             f"--from is {start}; give an error from {-ladder.widest} to {ladder.widest} points, "

@@ -10,17 +10,32 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from evenbreak.arrays import Floats
 from evenbreak.handicaps.ladders.inflation import inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL, Opponents, stretched
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
-from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.scale import SCALES, Scale
 
 NEAR = 1.0 / 6.0
 """A rating within this share of a doubling is settled: 5 points of the NPL's 30."""
+
+
+def near(error: ArrayLike, scale: Scale) -> Floats:
+    """Return 1 where a rating error is less than `NEAR` of a doubling, else 0; 0.5 on the edge.
+
+    Ratings are whole points, and the edge may be one of them. Counted half, as part of an interval
+    that is half inside, it makes the share of ratings that are near the same on every scale.
+
+    >>> near([4, -5, 6], SCALES["npl"]), near([40, -50, 60], Scale("ten times", 300))
+    (array([1. , 0.5, 0. ]), array([1. , 0.5, 0. ]))
+    """
+    beyond = np.abs(np.asarray(error, dtype=float)) - NEAR * scale.points_per_doubling
+    return np.asarray(np.where(np.abs(beyond) < 1e-9, 0.5, beyond < 0.0))
 
 
 class SystemRow(NamedTuple):

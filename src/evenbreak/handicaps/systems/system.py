@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import gcd
 from numbers import Integral
 from typing import Any, NamedTuple
 
@@ -99,6 +100,22 @@ class System:
                 "the whole points of the winner and of the loser, such as (1, -1)"
             )
         return int(points[0]), int(points[1])
+
+    @property
+    def cycle(self) -> int:
+        """After how many even matches a rating can be where it was: 2 if it moves up or down alike.
+
+        Ratings that move a point either way are an even number of points off after one match and
+        an odd number after the next, so shares of them swing from match to match. Their mean over
+        a cycle does not.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> [system_of(name).cycle for name in ("npl", "step 4", "step 2 1", "step 5 1")]
+        [2, 2, 3, 6]
+        """
+        won, lost = self.moves(PlayedMatch((0.0, 0.0), (5, 4), (5, 5)))
+        apart = won - lost
+        return apart // gcd(won, apart) if apart > 0 else 1
 
     def usual_chart(self) -> Chart:
         """Return the chart used if no other is named.
