@@ -220,8 +220,8 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
             sd.append(float(error[:there].std()))
             chances.append(wins)
         else:
-            there = near(error[plan.begun_with :], plan.scale) > 0.0
-            settled[there] = np.minimum(settled[there], week - first + 1)
+            is_near = near(error[plan.begun_with :], plan.scale) > 0.0
+            settled[is_near] = np.minimum(settled[is_near], week - first + 1)
     half = slice(first // 2, first)
     games = np.concatenate(nights[half], axis=1)[2:].sum(axis=0)
     return _Course(sd, settled, np.concatenate(chances[half]), games)
