@@ -23,7 +23,7 @@ from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, hold
 from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
 from evenbreak.files.tournament_store import read_events, tournament_of
-from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.prize_money import PrizeMoney
@@ -117,6 +117,19 @@ class Night:
             state = self._read[2] if self._read and same else tournament_of(self.path, events)
             self._read = mark, events, state
         return self._read[2]
+
+    @property
+    def names(self) -> set[str]:
+        """Everyone who has entered, also under an earlier name, as far as the file was read."""
+        events = self._read[1] if self._read else []
+        begun = [
+            entrant
+            for one in events
+            if isinstance(one.what, Opened)
+            for entrant in one.what.entrants
+        ]
+        late = [one.what.entrant for one in events if isinstance(one.what, Late)]
+        return {entrant.name for entrant in (*begun, *late)}
 
     def prizes(self) -> list[float]:
         """Return the money for first place, second, ...

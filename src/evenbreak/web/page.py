@@ -29,6 +29,9 @@ from evenbreak.web.words.sentences import answer_in_language, in_language
 
 _LANGUAGE = "language"
 _SAID = "said"
+_TYPED = ("name", "player", "team_a", "team_b")
+"""The fields in which names are typed."""
+
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 
@@ -70,6 +73,18 @@ def language(request: Request) -> str:
     return language_of(request.headers.get("accept-language", ""))
 
 
+def in_words(request: Request, text: str) -> str:
+    """Return sentences in the reader's language, with every name as it is."""
+    return in_language(language(request), text, _names(request))
+
+
+def _names(request: Request) -> set[str]:
+    """Return the names that a sentence may hold: those of the site, and those just typed."""
+    form: Form | None = getattr(request.state, "form", None)
+    typed = (str(form.fields.get(name, "")) for name in _TYPED) if form else ()
+    return {*site_of(request).names, *filter(None, (" ".join(name.split()) for name in typed))}
+
+
 def choose_language(request: Request, code: str) -> None:
     """Keep the language that the reader chose."""
     if code in LANGUAGES:
@@ -108,7 +123,7 @@ def page(
         return say(code, key, **held)
 
     def tr(text: str) -> str:
-        return in_language(code, text)
+        return in_words(request, text)
 
     def percent(p: float) -> str:
         return number_in(code, share_at_a_glance(p))
@@ -192,7 +207,7 @@ def reason(request: Request, why: Exception) -> str:
         if "field" in values:
             values["field"] = words.get(f"field_{values['field']}", values["field"])
         return say(language(request), why.key, **values)
-    return in_language(language(request), str(why))
+    return in_words(request, str(why))
 
 
 def answer_shown(request: Request, answer: Answer) -> Markup:
@@ -200,7 +215,7 @@ def answer_shown(request: Request, answer: Answer) -> Markup:
 
     Its tables may be wider than a phone: they can be scrolled, also by keys.
     """
-    shown = to_html(answer_in_language(language(request), answer))
+    shown = to_html(answer_in_language(language(request), answer, _names(request)))
     # Every text in it is escaped there.
     return Markup(shown.replace("<table>", '<table tabindex="0">'))  # noqa: S704
 

@@ -65,6 +65,12 @@ class Site:
         self._read_at: tuple[int, int, int] | None = None
         self._pin_change = "", -math.inf
 
+    @property
+    def names(self) -> set[str]:
+        """Whoever plays tonight or is in the league: what no sentence is read for."""
+        sheet = self.league.sheet
+        return {*self.night.names, *self.teams.names, *(sheet.ratings.players if sheet else ())}
+
     def keep_secrets(self) -> None:
         """Keep the secrets in the file, if it is there, so that phones go on after a restart.
 

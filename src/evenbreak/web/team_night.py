@@ -90,6 +90,13 @@ class TeamNights:
             self._read = mark, None if state is None else TeamNow(events, state)
         return self._read[1]
 
+    @property
+    def names(self) -> set[str]:
+        """The teams and their players, as far as the file was read."""
+        night = self._read[1] if self._read else None
+        sheets = night.state.plan.teams if night else ()
+        return {name for sheet in sheets for name in (sheet.name, *sheet.players)}
+
     async def chances(self, now: TeamNow) -> tuple[float, float] | None:
         """Return both teams' chances of winning the night; None: they are being worked out."""
 

@@ -40,11 +40,10 @@ from evenbreak.tournaments.evening.undoing import undoable
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
-from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.page import done, in_words, language, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.words import say
-from evenbreak.web.words.sentences import in_language
 
 BY = "director's page"
 RACES_TO_CHANGE = ("race", "losers_race", "final_race")
@@ -87,7 +86,7 @@ async def desk(request: Request) -> Response:
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
         if known and known.problem:
-            why = in_language(language(request), known.problem)
+            why = in_words(request, known.problem)
             shown["warnings"] = [say(language(request), "not_worked_out", why=why)]
     return page(request, "desk.html", live=True, **shown)
 
@@ -147,7 +146,7 @@ def _ask(request: Request, form: Form, said: Said, asked: _AskError) -> Response
     for name in ("csrf", "sure"):
         fields.pop(name, None)
     lines = [*lost_words(asked.before, asked.after), *said(asked.before, asked.after)]
-    shown = [in_language(language(request), line) for line in lines]
+    shown = [in_words(request, line) for line in lines]
     return page(request, "sure.html", fields=fields, lines=shown)
 
 
@@ -282,7 +281,7 @@ async def change(request: Request) -> Response:
         return [moves.change(state, **asked)]
 
     def said(_: Evening, after: Evening) -> list[str]:
-        words = in_language(language(request), races_words(after.races))
+        words = in_words(request, races_words(after.races))
         return [say(language(request), "changed", tables=after.plan.tables, races=words)]
 
     return await _enter(request, form, decide, said)

@@ -2,26 +2,31 @@
 
 They are made elsewhere, in English and for all faces. Here each is known by its pattern, such as
 `{} goes to {} and meets {}.`, and said anew: in another language, or, where it names a command, in
-the words of the page. What stands in the places of a pattern may be such a pattern itself.
+the words of the page. What stands in the places of a pattern may be such a pattern itself, but
+never a name: names, and whatever is quoted, are taken out before a sentence is looked at, and put
+back as they were.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Quantity, Table
 from evenbreak.web.words import number_in
 
 Named = TypeVar("Named", Column, Quantity)
+Say: TypeAlias = Callable[[str], str]
 
-_SENTENCE_ENDS = re.compile(r"(?<=[.!?]) (?=[A-Z0-9])")
+_FIRST, _LAST = "\U000f0000", "\U000ffffd"  # private letters, each in place of a name
+_SENTENCE_ENDS = re.compile(rf"(?<=[.!?]) (?=[A-Z0-9{_FIRST}-{_LAST}])")
+_QUOTED = r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")(?!\w)"""
 _PAIR = " - "
 _LIST_ENDS = re.compile(r"(, | and |; )")
 
@@ -48,8 +53,17 @@ def _compiled(language: str) -> list[tuple[re.Pattern[str], str]]:
     ]
 
 
-def in_language(language: str, text: str) -> str:
+def in_language(language: str, text: str, names: Collection[str] = ()) -> str:
     """Return sentences as the pages say them; what has no pattern stays as it is.
+
+    Parameters
+    ----------
+    language
+        its code.
+    text
+        the sentences, in English.
+    names
+        of players and teams, which stay as they are.
 
     >>> in_language("de", "Ann beat Bo 7:5 in W1.1.")
     'Ann schlägt Bo 7:5 in W1.1.'
@@ -57,8 +71,20 @@ def in_language(language: str, text: str) -> str:
     'W1.1 hat ein Ergebnis, Ann schlägt Bo 7:5; geändert wird es unter „Ergebnis korrigieren“'
     >>> in_language("de", "winner of W1.1"), in_language("en", "winner of W1.1")
     ('Sieger von W1.1', 'winner of W1.1')
+    >>> in_language("de", "Tom and Jerry beat Bo 7:5 in W1.1.", ["Tom and Jerry", "Bo"])
+    'Tom and Jerry schlägt Bo 7:5 in W1.1.'
     """
-    return "\n".join(_line(language, line) for line in text.split("\n"))
+    there = sorted((name for name in names if name in text), key=len, reverse=True)
+    opaque = [rf"(?<!\w){re.escape(name)}(?!\w)" for name in there if name]
+    kept: list[str] = []
+
+    def keep(found: re.Match[str]) -> str:
+        kept.append(found[0])
+        return chr(ord(_FIRST) + len(kept) - 1)
+
+    hidden = re.sub("|".join([*opaque, _QUOTED, f"[{_FIRST}-{_LAST}]"]), keep, text)
+    said = "\n".join(_line(language, line) for line in hidden.split("\n"))
+    return re.sub(f"[{_FIRST}-{_LAST}]", lambda found: kept[ord(found[0]) - ord(_FIRST)], said)
 
 
 def _line(language: str, line: str) -> str:
@@ -90,30 +116,34 @@ def _said(language: str, text: str) -> str | None:
     return None
 
 
-def answer_in_language(language: str, answer: Answer) -> Answer:
+def answer_in_language(language: str, answer: Answer, names: Collection[str] = ()) -> Answer:
     """Return an answer with its texts as the pages say them, without details and warnings."""
-    parts = [_part(language, part) for part in answer.parts]
-    heading = in_language(language, answer.heading)
+
+    def say(text: str) -> str:
+        return in_language(language, text, names)
+
+    parts = [_part(say, part) for part in answer.parts]
+    heading = say(answer.heading)
     return replace(answer, heading=heading, parts=parts, details=(), warnings=())
 
 
-def _named(language: str, one: Named) -> Named:
+def _named(say: Say, one: Named) -> Named:
     """Return a column or a quantity whose heading and values are said as the pages say them."""
 
     def show(value: Any) -> str:
-        return in_language(language, one.show(value))
+        return say(one.show(value))
 
-    words = None if one.words is None else in_language(language, one.words)
+    words = None if one.words is None else say(one.words)
     return replace(one, words=words, show=show)
 
 
-def _part(language: str, part: Part) -> Part:
+def _part(say: Say, part: Part) -> Part:
     if isinstance(part, str):
-        return in_language(language, part)
+        return say(part)
     if isinstance(part, Table):
         kept = [k for k, one in enumerate(part.columns) if not one.detail]
-        columns = [_named(language, part.columns[k]) for k in kept]
+        columns = [_named(say, part.columns[k]) for k in kept]
         rows = [[row[k] for k in kept] for row in part.rows]
-        return replace(part, columns=columns, rows=rows, title=in_language(language, part.title))
-    of = [_named(language, one) for one in part.of if not one.detail]
-    return replace(part, of=of, title=in_language(language, part.title))
+        return replace(part, columns=columns, rows=rows, title=say(part.title))
+    of = [_named(say, one) for one in part.of if not one.detail]
+    return replace(part, of=of, title=say(part.title))

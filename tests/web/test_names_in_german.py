@@ -1,0 +1,41 @@
+"""A German evening of players whose names look like our own words: nobody is renamed."""
+
+from pathlib import Path
+
+from evenbreak.files.tournament_store import read_tournament
+from web.phones import Phone, running
+
+NAMES = ["Tom and Jerry", "W1.1/Final", "Bo beat Ann 7:5", "winner of W1.1", "Jr. Smith", "Al in F"]
+WRONG = ["Tom und Jerry", "W1.1/Finale", "Bo schlägt Ann", "Sieger von W1.1"]
+
+
+def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True, language="de")
+        heard: list[str] = []
+
+        def send(path: str, **fields: object) -> str:
+            shown = director.send(path, **fields)
+            heard.append(shown.words)
+            return shown.words
+
+        plan = {"format": "single", "races": "even", "race": 3, "tables": 2, "seeding": "listed"}
+        asked = plan | {"discipline": "9-ball", "scale": "fargo"}
+        entrants = "\n".join(
+            ["player,rating", *(f"{name},{600 - k}" for k, name in enumerate(NAMES))]
+        )
+        send("/new", entrants=entrants, **asked)
+        send("/desk/draw")
+        while read_tournament(site.path).standing.to_play:
+            state = read_tournament(site.path)
+            match = state.standing.to_play[0]
+            first, second = state.pair(match)
+            said = send("/desk/result", match=match, a=3, b=1, how="new")
+            assert f"{first} schlägt {second} 3:1 in {match}." in said
+            assert f"{first} schlägt" in send("/desk/result", match=match, a=3, b=1, how="new")
+        assert "Tom and Jerry" in send("/desk/late", name="Tom and Jerry", rating=500)
+        pages = ("/", "/screen", "/players", "/bracket", "/desk/history")
+        heard.extend(director.open(page).words for page in pages)
+        for words in heard:
+            assert not [one for one in WRONG if one in words], words
+        assert all(any(name in words for words in heard) for name in NAMES)
