@@ -1,6 +1,8 @@
 """The arrays that functions take and return, by what they hold, and how values show them."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import fields
+from functools import cached_property, wraps
 from typing import Any, TypeVar
 
 import numpy as np
@@ -15,6 +17,95 @@ Bools = NDArray[np.bool_]
 
 Class = TypeVar("Class", bound=type)
 _LONGEST = 60
+
+
+def own_arrays(cls: Class) -> Class:
+    """Let the values of a dataclass own their arrays, so that writing to one changes no answer.
+
+    The arrays and sparse matrices that they are made from are copied, unless nobody can write to
+    them; those that they hold or remember are read-only.
+
+    >>> from dataclasses import dataclass
+    >>> @own_arrays
+    ... @dataclass(frozen=True)
+    ... class Scores:
+    ...     games: Ints
+    >>> mine = np.array([7, 5])
+    >>> scores = Scores(mine)
+    >>> mine[0] = 0
+    >>> scores.games
+    array([7, 5])
+    >>> scores.games[0] = 0
+    Traceback (most recent call last):
+    ...
+    ValueError: assignment destination is read-only
+    """
+    init: Any = vars(cls)["__init__"]
+
+    @wraps(init)
+    def owning(self: Any, *args: Any, **options: Any) -> None:
+        init(self, *args, **options)
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if (own := owned(value)) is not value:
+                object.__setattr__(self, field.name, own)
+
+    setattr(cls, "__init__", owning)  # noqa: B010  mypy refuses to assign a method
+    for remembered in vars(cls).values():
+        if isinstance(remembered, cached_property):
+            remembered.func = _owning(remembered.func)
+    return cls
+
+
+def _owning(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    @wraps(function)
+    def of(self: Any) -> Any:
+        return owned(function(self))
+
+    return of
+
+
+def owned(value: Any) -> Any:
+    """Return arrays, or a tuple, list or mapping of them, as read-only copies; else the value."""
+    if isinstance(value, np.ndarray):
+        return value if _is_frozen(value) else _frozen(np.array(value))
+    if hasattr(value, "has_canonical_format"):  # a compressed sparse matrix
+        parts = [value.data, value.indices, value.indptr]
+        if all(map(_is_frozen, parts)):
+            return value
+        copy = value.copy()
+        copy.has_canonical_format  # noqa: B018  found out once, before nothing can be set
+        for part in (copy.data, copy.indices, copy.indptr):
+            _frozen(part)
+        return copy
+    if isinstance(value, tuple | list) and _holds(value):
+        own = {id(one): owned(one) for one in value}
+        parts = [own[id(one)] for one in value]  # what is one array stays one
+        return value._make(parts) if hasattr(value, "_make") else type(value)(parts)
+    if isinstance(value, Mapping) and value and _holds(next(iter(value.values()))):
+        return {name: owned(one) for name, one in value.items()}
+    return value
+
+
+def _holds(value: Any) -> bool:
+    """Return whether a value is an array, begins with one, or has one among named parts."""
+    if isinstance(value, tuple | list):
+        return any(map(_holds, value if hasattr(value, "_make") else value[:1]))
+    return isinstance(value, np.ndarray)
+
+
+def _is_frozen(array: Any) -> bool:
+    """Return whether nobody can write to an array, nor to the one that it is a view of."""
+    while isinstance(array, np.ndarray):
+        if array.flags.writeable:
+            return False
+        array = array.base
+    return array is None
+
+
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array
 
 
 def short_repr(cls: Class) -> Class:

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from scipy.sparse import csc_array, csgraph, csr_array
 
+from evenbreak.arrays import own_arrays
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -24,6 +26,7 @@ _FEW_TERMS = 4
 """So few values are added up one after the other."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Arcs:
     """Arcs between different states, in the order of their sources.

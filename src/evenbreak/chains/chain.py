@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from scipy.sparse import csc_array, issparse
 
+from evenbreak.arrays import own_arrays
 from evenbreak.chains.arcs import Arcs, arcs_of, sums
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of, line_of
 from evenbreak.chains.paths import random_paths
@@ -36,6 +37,7 @@ _ROUNDING = 1e-15
 """Arcs that miss a sum of 1 by no more than this are left as they are."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Chain:
     """States and the transition matrix between them.
@@ -70,8 +72,9 @@ class Chain:
     given: Mapping[tuple[int, int], Fraction] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
-        if isinstance(self.states, str):
-            object.__setattr__(self, "states", tuple(self.states))
+        if isinstance(self.states, (str, list)):
+            copied = tuple if isinstance(self.states, str) else list
+            object.__setattr__(self, "states", copied(self.states))
         n, matrix = len(self.states), csc_of(self.matrix)
         if n == 0 or matrix.shape != (n, n):
             raise ChainError(
@@ -90,6 +93,7 @@ class Chain:
             check_sums(self.states, total)
             matrix = _completed(matrix, columns, missed > _ROUNDING)
         object.__setattr__(self, "matrix", matrix)
+        object.__setattr__(self, "given", dict(self.given))
 
     def __len__(self) -> int:
         return len(self.states)

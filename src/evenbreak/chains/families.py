@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.sparse import csc_array
 
+from evenbreak.arrays import own_arrays
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.family_elimination import family_limits
@@ -45,6 +46,7 @@ _SAME = 1e-14
 """The relative difference up to which an arc is that of the game made from plain floats."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class FamilyLimit:
     """The stochastic limits of a family of games; `limit[state]` is an array over the family.

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 import numpy as np
 
+from evenbreak.arrays import own_arrays
 from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
@@ -43,6 +44,7 @@ _ERROR_BY_EIGENVECTORS = 1e-12
 _SHOWN = 5
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Limit(Mapping[Hashable, float]):
     """A stochastic limit: a mapping from each state to its probability, given the start.

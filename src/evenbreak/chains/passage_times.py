@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 import numpy as np
 from scipy.sparse import csr_array
 
+from evenbreak.arrays import own_arrays
 from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.exact import ExactPassage, exact_passage
@@ -47,6 +48,7 @@ MOST_STEPS = 100_000
 """Quantiles beyond this are refused."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class PassageTime:
     """How many steps it takes to reach a target, given the start.

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import short_repr
+from evenbreak.arrays import own_arrays, short_repr
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import largest, stochastic_limit
@@ -53,6 +53,7 @@ class _Slopes:
         return np.asarray(self.forward[j] * backward)
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class Sensitivity:

@@ -22,9 +22,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.arrays import short_repr
+from evenbreak.arrays import own_arrays, short_repr
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, UnitPairs, leading_pairs, no_basis
+from evenbreak.chains.eigenpairs import (
+    DENSE,
+    TOLERANCE,
+    UnitPairs,
+    leading_pairs,
+    no_basis,
+    within_unit_disc,
+)
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.powers import evened
 from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
@@ -44,6 +51,7 @@ LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class Spectrum:
@@ -55,7 +63,7 @@ class Spectrum:
         the chain.
     values
         shape (k,): the eigenvalues 1 first, the others by falling modulus (beyond 1000
-        states: those nearest to 1 first).
+        states: those nearest to 1 first); none has a modulus above 1.
     units
         how many eigenvalues are 1: the number of closed classes.
     residual
@@ -196,6 +204,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     pairs = UnitPairs(chain)
     _check_bound(pairs.error)
     values, left, right = leading_pairs(chain, pairs, k)
+    values = within_unit_disc(values)
     M = evened(chain)
     residual = max(
         float(np.abs(M @ right - right * values).max()),
@@ -224,7 +233,7 @@ def _of_reversible(chain: Chain, forms: list[SymmetricForm], k: int, units: int)
         raise no_basis(k, units, pairs.missed)
     return Spectrum(
         chain,
-        pairs.values,
+        within_unit_disc(pairs.values),
         units,
         pairs.missed,
         pairs.limit_error,

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csgraph, csr_array
 
-from evenbreak.arrays import short_repr
+from evenbreak.arrays import own_arrays, short_repr
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Arcs, Places
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class Structure:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.arrays import short_repr
+from evenbreak.arrays import own_arrays, short_repr
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
 from evenbreak.files.player_names import (
@@ -77,6 +77,7 @@ FARTHEST = 10_000
 """The largest rating or skill that can be simulated, in points."""
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class RosterFile:

@@ -70,7 +70,8 @@ class Rack(Generic[ChanceT]):
     given: tuple[Any, Any] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "given", (self.p1, self.p2))
+        given = (p if isinstance(p, Fraction) else None for p in (self.p1, self.p2))
+        object.__setattr__(self, "given", tuple(given))
         self._check("1")
         if self.p2 is not None:
             self._check("2")
@@ -90,9 +91,11 @@ class Rack(Generic[ChanceT]):
             off = abs(p + q - 1.0)
             if (off if isinstance(off, float) else off.max(initial=0.0)) > _ROUNDING:
                 raise InputError(f"p{player} and q{player} do not add up to 1; correct one of them")
-        # Copies, so that a later change to the caller's array changes nothing here.
-        object.__setattr__(self, "p" + player, copy(p))
-        object.__setattr__(self, "q" + player, copy(q))
+        for name, chance in (("p", p), ("q", q)):
+            own = copy(chance)  # so that a later change to the caller's array changes nothing here
+            if not isinstance(own, float):
+                own.flags.writeable = False
+            object.__setattr__(self, name + player, own)
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Ints, Places
+from evenbreak.arrays import Ints, Places, own_arrays
 from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
@@ -129,6 +129,7 @@ class RandomPairing:
         return [(order[:, :half], order[:, half : 2 * half]) for order in drawn]
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class FixedSchedule:
     """The matches of a list, each in its week, in the order of the list.

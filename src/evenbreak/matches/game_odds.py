@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import number_probability
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.own_games import Ends, ends_of_game
@@ -24,6 +24,7 @@ _LONGEST = 100_000
 NO_WINNER, NEVER_ENDS = "no winner", "never ends"
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False, repr=False)
 class GameOdds:
     """Who wins a game, and after how many moves.

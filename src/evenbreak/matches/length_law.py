@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.rack import ChanceT
@@ -23,6 +23,7 @@ else:
     MeanT = TypeVar("MeanT", covariant=True)
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class MatchLength(Generic[ChanceT, MeanT]):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, number
 from evenbreak.matches.pace import Pace
 from evenbreak.matches.quantiles import TIE
@@ -20,6 +20,7 @@ _LEAST = 1e-9  # stands for no time at all and for no spread, whose logarithms d
 _HALVINGS = 40
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class MatchMinutes:
     """The distribution of a match's minutes.

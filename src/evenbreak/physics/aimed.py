@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_or_usual
 from evenbreak.errors import InputError
 from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
@@ -27,6 +27,7 @@ _THINNEST = 0.5 * math.pi - 1e-9
 """Just short of a right angle, at which nothing is hit."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class AimedShot:
     """A shot that sends the object ball to a target, with and without allowing for throw.

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, kind_or_usual, number, one_of
 from evenbreak.errors import InputError
 from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
@@ -34,6 +34,7 @@ _ROUNDING = 1e-12
 """The rounding error allowed in the distance between touching balls, in diameters."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Shot:
     """A shot from the tip until both balls stop or reach a cushion or a pocket.

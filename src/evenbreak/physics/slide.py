@@ -23,7 +23,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.arrays import numbers
@@ -183,6 +183,7 @@ def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     return plain(speed * time * (1.0 - slip / 7.0))
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Slide:
     """A ball from the start of its slide until it stops; arrays stand for several balls.

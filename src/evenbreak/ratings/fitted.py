@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.errors import InputError
 from evenbreak.ratings.covariance import Curvature
 from evenbreak.ratings.levels import Levels, newness
@@ -42,6 +42,7 @@ class Group(NamedTuple):
     standard_error: float
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Ratings:
     """Ratings of players, in the order of `players`.

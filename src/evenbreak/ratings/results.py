@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Bools, Ints
+from evenbreak.arrays import Bools, Ints, own_arrays
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 from evenbreak.ratings.consistency import find_problems
@@ -56,6 +56,7 @@ class Played(NamedTuple):
     empty: int
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Results:
     """Matches as columns: one row a match, read-only arrays of one length.

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.special import expit
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
@@ -29,6 +29,7 @@ NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Forecasts:
     """The chances that the ratings gave for each match before its date, and its result.

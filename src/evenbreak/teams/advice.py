@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.teams.matrix_games import matrix_game
@@ -18,6 +18,7 @@ from evenbreak.teams.solve import SolvedNight, names_first, pair_values
 from evenbreak.teams.squad import Counts, LineUps, Squad
 
 
+@own_arrays
 @dataclass(frozen=True)
 class Point:
     """A point in a night: a nomination to come.

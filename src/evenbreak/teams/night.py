@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, short_repr
+from evenbreak.arrays import Floats, own_arrays, owned, short_repr
 from evenbreak.checks import floats, number_probability, one_of
 from evenbreak.errors import InputError
 from evenbreak.teams.order import order_of
 from evenbreak.teams.squad import LineUps, Squad, line_ups
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False, init=False)
 class TeamNight:
@@ -103,7 +104,7 @@ class TeamNight:
         """Return the same night with other laws, one for each set."""
         changed = copy(self)
         checked = tuple(_law(law, *old.shape[:2]) for law, old in zip(laws, self.laws, strict=True))
-        object.__setattr__(changed, "laws", checked)
+        object.__setattr__(changed, "laws", owned(checked))
         return changed
 
     @property

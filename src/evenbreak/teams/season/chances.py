@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, short_repr
+from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
 from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.league.workers import in_order
@@ -39,6 +39,7 @@ class Watched(NamedTuple):
     matches: tuple[int, ...]
 
 
+@own_arrays
 @short_repr
 @dataclass(frozen=True, eq=False)
 class SeasonChances:

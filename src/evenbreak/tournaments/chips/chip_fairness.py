@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.checks import column, whole
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -24,6 +24,7 @@ _SEARCH_RUNS = 3_000
 _MOST_STEPS = 60
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class ChipFairness:
     """The title odds of a field with given chips.

@@ -16,7 +16,7 @@ from typing import TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
@@ -89,6 +89,7 @@ class LastPlayers:
         return line[0] + 1 if len(line) == 1 else None
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class EndgameOdds:
     """Who finishes where.

@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.tournaments.chips.racks import break_matters, checked_racks
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class ChipOdds:
     """Who wins a chip tournament, by simulation.

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import floats, number, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
@@ -65,6 +65,7 @@ class Call(NamedTuple):
     error: float
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Finish:
     """When a tournament ends; times are minutes since its first start.

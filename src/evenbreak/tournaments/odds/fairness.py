@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import column
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -25,6 +25,7 @@ from evenbreak.tournaments.odds.title import TitleOdds, title_odds
 _MOST_CHOICES = 200
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Fairness:
     """Title odds under a handicap.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
@@ -36,6 +36,7 @@ MOST_STATES = 2e7
 """How many joint states times players one match may have for leverages to be calculated."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class Leverage:
     """What the result of a match would change, for each player.

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import betainc
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.checks import column, number
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, alternate_breaks
@@ -28,6 +28,7 @@ from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class PairOdds:
     """Who wins a match and in how many games, for every two players.

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
@@ -43,6 +43,7 @@ WALKOVERS = 0.047
 """The share of walkovers among real double-elimination matches (one city, 2017-2025)."""
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class PlaceOdds:
     """Who finishes where.
@@ -109,6 +110,7 @@ class PlaceOdds:
         return self.p_place @ prizes(self.bracket, payouts)
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class TitleOdds(PlaceOdds):
     """Who finishes where, and who meets whom.
