@@ -1,5 +1,13 @@
-import numpy as np
+import csv
+import io
+import math
+from fractions import Fraction
 
+import numpy as np
+import pytest
+from scipy.io import mmread
+
+from evenbreak.answers.faces.to_csv import table_lines
 from evenbreak.answers.graph import (
     arcs_table,
     classes_table,
@@ -9,7 +17,9 @@ from evenbreak.answers.graph import (
     states_table,
 )
 from evenbreak.answers.road import road_of
-from evenbreak.games import Ahead, Rack
+from evenbreak.files.graph_forms import matrix_market_bytes
+from evenbreak.games import CATALOGUE, Ahead, Rack
+from evenbreak.handicaps import CHARTS, Ladder, chart
 
 
 class RoundTable:
@@ -22,6 +32,36 @@ class RoundTable:
 
     def winner(self, state):  # noqa: ARG002
         return None
+
+
+class Rounded:
+    """A state with many ways out, whose chances miss 1 by what rounding left, and a rare wait."""
+
+    start = 0
+
+    def moves(self, state):
+        return {} if state else {0: 1e-19, **dict.fromkeys(range(1, 50), (1 + 2e-14) / 49)}
+
+    def winner(self, state):
+        return 1 if state else None
+
+
+WRITTEN = {**CATALOGUE, **{name: Ladder(chart(name)) for name in CHARTS}, "rounded": Rounded()}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_written_chances_out_of_a_state_add_up_to_1(name):
+    road = road_of(WRITTEN[name])
+    rows = csv.DictReader(io.StringIO("".join(table_lines(arcs_table(road)))))
+    chances = {}
+    for row in rows:
+        chances.setdefault(row["source"], []).append(row["probability"])
+    for out in chances.values():
+        assert math.fsum(map(float, out)) == 1.0
+        assert abs(sum(map(Fraction, out)) - 1) < 2**-52
+    matrix = mmread(io.BytesIO(matrix_market_bytes(road.chain))).tocsc()
+    for start, end in zip(matrix.indptr, matrix.indptr[1:], strict=False):
+        assert math.fsum(matrix.data[start:end]) == 1.0
 
 
 def test_complex_eigenvectors_have_an_imaginary_part_beside_each():
@@ -47,3 +87,9 @@ def test_tables_are_about_the_same_states_and_classes():
     assert (states.groupby("class").size() == classes["states"]).all()
     np.testing.assert_allclose(states.groupby("class")["limit"].sum(), classes["limit"], atol=1e-15)
     assert states.loc[states["winner"] == 1, "class_kind"].tolist() == ["absorbing"]
+
+
+def test_a_ladder_that_goes_back_and_forth_for_ages_says_how_fast_it_settles():
+    text = str(graph_answer("A ladder", road_of(Ladder(chart("npl_10")))))
+    assert "falls by 2.2% with each step (the gap is 0.02168)" in " ".join(text.split())
+    assert "as if its period were 2" in " ".join(text.split())

@@ -6,7 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.chains import chain_from_arrays, chain_of, limit_matrix
-from evenbreak.chains.mixing import _average_of_powers, mixing_time, spectral_gap
+from evenbreak.chains.mixing import (
+    _average_of_powers,
+    apparent_period,
+    mixing_time,
+    spectral_gap,
+)
 from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import Ahead, OneBall, Race, Rack
 
@@ -31,6 +36,28 @@ class TestGap:
             min(0.02, 0.99 * (1 - np.cos(np.pi / 29))), rel=1e-10
         )
         assert spectral_gap(walk(4, 0.01)) == pytest.approx(0.02, rel=1e-10)
+
+    @pytest.mark.parametrize("rare", [0.0, 1e-20, 1e-15, 1e-12, 1e-10])
+    @pytest.mark.parametrize("period", [2, 3, 4])
+    def test_a_period_that_ends_once_in_ages_counts_as_one(self, period, rare):
+        """A cycle of pairs of states, with a rare wait in one: what goes round is left out."""
+        cycle = [
+            ((k, i), ((k + 1) % period, j), (0.75, 0.25)[i ^ j])
+            for k in range(period)
+            for i in (0, 1)
+            for j in (0, 1)
+        ]
+        arcs = [(a, b, p * (1.0 - rare * (a == (0, 0)))) for a, b, p in cycle]
+        chain = chain_of([*arcs, ((0, 0), (0, 0), rare)] if rare else arcs, start=(0, 0))
+        assert apparent_period(chain) == period
+        assert spectral_gap(chain) == pytest.approx(0.5, rel=1e-6)
+        assert mixing_time(chain, 0.01) == mixing_time(chain_of(cycle), 0.01)
+
+    def test_a_chain_that_nearly_falls_apart_has_no_period(self):
+        """Its second eigenvalue lies next to 1 itself: no average over steps takes that away."""
+        chain = chain_of([(1, 1, 1 - 1e-12), (1, 2, 1e-12), (2, 2, 1 - 1e-12), (2, 1, 1e-12)])
+        assert apparent_period(chain) == 1
+        assert spectral_gap(chain) == pytest.approx(2e-12, rel=1e-3)
 
     def test_match_ahead(self):
         """From within: 2 sqrt(p q) cos(pi / (m + n))."""

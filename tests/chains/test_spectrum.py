@@ -61,6 +61,21 @@ def chains(draw):
     return chain_from_arrays(list(range(n)), j, i, (A / A.sum(axis=0))[i, j], start=0)
 
 
+@pytest.mark.parametrize(
+    "chain",
+    [
+        *(ladder(n, stay=stay) for n in (7, 61, 121) for stay in (0.0, 1e-17, 1e-9, 0.1)),
+        *(unbalanced(ladder(n)) for n in (7, 15)),
+        *(chain_of([(k, (k + 1) % n, 1.0) for k in range(n)]) for n in (3, 7, 30)),
+    ],
+    ids=repr,
+)
+def test_no_eigenvalue_is_beyond_the_unit_circle(chain):
+    values = spectrum(chain).values.tolist()
+    assert max(map(abs, values)) <= 1.0
+    assert values[0] == 1.0
+
+
 class TestKnown:
     @pytest.mark.parametrize(("breaks", "second"), [(winner_breaks, 0.4), (loser_breaks, -0.4)])
     def test_series(self, breaks, second):

@@ -71,8 +71,8 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
         ],
         [
             "Two states are in the same class if each can be reached from the other. The gap is 1 "
-            "less the largest modulus of an eigenvalue inside the unit circle: in the end the "
-            "distance to the limit falls by this share with each step.",
+            "less the largest modulus of an eigenvalue more than 1e-8 inside the unit circle: in "
+            "the end the distance to the limit falls by this share with each step.",
             Quantities(
                 [
                     Quantity("gap", road.gap, "gap", decimals(6)),
@@ -177,10 +177,13 @@ def _gap_words(road: Road) -> str:
         return " After a fixed number of steps the chain only goes round (the gap is 1)."
     if road.gap > 1.0 - SAME:
         return " The limit is reached after a fixed number of steps (the gap is 1)."
-    what = "long-run cycle" if road.limit.is_cesaro else "limit"
+    what, ages = "long-run cycle" if road.limit.is_cesaro else "limit", ""
+    if road.period != road.limit.period:
+        what = f"limit, averaged over {road.period} steps,"
+        ages = f" For ages the chain goes round as if its period were {road.period}."
     return (
         f" In the end the distance to the {what} falls by {percent(road.gap)} with each step (the "
-        f"gap is {road.gap:.4g})."
+        f"gap is {road.gap:.4g}).{ages}"
     )
 
 

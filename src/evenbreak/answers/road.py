@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ import numpy as np
 from evenbreak.chains.chain import Chain
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.limits import Limit, stochastic_limit
-from evenbreak.chains.mixing import spectral_gap
+from evenbreak.chains.mixing import apparent_period, spectral_gap
 from evenbreak.chains.spectrum import Spectrum, spectrum
 from evenbreak.chains.ways import WAYS
 from evenbreak.errors import AccuracyError, ChainError, GameError
@@ -28,7 +29,8 @@ class Road:
     Parameters
     ----------
     graph
-        the game as a directed graph; its states are texts.
+        the game as a directed graph; its states are texts, and the chances out of each add up to
+        1 to the last digit.
     chain
         the sparse transition matrix of the graph.
     limits
@@ -38,6 +40,8 @@ class Road:
         eigenvectors, only those of eigenvalue 1; None where these are not certain either.
     gap
         see `spectral_gap`; None if it is not certain.
+    period
+        see `apparent_period`; that of the limit if it is not certain.
     refused
         why there is no answer, by what there is none of: a way, 'spectrum', 'gap'.
     """
@@ -47,6 +51,7 @@ class Road:
     limits: Mapping[str, Limit]
     spectrum: Spectrum | None
     gap: float | None
+    period: int
     refused: Mapping[str, str]
 
     @property
@@ -82,7 +87,7 @@ def road_of(game: Game) -> Road:
     >>> list(road.refused)
     []
     """
-    graph = _named(graph_of(game))
+    graph = _adding_up(_named(graph_of(game)))
     chain = chain_of(graph)
     limits: dict[str, Limit] = {}
     refused: dict[str, str] = {}
@@ -103,7 +108,8 @@ def road_of(game: Game) -> Road:
         units = int(chain.structure.closed.sum())
         pairs = attempt("eigenvectors of 1", spectrum, chain, k=units)
     gap = attempt("gap", spectral_gap, chain)
-    return Road(graph, chain, limits, pairs, gap, refused)
+    period = limits["elimination"].period if gap is None else apparent_period(chain)
+    return Road(graph, chain, limits, pairs, gap, period, refused)
 
 
 def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
@@ -115,3 +121,21 @@ def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
         raise GameError("two states of the game are written alike; give each its own text")
     named: nx.DiGraph[str] = nx.relabel_nodes(graph, names)
     return named
+
+
+def _adding_up(graph: nx.DiGraph[str]) -> nx.DiGraph[str]:
+    """Return the graph with the chances out of each state adding up to 1, correctly rounded.
+
+    Where they miss it all are scaled, and the largest becomes what the others leave over.
+    """
+    for state in graph:
+        arcs = [arc for _, _, arc in graph.out_edges(state, data=True)]
+        total = math.fsum(arc["probability"] for arc in arcs)
+        if total in (0.0, 1.0):
+            continue
+        for arc in arcs:
+            arc["probability"] /= total
+        largest = max(arcs, key=lambda arc: arc["probability"])
+        others = [arc["probability"] for arc in arcs if arc is not largest]
+        largest["probability"] = -math.fsum([-1.0, *others])
+    return graph

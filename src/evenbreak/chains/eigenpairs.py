@@ -166,6 +166,18 @@ def leading_pairs(
     return _joined(known, (values, np.linalg.solve(overlap, left), right))
 
 
+def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
+    """Return eigenvalues of a stochastic matrix with those beyond the unit circle put on it.
+
+    The true ones lie in the disc, so that this brings none further from its own.
+
+    >>> within_unit_disc(np.array([1.0, -1.0000000000000007, 0.5]))
+    array([ 1. , -1. ,  0.5])
+    """
+    turned = values / np.maximum(np.abs(values), 1.0)
+    return np.asarray(np.where(np.abs(turned) > 1.0, turned * (1.0 - EPS), turned))
+
+
 def roots_of_one(chain: Chain, units: UnitPairs) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return the eigenvalues of modulus 1 other than 1, with left and right vectors.
 

@@ -30,6 +30,9 @@ from evenbreak.chains.powers import evened
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 
+_ON_CIRCLE = 1e-8
+"""Eigenvalues as close to a root of 1 as this, other than 1 itself, count as it."""
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -42,7 +45,9 @@ def spectral_gap(chain: Chain) -> float:
     A closed class of period d has d eigenvalues on the unit circle, the d-th roots of 1.
     They are left out: for a ladder of +-1 steps (period 2, spectrum symmetric about 0) the
     gap is 1 minus the largest eigenvalue below 1 and describes the two-step average. In
-    the end the distance to the limit falls like (1 - gap)^n.
+    the end the distance to the limit falls like (1 - gap)^n. So are those of an
+    `apparent_period`, within 1e-8 of such roots: a ladder that holds an error at its ends
+    once in ages has period 1, but goes back and forth for longer than anyone plays.
 
     Raises
     ------
@@ -69,7 +74,8 @@ def spectral_gap(chain: Chain) -> float:
     for label in np.flatnonzero(sizes > 1):
         states = structure.members(int(label))
         block = M[:, states][states]
-        found, errors = _moduli(block, int(structure.periods[label]))
+        values, errors = _eigenvalues(block, int(structure.periods[label]))
+        found = np.minimum(np.abs(values), 1.0)  # of a stochastic matrix none is larger
         moduli += found.tolist()
         bounds += (found + errors).tolist()
     gap = 1.0 - max(moduli)
@@ -81,11 +87,45 @@ def spectral_gap(chain: Chain) -> float:
     return gap
 
 
-def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the moduli of a class, less the `period` on the unit circle, and their errors."""
-    n = block.shape[0]
-    if period == n:
+def apparent_period(chain: Chain) -> int:
+    """Return the period of a chain as far as anyone can see: the least common one of its classes.
+
+    It is the period, or a multiple d of it where the d-th roots of 1 have eigenvalues within 1e-8
+    of them: what these carry goes round for a hundred million steps.
+
+    Raises
+    ------
+    AccuracyError
+        as for `spectral_gap`.
+
+    >>> from evenbreak.chains import chain_of
+    >>> rare = 1e-12
+    >>> chain = chain_of([(1, 2, 1.0), (2, 1, 1.0 - rare), (2, 2, rare)])
+    >>> int(chain.structure.periods[0]), apparent_period(chain)
+    (1, 2)
+    """
+    structure, M = chain.structure, evened(chain)
+    periods = []
+    for label in np.flatnonzero(structure.closed):
+        states, period = structure.members(int(label)), int(structure.periods[label])
+        if 1 < len(states) != period:
+            period = _values(M[:, states][states], period)[2]
+        periods.append(period)
+    # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.
+    return math.lcm(*periods)
+
+
+def _eigenvalues(block: csc_array, period: int) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    """Return the eigenvalues of a class with their errors, less those on the unit circle."""
+    if period == block.shape[0]:
         return np.empty(0), np.empty(0)
+    values, errors, seen = _values(block, period)
+    return values[seen:], errors[seen:]
+
+
+def _values(block: csc_array, period: int) -> tuple[NDArray[Any], NDArray[np.float64], int]:
+    """Return the eigenvalues of a class by falling modulus, their errors, and its `_period`."""
+    n = block.shape[0]
     line = _line(block)
     if line is not None:
         values = _ends_of_symmetric(*line)
@@ -96,8 +136,20 @@ def _moduli(block: csc_array, period: int) -> tuple[NDArray[np.float64], NDArray
     else:
         values, left, right = scipy.linalg.eig(block.toarray(), left=True, right=True)
         errors = n * EPS / _overlaps(values, left, right)
-    order = np.argsort(-np.abs(values), kind="stable")[period:]
-    return np.asarray(np.abs(values)[order]), np.asarray(errors[order])
+    order = np.argsort(-np.abs(values), kind="stable")
+    values, errors = values[order], errors[order]
+    return values, errors, _period(values, period)
+
+
+def _period(values: NDArray[Any], period: int) -> int:
+    """Return a period that eigenvalues, by falling modulus, cannot be told from; see above."""
+    count = int((np.abs(values) >= 1.0 - _ON_CIRCLE).sum())
+    if not period or count % period:
+        return period
+    turns = np.angle(values[:count]) * count / (2.0 * np.pi)
+    places = turns.round()
+    each_once = len(set((places % count).tolist())) == count
+    return count if each_once and np.abs(turns - places).max() <= count * _ON_CIRCLE else period
 
 
 def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> NDArray[np.float64]:
@@ -158,7 +210,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
 
     Distance is total variation, half the sum of absolute differences, from the worst start.
     If a closed class is periodic, the average over the next d steps is compared, with d the
-    least common multiple of the periods.
+    `apparent_period`.
 
     Raises
     ------
@@ -186,9 +238,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
         raise ChainError(
             f"the chain has {n} states; a mixing time needs {DENSE} or fewer, ask for spectral_gap"
         )
-    structure = chain.structure
-    # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.
-    period = math.lcm(*structure.periods[structure.closed].tolist())
+    period = apparent_period(chain)
     M = evened(chain).toarray()
     average = _average_of_powers(M, period)
     limit = limit_matrix(chain).toarray()

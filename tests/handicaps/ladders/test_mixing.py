@@ -3,9 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.chains import chain_of, mixing_time
+from evenbreak.chains import chain_of, mixing_time, spectral_gap
 from evenbreak.errors import InputError
-from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart, ladder_gap, ladder_mixing
+from evenbreak.handicaps import CHARTS, EQUAL_SKILL, Ladder, chart, ladder_gap, ladder_mixing
 from evenbreak.handicaps.ladders.error_chain import period_of
 from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.step import step_system
@@ -145,3 +145,13 @@ def test_who_is_near_from_the_beginning_need_not_wait():
 def test_nonsense_is_refused(arguments, message):
     with pytest.raises(InputError, match=message):
         ladder_mixing(Ladder("npl", widest=60), *arguments)
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_the_chain_of_a_ladder_settles_as_the_ladder_does(name):
+    """A ladder is a game like any other: seen as one, it has the same gap and the same speed."""
+    ladder = Ladder(chart(name))
+    chain = chain_of(ladder)
+    assert spectral_gap(chain) == pytest.approx(ladder_gap(ladder), rel=1e-9)
+    slowest = max(ladder_mixing(ladder, end) for end in (-ladder.widest, ladder.widest))
+    assert mixing_time(chain) == slowest
