@@ -61,8 +61,7 @@ class Ratings:
         players who are connected through opponents share a number, from 1 for the
         largest component; ratings from different components cannot be compared.
     scale, anchor, prior_sd
-        the scale, the mean of the prior in points, and its standard deviation in
-        natural log-odds.
+        the scale, the prior's mean in points, and its standard deviation in natural log-odds.
     iterations, gradient
         Newton steps, and the log-posterior's largest slope after them, in games.
     matches, forfeits, empty, races_won, races_lost
