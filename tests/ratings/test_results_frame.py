@@ -10,6 +10,7 @@ from evenbreak.errors import DataError, InputError
 from evenbreak.files import read_results
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.result_words import FORMATS
+from evenbreak.ratings.results_frame import FrameReader
 from places import DATA
 
 
@@ -28,6 +29,25 @@ def test_a_frame_holds_what_the_file_holds():
     for name in ("date", "first_break", "break_format", "event"):
         np.testing.assert_array_equal(getattr(found, name), getattr(from_file, name))
     np.testing.assert_array_equal(fit(found).rating, fit(from_file).rating)
+
+
+@pytest.mark.parametrize("known", [{}, {"race_a": 7, "race_b": 7, "winner": ["a", "b"]}])
+def test_the_work_for_each_row_does_not_grow_with_the_rows(monkeypatch, known):
+    """However many rows: each column is looked up, or made where there is none, as often."""
+    looked_up = []
+    cells = FrameReader.cells
+
+    def counting(self, name):
+        looked_up.append(name)
+        return cells(self, name)
+
+    monkeypatch.setattr(FrameReader, "cells", counting)
+    counts = []
+    for rows in (1, 2, 300):
+        Results.from_frame(pd.concat([frame(**known)] * rows, ignore_index=True))
+        counts.append(len(looked_up))
+        looked_up.clear()
+    assert counts[0] == counts[1] == counts[2]
 
 
 @pytest.mark.parametrize("kind", ["Int64", "float", "object", "string", "category"])

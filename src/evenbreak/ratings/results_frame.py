@@ -87,7 +87,7 @@ class FrameReader:
 
     def cells(self, name: str) -> list[Any]:
         """Return the cells of a column; None for empty ones, throughout if there is no column."""
-        return self._columns.get(name, [None] * len(self.rows))
+        return self._columns[name] if name in self._columns else [None] * len(self.rows)
 
     def add(self, row: int, problem: str) -> None:
         """Add a problem of the row in this place."""
@@ -159,9 +159,9 @@ def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str])
 
 def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
     """Return which matches are known by race and winner alone; other empty scores are problems."""
-    unscored = []
+    unscored, scores = [], [(name, reader.cells(name)) for name in SCORES]
     for row in range(len(reader.rows)):
-        empty = [name for name in SCORES if reader.cells(name)[row] is None]
+        empty = [name for name, cells in scores if cells[row] is None]
         known = len(empty) == 2 and all(columns[name][row] for name in (*RACES, "winner"))
         if not known and not columns["forfeit"][row]:
             for name in empty:
