@@ -169,7 +169,7 @@ def _connected(place: Path, part: Path | None = None) -> Iterator[sqlite3.Connec
     try:
         with closing(_connection(part or place, "rwc" if part else "rw")) as base:
             yield base
-    except sqlite3.Error as error:
+    except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite's own words may be damaged
         words = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
         raise DataError([words.format(name=place.name, error=error)]) from error
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import reprlib
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
@@ -116,15 +117,20 @@ def player_of(names: Mapping[Any, str], number: Any) -> str:
     return name
 
 
+_MOST = 9_999_999
+
+
 def count_of(value: Any, what: str) -> int | None:
     """Return a whole number from 0, None where there is none."""
     if value is None or value == "":
         return None
     if isinstance(value, str) and re.fullmatch(r"\d{1,7}", value.strip(), re.ASCII):
         return int(value)
-    if isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value == int(value):
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if number and 0 <= value <= _MOST and value == int(value):
         return int(value)
-    raise ExportError(f"has {what} {value!r}, which is not a whole number, 0 or more")
+    shown = reprlib.repr(value)
+    raise ExportError(f"has {what} {shown}, which is not a whole number from 0 to {_MOST:,}")
 
 
 def dated(found: list[Found], *times: Any) -> list[Found]:

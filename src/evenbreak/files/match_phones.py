@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from evenbreak.checks import made
+from evenbreak.files.evening_entries import named
 from evenbreak.files.evening_file import changing, has_table, opened
 
 CLAIMED, RELEASED, PROPOSED, ENTERED = "claimed", "released", "proposed", "entered"
@@ -127,7 +129,7 @@ def enter(
         any in the meantime.
     """
     with changing(path) as base:
-        entries = _read(base, match)
+        entries = _read(base, path, match)
         sides = sides_between(entries, pair)
         entry = decide(sides)
         if entry is None:
@@ -144,7 +146,7 @@ def enter(
 def phone_entries(path: str | Path, match: str | None = None) -> list[Entry]:
     """Return what phones did in a match, or in all, in the order in which it came in."""
     with opened(path) as base:
-        return _read(base, match)
+        return _read(base, path, match)
 
 
 def sides_between(entries: Iterable[Entry], pair: Iterable[str]) -> Sides:
@@ -158,15 +160,18 @@ def sides_between(entries: Iterable[Entry], pair: Iterable[str]) -> Sides:
     )
 
 
-def _read(base: sqlite3.Connection, match: str | None) -> list[Entry]:
+def _read(base: sqlite3.Connection, path: str | Path, match: str | None) -> list[Entry]:
     """Return the entries of a match, or of all, those that 0.2.0 kept first."""
-    entries: list[Entry] = []
-    if has_table(base, "proposal"):
-        rows = base.execute("SELECT at, game, player, score, phone FROM proposal ORDER BY rowid")
-        for at, game, player, score, phone in rows:
-            entries.append(Entry(at, game, PROPOSED, player, json.loads(score), phone))
-    if has_table(base, TABLE):
-        asked = f"SELECT at, game, kind, player, score, phone, address FROM {TABLE}"  # noqa: S608
-        for at, game, kind, player, score, *whence in base.execute(f"{asked} ORDER BY number"):
-            entries.append(Entry(at, game, kind, player, json.loads(score), *whence))
+    names = "at, game, kind, player, score, phone, address"
+    kept = {
+        "proposal": "SELECT at, game, 'proposed', player, score, phone, '' FROM proposal "
+        "ORDER BY rowid",
+        TABLE: f"SELECT {names} FROM {TABLE} ORDER BY number",  # noqa: S608
+    }
+    entries = []
+    for table, asked in kept.items():
+        for row in base.execute(asked).fetchall() if has_table(base, table) else ():
+            with named(path, "what the phones entered"):
+                values = dict(zip(names.replace("game", "match").split(", "), row, strict=True))
+                entries.append(made(Entry, {**values, "score": json.loads(values["score"])}))
     return [entry for entry in entries if match in (None, entry.match)]

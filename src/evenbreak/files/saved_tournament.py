@@ -26,6 +26,7 @@ from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import (
+    NAMES,
     Called,
     Drawn,
     Entrant,
@@ -35,6 +36,8 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     What,
+    as_dict,
+    event_of,
 )
 from evenbreak.tournaments.evening.fold import evening
 
@@ -85,7 +88,7 @@ def read_saved_tournament(
     reader, bracket = fitting[0]
     try:
         saved = bracket(data)
-        found = [read() for read in reader.matches(data)]
+        found = [_read(number, read) for number, read in enumerate(reader.matches(data), 1)]
         return _events(saved, found, plan, entrants, at)
     except (ExportError, InputError) as error:
         raise DataError([f"{source}: {error}"]) from None
@@ -95,6 +98,13 @@ def read_saved_tournament(
         raise DataError(
             [f"{source}: is not built as expected; save it again in the other program"]
         ) from None
+
+
+def _read(number: int, read: Callable[[], list[Found]]) -> list[Found]:
+    try:
+        return read()
+    except ExportError as error:
+        raise ExportError(f"match {number} {error}") from None
 
 
 def _events(
@@ -293,7 +303,12 @@ def _moment(text: str) -> str:
 
 
 def _check(events: Sequence[Event]) -> None:
-    """Check that the results fit together, match by match."""
+    """Check that all numbers can be true, and that the results fit together, match by match."""
+    for event in events:
+        try:
+            event_of(NAMES[type(event.what)], as_dict(event.what))
+        except InputError as error:
+            raise InputError(f"{getattr(event.what, 'match', 'tournament')}: {error}") from None
     state = evening(events)
     for one in state.aside:
         seats = state.standing.seats.get(one.result.match)

@@ -9,7 +9,8 @@ from datetime import datetime
 from pathlib import Path
 
 from evenbreak.errors import DataError
-from evenbreak.files.evening_file import changing, copied, has_table, opened
+from evenbreak.files.evening_entries import named
+from evenbreak.files.evening_file import DAMAGED, changing, copied, has_table, opened
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 
 _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
@@ -42,8 +43,10 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
                 base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
                 found = _secrets(base)
         except DataError:
-            return {**first, **found}
-    return found
+            pass
+    if not all(isinstance(value, str) for value in found.values()):
+        raise DataError([DAMAGED.format(name=Path(path).name, error="its PIN cannot be read")])
+    return {**first, **found}
 
 
 def _secrets(base: sqlite3.Connection) -> dict[str, str]:
@@ -78,7 +81,8 @@ def kept_prizes(path: str | Path) -> PrizeMoney | None:
         if not has_table(base, "prize"):
             return None
         row = base.execute("SELECT fee, added, house, payout FROM prize").fetchone()
-    return PrizeMoney(*row) if row else None
+    with named(path, "its prizes"):
+        return PrizeMoney(*row) if row else None
 
 
 def back_up(path: str | Path, now: datetime) -> Path:

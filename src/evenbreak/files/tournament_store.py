@@ -16,7 +16,7 @@ from typing import Any
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.evening_entries import folded, happened, named
-from evenbreak.files.evening_file import TOURNAMENT, begin, changing, has_table, opened
+from evenbreak.files.evening_file import DAMAGED, TOURNAMENT, begin, changing, has_table, opened
 from evenbreak.files.match_phones import TABLE as PHONES
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
@@ -29,7 +29,7 @@ CREATE TABLE event (
     what TEXT NOT NULL
 )
 """
-
+_ADD = "INSERT INTO event VALUES (?, ?, ?, ?)"
 
 _ONCE = "CREATE TABLE IF NOT EXISTS once (form TEXT PRIMARY KEY, number INTEGER NOT NULL)"
 """The forms that were taken, each with the number of the last event after it."""
@@ -68,7 +68,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     ...     list(read_tournament(file).entrants)
     ['Ann']
     """
-    state = _shown(evening(events))
+    state, rows = _shown(evening(events)), _rows(events)
 
     def write(base: sqlite3.Connection) -> None:
         if _count(base) != in_place_of:
@@ -77,7 +77,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
         for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
-        _write(base, 0, events)
+        base.executemany(_ADD, rows)
 
     begin(path, write)
     return state
@@ -147,7 +147,7 @@ def add_events(
         after = _shown(evening([*earlier, *added]))
         if check:
             check(before, after)
-        _write(base, len(earlier), added)
+        base.executemany(_ADD, _rows(added, len(earlier)))
         if by:
             _sign(base, len(earlier), len(added), by)
         if form:
@@ -199,6 +199,8 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
     for number, at, kind, what in rows:
         with named(path, f"entry {number} ({kind})"):
             events.append(_event(at, kind, what, str(by.get(number, ""))))
+    if not events:
+        raise DataError([DAMAGED.format(name=Path(path).name, error="its tournament is gone")])
     return events
 
 
@@ -219,11 +221,11 @@ def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
     return folded(path, events, lambda some: _shown(evening(some)), NAMES)
 
 
-def _write(base: sqlite3.Connection, count: int, events: Sequence[Event]) -> None:
-    base.executemany(
-        "INSERT INTO event VALUES (?, ?, ?, ?)",
-        [
-            (number, event.at, NAMES[type(event.what)], json.dumps(as_dict(event.what)))
-            for number, event in enumerate(events, count + 1)
-        ],
-    )
+def _rows(events: Sequence[Event], count: int = 0) -> list[tuple[int, str, str, str]]:
+    """Return the rows of events after others; one that could not be read is never written."""
+    rows = []
+    for number, event in enumerate(events, count + 1):
+        kind, what = NAMES[type(event.what)], json.dumps(as_dict(event.what))
+        _event(event.at, kind, what, event.by)
+        rows.append((number, event.at, kind, what))
+    return rows

@@ -78,6 +78,7 @@ def command(
     from evenbreak.ratings.scale import SCALES
     from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
     from evenbreak.tournaments.evening.events import Entrant, Plan
+    from evenbreak.tournaments.evening.fold import evening
 
     known: dict[str, Entrant] = {}
     warnings: list[str] = []
@@ -111,7 +112,7 @@ def command(
         events = read_event_list(saved)
     else:
         events = read_saved_tournament(saved, plan, known, at)
-    state = new_tournament(out, events)
+    state = evening(events)
     players, played = len(state.entrants), len(state.winners) if state.drawn else 0
     said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
     if played and (starts := sum(one.race is not None for one in state.counted.values())):
@@ -126,4 +127,5 @@ def command(
     if unrated:
         said.append(unrated_words(unrated, plan.starter, plan.starter_error))
     answer = answer_of(out, state, at, said)
+    new_tournament(out, events)  # last, so that what cannot be shown is never written
     return replace(answer, warnings=[*warnings, *answer.warnings])

@@ -59,7 +59,7 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
 
     from evenbreak.files.tournament_store import new_tournament
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
-    from evenbreak.tournaments.evening.fold import ELIMINATIONS
+    from evenbreak.tournaments.evening.fold import ELIMINATIONS, evening
     from evenbreak.tournaments.evening.opening import opened
 
     plan = replace(entered.plan, tables=tables, discipline=discipline)
@@ -75,8 +75,9 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     events: list[Event] = [Event(at, opened(plan, entrants))]
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
-    state = new_tournament(out, events)
+    state = evening(events)
     answer = answer_of(out, state, at, _unrated(entered, state))
+    new_tournament(out, events)  # last, so that what cannot be shown is never written
     return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
 
 

@@ -4,7 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from evenbreak.tournaments.evening.events import Dropped, Edited, Entrant, Late
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening.events import (
+    Called,
+    CalledBack,
+    Drawn,
+    Dropped,
+    Edited,
+    Entrant,
+    Late,
+    Ranked,
+    Result,
+    Scored,
+    What,
+)
 
 
 def listed(
@@ -27,3 +40,27 @@ def let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None
     if late.line is not None and lines is not None:
         lines[late.line] = len(order)
     order.append(late.entrant.name)
+
+
+def refuse_strangers(what: What, entrants: Mapping[str, Entrant]) -> None:
+    """Refuse an event with a player who has not entered, as only a damaged file holds it."""
+    match what:
+        case Called(players=names) | CalledBack(players=names) | Scored(players=names):
+            pass
+        case Ranked(order=names):
+            pass
+        case Result(players=names, winner=winner):
+            if winner not in names:
+                raise InputError(f"{winner} has won and is not in the match")
+        case Drawn(order=names):
+            if sorted(names) != sorted(entrants):
+                raise InputError("the draw is not of the players who have entered")
+        case Dropped(name=name) | Edited(name=name):
+            names = (name,)
+        case Late(entrant=entrant) if entrant.name in entrants:
+            raise InputError(f"{entrant.name} has entered already")
+        case _:
+            return
+    for name in names:
+        if name not in entrants:
+            raise InputError(f"{name} has not entered")

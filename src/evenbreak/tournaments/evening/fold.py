@@ -21,7 +21,7 @@ from evenbreak.tournaments.brackets.group_ranks import ranked
 from evenbreak.tournaments.brackets.standing import Standing, standing
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
-from evenbreak.tournaments.evening.entering import let_in, listed
+from evenbreak.tournaments.evening.entering import let_in, listed, refuse_strangers
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
@@ -307,6 +307,7 @@ def evening(events: Iterable[Event]) -> Evening:
     scores: dict[Pairing, LiveScore] = {}
     ties: dict[str, Ranked] = {}
     for event in kept[1:]:
+        refuse_strangers(event.what, entrants)
         match event.what:
             case Result() as result:
                 records.setdefault(result.match, []).append(Played(result, event.at))
