@@ -53,7 +53,7 @@ def test_a_number_that_cannot_be_true_is_refused_with_its_place(tmp_path: Path) 
     assert [one.name for one in tmp_path.iterdir()] == ["cup.json"]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(8))
 def test_an_import_writes_a_tournament_that_can_be_shown_or_nothing(
     seed: int, tmp_path: Path
 ) -> None:
