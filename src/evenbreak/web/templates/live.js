@@ -9,40 +9,72 @@
   });
   addEventListener("DOMContentLoaded", () => { fit(); addEventListener("change", fit); });
   if (!live) return;
-  let seen = null, waiting = false;
-  // A form that somebody has begun to fill in is left alone.
-  const begun = () =>
-    [...document.querySelectorAll("#main input")].some((one) =>
-      one.checked !== one.defaultChecked || (one.type !== "radio" && one.value !== one.defaultValue)) ||
-    [...document.querySelectorAll("#main select")].some((one) =>
-      one.selectedIndex !== Math.max(0, [...one.options].findIndex((each) => each.defaultSelected)));
-  const busy = () => {
-    const at = document.activeElement;
-    return at && /^(INPUT|SELECT|TEXTAREA)$/.test(at.tagName) || begun();
+  let seen = null, asking = null, more = false, leaving = false;
+
+  // Whatever is being filled in stays as it is: a form in which somebody is, or has typed.
+  const changed = (field) => field.tagName === "SELECT"
+    ? field.selectedIndex !== Math.max(0, [...field.options].findIndex((one) => one.defaultSelected))
+    : field.type !== "hidden" && (field.checked !== field.defaultChecked || field.value !== field.defaultValue);
+  const fields = (form) => [...form.querySelectorAll("input, select, textarea")];
+  const held = (one) => one.tagName === "FORM" && fields(one).some((field) => field === document.activeElement || changed(field));
+  const holds = (one) => one.nodeType === 1 && [one, ...one.querySelectorAll("form")].some(held);
+
+  // What a part of the page is known by: a form by where it goes and what it sends unasked.
+  const sent = (form) => fields(form).filter((one) => one.type === "hidden" && !["csrf", "once"].includes(one.name));
+  const name = (one) => one.nodeType !== 1 ? one.nodeName : one.tagName !== "FORM"
+    ? `${one.tagName} ${one.dataset.key || (one.tagName === "DETAILS" && one.firstElementChild.textContent) || ""}`
+    : [one.getAttribute("action"), ...sent(one).map((field) => `${field.name}=${field.value}`)].join(" ");
+  const plain = (one) => one.outerHTML.replace(/name="once" value="[^"]*"/, "");
+
+  // Make a part of the page like the one that has just come, part by part.
+  const renewPart = (old, fresh) => {
+    if (old.nodeType !== 1) { if (old.data !== fresh.data) old.data = fresh.data; return; }
+    if (held(old)) return;
+    if (old.tagName === "FORM") { if (plain(old) !== plain(fresh)) old.replaceWith(fresh); return; }
+    for (const { name: key } of [...old.attributes]) if (!fresh.hasAttribute(key) && key !== "open") old.removeAttribute(key);
+    for (const { name: key, value } of fresh.attributes) if (old.getAttribute(key) !== value) old.setAttribute(key, value);
+    let at = old.firstChild;
+    for (const one of [...fresh.childNodes]) {
+      let same = at;
+      while (same && name(same) !== name(one)) same = same.nextSibling;
+      if (!same) { old.insertBefore(one, at); continue; }
+      // What is filled in is not moved, for a field would lose the focus; what is before it is.
+      while (at !== same && holds(same)) { const next = at.nextSibling; at.remove(); at = next; }
+      if (at === same) at = same.nextSibling; else old.insertBefore(same, at);
+      renewPart(same, one);
+    }
+    while (at) { const next = at.nextSibling; at.remove(); at = next; }
   };
-  const plain = (one) => one.innerHTML.replace(/name="once" value="[^"]*"/g, "");
-  const title = (one) => one.firstElementChild.textContent;
+  const stays = (main) => [...main.children].filter((one) => "stays" in one.dataset);
+  const show = (fresh) => {
+    const main = document.getElementById("main"), typed = [...main.querySelectorAll("form")].filter(held);
+    if (!stays(fresh).length) fresh.prepend(...stays(main).map((one) => one.cloneNode(true)));
+    renewPart(main, fresh);
+    // A match may have gone elsewhere on the page: what was typed goes with it.
+    for (const form of typed.filter((one) => !one.isConnected)) {
+      const there = [...main.querySelectorAll("form")].find((one) => name(one) === name(form));
+      if (there) fields(there).forEach((field, k) => { if (field.type !== "hidden") field.value = fields(form)[k].value; });
+    }
+  };
   const renew = async () => {
-    if (waiting) return;
-    if (busy()) { again(); return; }
-    waiting = true;
+    more = asking !== null;
+    if (asking || leaving) return;
+    asking = new AbortController();
     try {
-      const answer = await fetch(location.href, { cache: "no-store" });
-      if (answer.ok) {
-        const found = new DOMParser().parseFromString(await answer.text(), "text/html");
-        const fresh = found.getElementById("main"), old = document.getElementById("main");
-        if (fresh && old && plain(fresh) !== plain(old)) {
-          const left = [...old.querySelectorAll(".bracket")].map((one) => one.scrollLeft);
-          const open = [...old.querySelectorAll("details")].filter((one) => one.open).map(title);
-          fresh.querySelectorAll("details").forEach((one) => { one.open ||= open.includes(title(one)); });
-          old.replaceWith(fresh);
-          fresh.querySelectorAll(".bracket").forEach((one, k) => { one.scrollLeft = left[k] || 0; });
-        }
-      }
+      const answer = await fetch(location.href, { cache: "no-store", signal: asking.signal });
+      const fresh = answer.ok && new DOMParser().parseFromString(await answer.text(), "text/html").getElementById("main");
+      if (fresh && !leaving) show(fresh);
     } catch { /* the next event tries again */ }
-    waiting = false;
-    again();
+    asking = null;
+    if (more) renew(); else again();
   };
+  // A form is sent: what it is answered with is not to be taken away by a page that is asked for now.
+  addEventListener("submit", () => {
+    leaving = true;
+    asking?.abort();
+    setTimeout(() => { leaving = false; }, 10000);
+  });
+  addEventListener("pageshow", () => { leaving = false; });
   // Odds and finish may still be worked out when a page is shown.
   const again = () => { if (document.querySelector("[data-older]")) setTimeout(renew, 2000); };
   const follow = () => {
