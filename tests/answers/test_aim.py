@@ -6,10 +6,11 @@ from hypothesis import strategies as st
 
 from evenbreak.answers.aim import aim_answer, aim_words
 from evenbreak.answers.hit import Hit
+from evenbreak.answers.shot import shot_answer
 from evenbreak.answers.shot_units import IMPERIAL, METRIC
 from evenbreak.answers.throw import throw_answer
 from evenbreak.errors import InputError
-from evenbreak.physics import SlipFriction
+from evenbreak.physics import SlipFriction, shot, strike_for_speed
 from evenbreak.physics.units import INCH
 
 INCHES = IMPERIAL.length
@@ -95,3 +96,14 @@ def test_a_hard_shot_needs_less_allowance():
     cut = math.radians(hard["aim_cut_deg"])
     assert hard["mu"] == pytest.approx(SlipFriction().at(4.0 * math.sin(cut)))
     assert (hard["mu_by_speed"], hard["hit_speed_m_s"]) == (True, 4.0)
+
+
+def test_english_brings_what_is_left_out_into_every_answer_about_a_line():
+    for side in (-0.3, 0.0, 0.3):
+        answers = [
+            aim_answer(hit(14.5, side=side), 0.9, METRIC),
+            shot_answer(shot(strike_for_speed(1.1, 0.0, side), 0.5, 0.5), METRIC),
+        ]
+        for answer in answers:
+            words = " ".join(answer.sentences)
+            assert ("Squirt and swerve are left out" in words) == bool(side)

@@ -63,6 +63,30 @@ def test_a_cap_says_who_cannot_be_put_up():
     assert cap_words(after(order="sealed", cap=15), 0) == []
 
 
+@pytest.mark.parametrize("order", ["ABA", "BAB", "blind", "winner"])
+def test_the_sum_under_a_cap_counts_who_has_just_been_put_up(order):
+    """Nomination by nomination, for both teams, as each captain sees it."""
+    orders = {"ABA": (0, 1, 0), "BAB": (1, 0, 1), "blind": (0, 0, 1), "winner": (0, 0, 0)}
+    counts = {"Ann": 6, "Bo": 5, "Dan": 4, "Wim": 4, "Vic": 5, "Uli": 6}
+    happened, sums = [], [0, 0]
+    for number, first in enumerate(orders[order], 1):
+        pair = NAMED[2 * number - 2 : 2 * number]
+        for put in (pair[first], pair[1 - first]):
+            happened.append(put)
+            sums[put.team] += counts[put.pick[0]]
+            state = after(*happened, order=order, cap=15)
+            for team in (0, 1):
+                words = cap_words(state.seen_by(team), team)
+                assert words[0] == f"The sum of the levels so far: {sums[team]} of 15."
+        happened.append(Result(number, (4, 1)))
+
+
+def test_who_waits_for_an_answer_is_not_told_who_can_still_be_put_up():
+    assert len(cap_words(after(NAMED[0], order="ABA", cap=15), 0)) == 1
+    assert len(cap_words(after(NAMED[0], order="ABA", cap=15), 1)) == 2
+    assert len(cap_words(after(NAMED[0], order="blind", cap=15), 0)) == 2  # it can be changed
+
+
 def test_what_the_next_pick_waits_for():
     assert waiting_words(after()) == ""
     assert "loser of set 1" in waiting_words(after(*NAMED[:2], order="loser"))

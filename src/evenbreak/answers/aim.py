@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.hit import Hit
+from evenbreak.answers.hit import SQUIRT, Hit
 from evenbreak.answers.parts import Quantities
 from evenbreak.answers.shot_units import Unit, Units
 from evenbreak.answers.worded import worded
@@ -52,9 +52,10 @@ def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
             "rule_offset", hit.hand * found.offset_of_text, "the same by the rule of thumb"
         ),
     ]
+    left_out = [SQUIRT] if hit.side else []
     return Answer(
         hit.heading(aimed, units.speed, f"{length.typed(distance)} to the pocket"),
-        [aim_words(offset, hit.hand * found.cut, hit, length), Quantities(quantities)],
+        [aim_words(offset, hit.hand * found.cut, hit, length), *left_out, Quantities(quantities)],
     )
 
 

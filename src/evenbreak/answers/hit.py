@@ -159,6 +159,15 @@ def cut_words(cut: float) -> str:
     return f"A cut of {size:g} degree{'' if size == 1.0 else 's'} to the {side}"
 
 
+SQUIRT = (
+    "Squirt and swerve are left out: with english the cue ball starts off the line of the cue, to "
+    "the side away from the english, and with a raised cue it curves back. Allow for them so that "
+    "the cue ball travels along the line given here; to find yours, shoot the length of the table "
+    "with this english and see how far off it lands."
+)
+"""What an answer about where to aim does not know where there is english."""
+
+
 def spin_words(topspin: float) -> str:
     """Return what players call a spin J_y.
 

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.hit import friction_values
+from evenbreak.answers.hit import SQUIRT, friction_values
 from evenbreak.answers.parts import Column, Quantities, Quantity, Table
 from evenbreak.answers.shot_units import Units
 from evenbreak.answers.shot_words import shot_heading, shot_words
@@ -60,9 +60,10 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
         *_way("cue", "cue ball", found.cue_leg, units),
         *_way("object", "object ball", found.object_leg, units),
     ]
+    words = shot_words(found, aimed, units, pocket) + ([SQUIRT] if found.strike.side else [])
     return Answer(
         shot_heading(found, units, pocket),
-        [*shot_words(found, aimed, units, pocket), Quantities(quantities), _phases(found, units)],
+        [*words, Quantities(quantities), _phases(found, units)],
         data={"phases": [_record(leg, phase, units) for leg, phase in _moves(found)]},
     )
 

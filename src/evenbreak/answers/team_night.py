@@ -87,6 +87,8 @@ def cap_words(state: TeamEvening, team: int) -> list[str]:
         return lines
     if state.sealed:
         return []
+    if line.picks[team] and not state.unseen(line.number):  # nothing to choose before the answer
+        return lines
     if not found.barred:
         return [*lines, "Everybody who has not played can still be put up."]
     return [

@@ -23,7 +23,8 @@ class CapNow(NamedTuple):
     name
         what is limited.
     total, most
-        what those count who have been put up, and the largest sum allowed.
+        what those count who have been put up, the other side having answered or not, and the
+        largest sum allowed.
     """
 
     name: str
@@ -78,7 +79,8 @@ def choices(state: TeamEvening, team: int) -> Choices:
     played = [name for name, many in zip(squad.names, counts, strict=True) if many >= squad.times]
     able = {name for pick in picks for name in pick}
     barred = [name for name in squad.names if line and name not in able and name not in played]
-    caps = tuple(CapNow(cap.name, cap.total(counts), cap.most) for cap in squad.caps)
+    so_far = _counts(squad, state.put_up(team))
+    caps = tuple(CapNow(cap.name, cap.total(so_far), cap.most) for cap in squad.caps)
     return Choices(picks, tuple(played), tuple(barred), caps)
 
 

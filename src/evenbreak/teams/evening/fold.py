@@ -170,6 +170,10 @@ class TeamEvening:
         """Return who plays or has played for a team, once for each set."""
         return tuple(name for line in self.sets if line.named for name in line.picks[team])
 
+    def put_up(self, team: int) -> Pick:
+        """Return who has been put up for a team, once for each set, answered or not."""
+        return tuple(name for line in self.sets for name in line.picks[team])
+
     def seen_by(self, viewer: int | None) -> TeamEvening:
         """Return the state as a team's captain sees it, or as `EVERYBODY` does.
 
