@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path, PurePath
+from pathlib import PurePath
 
 from shown import SHOWN, Shown
 
-HERE = Path(__file__).resolve().parent
-REPORTS = HERE.parents[1] / "reports"
 WIDTH = 42
 """Characters of a line of code on a card."""
-FIGURE = re.compile(r"!\[([^\]]*)\]\((figure_\w+)\.png\)")
 
 HEAD = """\
 # Gallery
@@ -47,8 +44,9 @@ PHONE = (
 TEXT = """\
 ## The figures of the text
 
-Shepard's *Amateur Physics for the Amateur Pool Player*, from which this program grew, has the
-figures below. One command draws them all anew, beside tables of every number in it:
+Shepard's *Amateur Physics for the Amateur Pool Player*, the book this program grew out of, has 27
+figures. One command draws them all again, next to tables of every number in it. The pages that it
+writes are in the repository, `reports/index.md` and `reports/physics.md`:
 
 ```sh
 evenbreak reproduce --out reports
@@ -98,21 +96,10 @@ def _on_a_phone() -> Iterator[str]:
         yield _boxed("picture", shown)
 
 
-def _of_the_text() -> Iterator[str]:
-    """Yield each figure of the text, in its order, with what `reports` says it shows."""
-    for page in ("physics.md", "index.md"):
-        found = FIGURE.findall((REPORTS / page).read_text("utf-8"))
-        for says, name in found:
-            number = name.removeprefix("figure_").replace("p5_", "P5.").replace("_", ".")
-            alt = " ".join(says.split())
-            yield _boxed("picture", f"![{alt}](../reports/{name}.svg)\n\nFigure {number}\n")
-
-
 def gallery_page() -> str:
     """Return the page as Markdown."""
     parts = [HEAD]
     for group, shown in SHOWN.items():
         parts += [f"## {group}\n", _boxed("gallery", *map(_card, shown))]
     parts += [PAGES, _boxed("gallery", *_on_a_phone())]
-    parts += [TEXT, _boxed("gallery small", *_of_the_text())]
-    return "\n".join(parts)
+    return "\n".join([*parts, TEXT])
