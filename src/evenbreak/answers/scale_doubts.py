@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.wording import some_of
-from evenbreak.ratings.scale import NAMES, Scale
+from evenbreak.answers.wording import percent, some_of
+from evenbreak.ratings.scale import NAMES, SCALES, Scale
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from evenbreak.ratings.results import Results
+    from evenbreak.ratings.roster import Roster
 
 USUAL = {"npl": (20, 130), "fargo": (200, 850)}
 """Where most ratings of a scale lie."""
@@ -23,6 +25,66 @@ SCALE_OFF = 0.25
 
 APART = 6.0
 """Doublings of the odds; every player is nearer to the average of the league: 64 games to 1."""
+
+
+AGAINST = 10.0
+"""By how much results must be likelier on another scale, as a logarithm: 22,000 times."""
+
+
+def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
+    """Return what results say against the scale of the ratings before them; '' if nothing.
+
+    The games are compared with what the differences of the ratings mean on each known scale. Read
+    on one with too few points to a doubling, everyone ahead is a clear favorite, and those who do
+    not win like one look like sandbaggers.
+
+    Parameters
+    ----------
+    scale
+        by which the ratings are read.
+    roster
+        the ratings.
+    results
+        of the players.
+
+    >>> from evenbreak.ratings import SCALES, Results, Roster
+    >>> listed = Roster(["Ann", "Bo"], [540, 450])
+    >>> season = Results.from_names(["Ann"] * 20, ["Bo"] * 20, [5] * 20, [3, 2] * 10)
+    >>> contradiction(SCALES["fargo"], listed, season)
+    ''
+    >>> contradiction(SCALES["npl"], listed, season)
+    'the results contradict NPL ratings: by them the player rated higher would have won 89% of the
+    games, by Fargo ratings 65%; they won 67%'
+    """
+    import numpy as np
+
+    rated = dict(zip(roster.players, roster.rating.tolist(), strict=True))
+    rating = np.array([rated.get(name, np.nan) for name in results.players])
+    ahead = rating[results.player_a] - rating[results.player_b]
+    known = ~np.isnan(ahead) & (ahead != 0.0)
+    turn, ahead = ahead[known] < 0.0, np.abs(ahead[known])
+    games = results.score_a[known], results.score_b[known]
+    won, lost = np.where(turn, games[::-1], games)
+    if not won.sum() + lost.sum():
+        return ""
+
+    def likelihood(one: Scale) -> float:
+        return float(
+            won @ np.log(one.win_probability(ahead)) + lost @ np.log(one.win_probability(-ahead))
+        )
+
+    def share(one: Scale) -> str:
+        return percent(float(one.win_probability(ahead) @ (won + lost) / (won + lost).sum()))
+
+    other = max(SCALES.values(), key=likelihood)
+    if likelihood(other) - likelihood(scale) < AGAINST:
+        return ""
+    own, name = NAMES.get(scale.name, scale.name), NAMES[other.name]
+    seen = percent(float(won.sum() / (won + lost).sum()))
+    return (
+        f"the results contradict {own} ratings: by them the player rated higher would have won "
+        f"{share(scale)} of the games, by {name} ratings {share(other)}; they won {seen}"
+    )
 
 
 def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:

@@ -71,7 +71,7 @@ def test_varying_form_weakens_the_evidence(watch, run):
     assert "--day-sd is 500.0; give a number from 0 to 120" in refused.stderr
 
 
-def test_a_roster_of_mixed_scales_is_a_warning(run, tmp_path):
+def test_a_roster_of_mixed_scales_is_refused_or_a_warning(run, tmp_path):
     roster = tmp_path / "mixed.csv"
     header, *rows = Path(SEASON[2]).read_text(encoding="utf-8").splitlines()
     place = header.split(",").index("rating")
@@ -80,7 +80,9 @@ def test_a_roster_of_mixed_scales_is_a_warning(run, tmp_path):
         cells[place] = "570"
         rows[number] = ",".join(cells)
     roster.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
-    result = run("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json")
+    asked = ("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json")
+    assert "do not show their scale" in run(*asked).stderr
+    result = run(*asked, "--scale", "npl")
     (warning,) = json.loads(result.stdout)["warnings"]
     assert f"3 of {len(rows)} ratings" in warning
 

@@ -9,12 +9,25 @@ import click
 from evenbreak import files, handicaps, league
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, results_options
+from evenbreak.cli.kit.options import (
+    OF_LIST,
+    SAY_WHICH,
+    chart_option,
+    results_options,
+    scale_option,
+)
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.systems import refuse_for_system, system_option
+from evenbreak.cli.kit.systems import (
+    on_scale,
+    refuse_levels,
+    refuse_other_scale,
+    system_option,
+)
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
 from evenbreak.files.known_names import KnownNames
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 EXAMPLES = """\b
 Examples:
@@ -34,6 +47,7 @@ Examples:
 )
 @chart_option("The chart that sets the races where the results do not state them.")
 @system_option()
+@scale_option(OF_LIST, fixed=False)
 @watch_options
 @click.option(
     "--dumps-in",
@@ -55,6 +69,7 @@ def command(
     *,
     chart: str | None,
     system: handicaps.System,
+    scale: Scale | None,
     alpha: float,
     honest: str,
     events: tuple[str, ...],
@@ -76,7 +91,6 @@ def command(
         sandbag_watch_answer,
         unrated_doubts,
     )
-    from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.answers.season_nights import (
         events_marked,
         events_to_try,
@@ -86,11 +100,10 @@ def command(
 
     if [results, roster, chart, reading["aliases"]].count("-") > 1:
         refuse("- stands for standard input, which only one file can be; name the others")
-    ladder, warnings = watched_ladder(system, chart, day_sd)
     first, season = files.read_roster(roster), files.read_results(results, **reading)
-    refuse_for_system(first, system)
-    warnings += [*first.warnings, *season.warnings]
-    warnings += league_doubts(system.scale, first.roster.rating, "set the scale with --system")
+    system, doubts = _moved(system, scale, first, season)
+    ladder, warnings = watched_ladder(system, chart, day_sd)
+    warnings += [*first.warnings, *season.warnings, *doubts]
     if honest == "established":
         warnings += unrated_doubts(first.roster, season.results)
     if not day_sd:
@@ -124,3 +137,27 @@ def command(
     if player is not None:
         return sandbag_player_answer(found[0], nights, season.results, warnings=warnings)
     return sandbag_watch_answer(found, season.results, season.source, warnings=warnings)
+
+
+def _moved(
+    system: handicaps.System,
+    scale: Scale | None,
+    first: files.RosterFile,
+    season: files.ResultsFile,
+) -> tuple[handicaps.System, list[str]]:
+    """Return the system on the scale of the list; refuse or doubt one that results contradict."""
+    from evenbreak.answers.scale_doubts import contradiction, far_doubts
+
+    refuse_levels(first, f"the system {system.name} needs ratings in points; give a list of those")
+    own = system.scale.name != DEFAULT_SCALE
+    points = system.scale if own and scale is None else first.scale_by(scale, SAY_WHICH)
+    whose = f"the system {system.name}" if scale is None else "--scale"
+    refuse_other_scale(
+        first, points, whose, "name the scale of the ratings, or correct the file", stated=True
+    )
+    doubts = far_doubts(points, first.roster.rating)  # a slip does not make another scale
+    if not doubts and (against := contradiction(points, first.roster, season.results)):
+        if scale is None:
+            refuse(f"{first.source}: {against}; {SAY_WHICH}")
+        doubts = [against]
+    return on_scale(system, points), doubts
