@@ -42,7 +42,9 @@ WHY = {  # by the code of SQLite's error
         "{name} can only be read, so nothing was changed; allow writing to it and to its folder"
     ),
     sqlite3.SQLITE_BUSY: "{name} is in use by another program; try again",
-    sqlite3.SQLITE_CANTOPEN: "{name} cannot be opened; check that it and its folder may be read",
+    sqlite3.SQLITE_CANTOPEN: (
+        "{name} cannot be opened; check who may read and write it and its folder"
+    ),
 }
 DAMAGED = "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
 
@@ -58,13 +60,7 @@ def opened(path: str | Path) -> Iterator[sqlite3.Connection]:
     DataError
         if it is not one, or cannot be read.
     """
-    place = Path(path)
-    if not place.exists():
-        raise DataError(
-            [f"{place.name} does not exist; begin a tournament with evenbreak tournament new"]
-        )
-    with _connected(place) as base:
-        _check(base, place)
+    with _checked(Path(path), reading=True) as base:
         yield base
 
 
@@ -80,7 +76,7 @@ def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
     DataError
         if it is not one, or cannot be read or written.
     """
-    with opened(path) as base:
+    with _checked(Path(path), reading=False) as base:
         if _version(base) < _FORMAT:
             _update(base, Path(path))
         with _at_once(base):
@@ -124,7 +120,7 @@ def copied(path: str | Path, label: str) -> Path:
     """
     place = Path(path)
     with _part_of(place) as part:
-        with _connected(place) as base, closing(sqlite3.connect(part)) as copy:
+        with _connected(place, reading=True) as base, closing(sqlite3.connect(part)) as copy:
             base.backup(copy)
         for k in count(1):
             again = f"-{k}" if k > 1 else ""
@@ -157,41 +153,59 @@ def holds(path: str | Path, table: str) -> bool:
 def is_database(path: str | Path) -> bool:
     """Return whether a file is a database with something in it, as SQLite sees it."""
     try:
-        with _connected(Path(path)) as base:
+        with _connected(Path(path), reading=True) as base:
             return not _is_empty(base)
     except DataError:
         return False
 
 
 @contextmanager
-def _connected(place: Path, part: Path | None = None) -> Iterator[sqlite3.Connection]:
+def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
+    """Connect to the file of an evening, which must be there."""
+    if not place.exists():
+        raise DataError(
+            [f"{place.name} does not exist; begin a tournament with evenbreak tournament new"]
+        )
+    with _connected(place, reading=reading) as base:
+        _check(base, place)
+        yield base
+
+
+@contextmanager
+def _connected(
+    place: Path, part: Path | None = None, *, reading: bool = False
+) -> Iterator[sqlite3.Connection]:
     """Connect to a file, or to the part that takes its place later; errors name the file."""
     try:
-        with closing(_connection(part or place, "rwc" if part else "rw")) as base:
+        with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
             yield base
     except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite's own words may be damaged
         words = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
         raise DataError([words.format(name=place.name, error=error)]) from error
 
 
-def _connection(place: Path, mode: str) -> sqlite3.Connection:
+def _connection(place: Path, mode: str, reading: bool) -> sqlite3.Connection:
     """Connect to a file and look at it.
 
     Where its log cannot be made beside it, because the disk is full or the folder can only be read,
-    it is read without one: nobody writes to it then, unless there is a log already.
+    it can be read without one: nobody writes to it then, unless there is a log already.
     """
     where = place.absolute().as_uri()
-    base = sqlite3.connect(f"{where}?mode={mode}", uri=True, timeout=_WAIT, isolation_level=None)
+    try:
+        return _looked_at(f"{where}?mode={mode}")
+    except sqlite3.OperationalError as error:
+        log = place.with_name(f"{place.name}-wal")
+        busy = error.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY
+        if not reading or busy or (log.exists() and log.stat().st_size):
+            raise
+        return _looked_at(f"{where}?mode=ro&immutable=1")
+
+
+def _looked_at(address: str) -> sqlite3.Connection:
+    base = sqlite3.connect(address, uri=True, timeout=_WAIT, isolation_level=None)
     try:
         base.execute("PRAGMA synchronous = FULL")
         base.execute("PRAGMA schema_version")
-    except sqlite3.OperationalError as error:
-        base.close()
-        log = place.with_name(f"{place.name}-wal")
-        busy = error.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY
-        if mode == "rwc" or busy or (log.exists() and log.stat().st_size):
-            raise
-        base = sqlite3.connect(f"{where}?mode=ro&immutable=1", uri=True, isolation_level=None)
     except sqlite3.Error:
         base.close()
         raise

@@ -42,6 +42,7 @@ def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
     """
     import segno
 
+    from evenbreak.errors import EvenbreakError
     from evenbreak.files.evening_file import TOURNAMENT, holds
     from evenbreak.files.team_night_store import read_team_events
     from evenbreak.files.tournament_desk import back_up
@@ -55,7 +56,10 @@ def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
     if path.exists():
         if holds(path, TOURNAMENT) or not read_team_events(path):
             read_tournament(path)
-        back_up(path, datetime.now())
+        try:
+            back_up(path, datetime.now())
+        except (EvenbreakError, OSError) as error:  # it can be shown all the same
+            click.echo(f"Warning: no copy of {path} could be made: {error}", err=True)
     elif not path.parent.is_dir():
         raise click.UsageError(
             f"{path}: there is no folder {path.parent}; make it, or name another"
