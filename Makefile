@@ -65,7 +65,7 @@ browse:           ## the page in a real browser, where there is one or it may be
 browser:          ## the same with whole evenings, by phones with and without JavaScript
 	PYTHON=$(PYTHON) .ci/browse tests/web/test_browser*.py
 
-page-pictures:    ## the tutorial's pictures of the page, in a real browser
+page-pictures:    ## the README's and the tutorial's pictures of the page, in a real browser
 	$(PYTHON) docs/images/page_pictures.py
 
 app:              ## evenbreak.pyz: one file that needs nothing but Python

@@ -1,4 +1,4 @@
-"""Make the pictures of README and docs, the gallery and the essentials, always the same bytes.
+"""Make the pictures of the docs, the gallery and the essentials, always the same bytes.
 
 python docs/images/make_images.py
 """
