@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 from earlier_files import NIGHT, TOURNAMENTS, held
 from evenbreak.cli.program import program
+from evenbreak.errors import DataError
 from evenbreak.files.team_night_store import add_team_events, read_team_events
 from evenbreak.files.tournament_desk import change_secrets, keep_prizes, kept_secrets
 from evenbreak.files.tournament_store import add_events, read_tournament
@@ -81,13 +82,13 @@ def test_a_copy_that_cannot_be_made_keeps_the_file_as_it_was(
     earlier: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
-        raise OSError("no room")
+        raise OSError(28, "no room")
 
     path = earlier / "tournament.db"
     before = path.read_bytes()
     monkeypatch.setattr("evenbreak.files.evening_file.os.link", refuse)
     monkeypatch.setattr("evenbreak.files.evening_file.Path.rename", refuse)
-    with pytest.raises(OSError, match="no room"):
+    with pytest.raises(DataError, match=r"^tournament-format-1.backup.db cannot .*no room"):
         add_events(path, lambda _: [Event(AT, Undone())])
     assert path.read_bytes() == before
     assert not [one for one in earlier.iterdir() if one.name.startswith(".")]

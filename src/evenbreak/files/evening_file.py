@@ -301,6 +301,9 @@ def _placed(part: Path, place: Path) -> bool:
     except OSError:  # as on a memory stick
         if os.path.lexists(place):
             return False
-        part.rename(place)
+        try:
+            part.rename(place)
+        except OSError as error:
+            raise DataError([f"{place.name} cannot be written ({error.strerror})"]) from error
     sync(place.parent)
     return True
