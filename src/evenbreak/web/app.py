@@ -86,6 +86,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
             RefusalError: _refused,
             EvenbreakError: _wrong,
             HTTPException: _http,
+            OSError: _disk,
             Exception: _failed,
         },
     )
@@ -121,6 +122,14 @@ async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
     words = say(language(request), _HTTP.get(error.status_code, "refused_method"))
     return refused(request, words, error.status_code)
+
+
+async def _disk(request: Request, error: Exception) -> Response:
+    """Say that the disk is full or fails; where, is said to whoever has the computer."""
+    if not isinstance(error, OSError) or isinstance(error, TimeoutError | ConnectionError):
+        raise error
+    _LOG.error("%s: %s", request.url.path, error)
+    return refused(request, RefusalError("refused_disk", why=error.strerror or ""), 503)
 
 
 async def _failed(request: Request, error: Exception) -> Response:

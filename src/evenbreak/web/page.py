@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import os
 import secrets
 import urllib.parse
 from functools import cache
@@ -75,7 +76,7 @@ def language(request: Request) -> str:
 
 def in_words(request: Request, text: str) -> str:
     """Return sentences in the reader's language, with every name as it is."""
-    return in_language(language(request), text, _names(request))
+    return in_language(language(request), _without_folder(request, text), _names(request))
 
 
 def _names(request: Request) -> set[str]:
@@ -208,6 +209,14 @@ def reason(request: Request, why: Exception) -> str:
             values["field"] = words.get(f"field_{values['field']}", values["field"])
         return say(language(request), why.key, **values)
     return in_words(request, str(why))
+
+
+def _without_folder(request: Request, text: str) -> str:
+    """Return a sentence without the folder of the file: guests need not know where it is."""
+    folder = site_of(request).path.parent
+    for part in {f"{folder.absolute()}{os.sep}", f"{folder}{os.sep}"} - {f".{os.sep}", os.sep}:
+        text = text.replace(part, "")
+    return text
 
 
 def answer_shown(request: Request, answer: Answer) -> Markup:
