@@ -131,3 +131,15 @@ def test_a_disk_that_fails_while_a_form_is_taken_is_said_without_its_place(
     assert shown.status == 503
     assert "the disk may be full" in shown.words
     assert NAME not in shown.text
+
+
+@pytest.mark.parametrize("junk", [b"", b"junk" * 9000, b"SQLite format 3\0" + b"\xff" * 9000])
+def test_a_file_that_is_damaged_while_it_is_shown_is_said(hall: Hall, junk: bytes) -> None:
+    other = hall.site.path.with_name("other")
+    other.write_bytes(junk)
+    other.replace(hall.site.path)
+    for phone in (hall.guest, hall.director):
+        for page in (*READ, *DESK):
+            shown = phone.open(page)
+            assert shown.status < 500, (page, shown.words)
+            assert str(hall.site.path.parent) not in shown.text

@@ -81,7 +81,8 @@ class Site:
             return
         mark = mark_of(self.path)
         if mark != self._read_at:
-            self._secrets, self._read_at = kept_secrets(self.path, self._first), mark
+            with suppress(DataError):  # of a file that cannot be read, the pages say why
+                self._secrets, self._read_at = kept_secrets(self.path, self._first), mark
 
     def _secret(self, name: str) -> str:
         self.keep_secrets()  # the file may have been begun by a command
