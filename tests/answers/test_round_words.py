@@ -66,30 +66,29 @@ def test_pairs_that_cannot_be_compared_or_made_even_are_named():
 
 @pytest.fixture
 def with_newcomers():
-    """Ann has no standard error; Bo is new; Cy has a rating, but no games yet."""
+    """Ann has games and no error; Bo is new; Cy has a rating, but no games yet."""
     return Roster(["Ann", "Bo", "Cy"], [92, np.nan, 85], None, [140, 0, 0])
 
 
 def test_what_was_filled_in_is_said_of_whom(with_newcomers):
-    tonight = round_of(with_newcomers.with_starters(80, 30), read=with_newcomers)
+    tonight = round_of(with_newcomers.with_starters(80, 30, "npl"), read=with_newcomers)
     said = {tuple(remark.names): remark.why for remark in about_players(tonight)}
     assert said.keys() == {("Bo",), ("Cy",), ("Ann",)}
     assert "80 ± 30" in said["Bo",]
     assert "± 30" in said["Cy",]
-    assert "exact" in said["Ann",]
+    assert "± 7.32 after 140" in said["Ann",]
 
 
 def test_only_players_who_meet_are_spoken_of(with_newcomers):
-    started = with_newcomers.with_starters(80, 30)
+    started = with_newcomers.with_starters(80, 30, "npl")
     tonight = round_of(started, [[1, 2]], read=with_newcomers)
     assert {name for remark in about_players(tonight) for name in remark.names} == {"Bo", "Cy"}
 
 
-def test_ratings_without_errors_are_exact_and_those_on_few_games_are_named():
-    club = Roster(["Ann", "Bo", "Cy", "Di"], [92, 71, 80, 60], None, [5, 900, 19, 20])
-    everybody, few = about_players(round_of(club))
+def test_ratings_without_errors_and_games_are_exact():
+    club = Roster(["Ann", "Bo", "Cy", "Di"], [92, 71, 80, 60])
+    (everybody,) = about_players(round_of(club))
     assert everybody.names == ()
-    assert few.names == ["Ann", "Cy"]
     assert not doubtful(round_of(club))
 
 

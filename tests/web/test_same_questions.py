@@ -119,6 +119,7 @@ def test_a_league_and_a_team_night_have_the_same_scale_on_the_page(director: Pho
 
 LISTS = {
     "Ann Lee,612\nBo Diaz,540\nCy Young,500\nDi Ray,480": "fargo",
+    "player,rating,games\nAnn Lee,612,12\nBo Diaz,540,0\nCy Young,500,300": "fargo",
     "Ann Lee,92\nBo Diaz,71\nCy Young,64\nDi Ray,55": "npl",
     "Ann Lee,1712\nBo Diaz,1540\nCy Young,1500\nDi Ray,1480": "elo",
     "Ann Lee\nBo Diaz\nCy Young\nDi Ray": DEFAULT_SCALE,
@@ -129,7 +130,7 @@ LISTS = {
 
 @pytest.mark.parametrize("text", LISTS)
 def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, text: str) -> None:
-    path, plans = tmp_path / "list.txt", []
+    path = tmp_path / "list.txt"
     path.write_text(text)
     words = ["tournament", "new", str(path), "--race", "5", "--tables", "2"]
     typed = CliRunner().invoke(program, [*words, "--out", str(tmp_path / "typed.db")])
@@ -147,6 +148,7 @@ def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, t
         assert "--" not in shown.words
         return
     assert (typed.exit_code, shown.status) == (0, 200), (typed.output, shown.words)
-    plans = [read_tournament(tmp_path / f"{face}.db").plan for face in ("typed", "page")]
-    assert plans[0] == plans[1]
-    assert plans[0].scale == LISTS[text]
+    nights = [read_tournament(tmp_path / f"{face}.db") for face in ("typed", "page")]
+    assert nights[0].plan == nights[1].plan
+    assert nights[0].entrants == nights[1].entrants
+    assert nights[0].plan.scale == LISTS[text]

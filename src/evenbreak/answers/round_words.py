@@ -15,9 +15,6 @@ from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race
 from evenbreak.matches.pace import Pace
 
-FEW_GAMES = 20
-"""A rating that rests on fewer games is no more than a guess."""
-
 KINDS = {"chart": "By the chart", "best": "With the fairest races"}
 
 
@@ -133,19 +130,23 @@ def about_players(tonight: Round) -> Iterator[Remark]:
     for which, what, why in (
         (unrated & filled, "without a rating", "taken as {0:g} ± {1:g}"),
         (unrated & ~filled, "without a rating", "taken as {0:g}"),
-        (~unrated & filled, "without games", "rating taken as right to ± {1:g}"),
+        (
+            ~unrated & filled & (read.games == 0),
+            "without games",
+            "rating taken as right to ± {1:g}",
+        ),
     ):
         for place in np.flatnonzero(which & here)[:1]:
             filled_in = why.format(started.rating[place], started.standard_error[place])
             yield _remark(tonight, which & here, what, filled_in)
-    exact = "rating taken as exact"
     if silent[here].all():
         yield Remark("No standard errors are given", "all ratings are taken as exact")
     elif (silent & here).any():
-        yield _remark(tonight, silent & here, "without a standard error", exact)
-    few = (read.games > 0) & (read.games < FEW_GAMES) & silent & here
-    if few.any():
-        yield _remark(tonight, few, f"with fewer than {FEW_GAMES} games", f"{exact} nevertheless")
+        yield _remark(tonight, silent & here, "without a standard error", "rating taken as exact")
+    by_games = ~unrated & filled & (read.games > 0) & here
+    for place in np.flatnonzero(by_games)[:1]:
+        how = f"taken from the games, such as ± {started.standard_error[place]:.3g} after "
+        yield _remark(tonight, by_games, "without a standard error", f"{how}{read.games[place]:,}")
 
 
 def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:

@@ -11,6 +11,7 @@ import numpy as np
 from evenbreak.answers.file_words import file_name
 from evenbreak.answers.remarks import Remark
 from evenbreak.answers.scale_words import scale_words
+from evenbreak.answers.starters import games_words
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.arrays import Floats
 from evenbreak.files.roster import RosterFile
@@ -94,12 +95,13 @@ class Tournament:
         return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
     def unrated_words(self, *, spread: bool = True) -> str:
-        """Return what is assumed of players without a rating, as a sentence; '' if all have one."""
-        if not (names := self.unrated):
-            return ""
-        seat = self.roster.players.index(names[0])
-        error = float(self.roster.standard_error[seat]) if spread else 0.0
-        return unrated_words(names, float(self.roster.rating[seat]), error)
+        """Return what is assumed of players without a rating or an error; '' of nobody."""
+        said = [games_words(self.file.roster, self.roster)] if spread else []
+        if names := self.unrated:
+            seat = self.roster.players.index(names[0])
+            error = float(self.roster.standard_error[seat]) if spread else 0.0
+            said.insert(0, unrated_words(names, float(self.roster.rating[seat]), error))
+        return " ".join(filter(None, said))
 
 
 def unrated_words(names: Sequence[str], rating: float, error: float) -> str:

@@ -13,6 +13,33 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale, scale_of
+
+
+def error_of_games(games: ArrayLike, scale: Scale | str | float, most: float) -> Floats:
+    """Return how far off a rating may be of which only the games behind it are known.
+
+    A game between equals says p (1 - p) = 1/4 about the difference in log-odds, so n games against
+    opponents whose ratings are known leave an error of 2 / sqrt(n): on the Fargo scale, on which
+    144 points are one unit of log-odds, 288.5 / sqrt(n) points. Until the games say more than
+    that, the error is the one of a new player.
+
+    Parameters
+    ----------
+    games
+        how many there are, 0 or more.
+    scale
+        of the ratings.
+    most
+        the error of a new player, in points.
+
+    >>> error_of_games([0, 1, 12, 200], "fargo", 100.0).round(1)
+    array([100. , 100. ,  83.3,  20.4])
+    """
+    played = np.maximum(np.asarray(games, dtype=float), 1.0)
+    errors: Floats = np.minimum(most, 2.0 * scale_of(scale).points_per_log_odds / np.sqrt(played))
+    return errors
+
 
 NOT_STATED = -1
 """The games or matches of a player, where the list does not say how many there were."""
@@ -118,8 +145,10 @@ class Roster:
     def _places(self) -> dict[str, int]:
         return {name: place for place, name in enumerate(self.players)}
 
-    def with_starters(self, rating: float, standard_error: float) -> Roster:
-        """Return the roster with a rating and an error for new players.
+    def with_starters(
+        self, rating: float, standard_error: float, scale: Scale | str | float
+    ) -> Roster:
+        """Return the roster with a rating for new players, and an error where games give one.
 
         Parameters
         ----------
@@ -127,7 +156,10 @@ class Roster:
             for every player without one, in points.
         standard_error
             for every player who has no rating or no games yet and no error stated: the
-            prior's standard deviation, in points.
+            prior's standard deviation, in points. Where games are stated and no error, the
+            error is that of so many games (`error_of_games`), and never more than this.
+        scale
+            of the ratings.
 
         Raises
         ------
@@ -135,7 +167,7 @@ class Roster:
             if the rating is not finite, or the error is not a finite number from 0 on.
 
         >>> club = Roster(["Ann", "Bo"], [92.0, np.nan], [9.5, np.nan], [140, 0])
-        >>> started = club.with_starters(80.0, 30.0)
+        >>> started = club.with_starters(80.0, 30.0, "npl")
         >>> started.rating, started.standard_error
         (array([92., 80.]), array([ 9.5, 30. ]))
         """
@@ -144,11 +176,12 @@ class Roster:
         if not 0.0 <= standard_error < math.inf:
             raise InputError(f"standard_error is {standard_error!r}; give 0 or more points")
         unrated = np.isnan(self.rating)
-        new = (unrated | (self.games == 0)) & np.isnan(self.standard_error)
+        games = np.where(unrated, 0, self.games)
+        by_games = np.isnan(self.standard_error) & (games != NOT_STATED)
         return Roster(
             self.players,
             np.where(unrated, rating, self.rating),
-            np.where(new, standard_error, self.standard_error),
+            np.where(by_games, error_of_games(games, scale, standard_error), self.standard_error),
             self.games,
             component=self.component,
             matches=self.matches,

@@ -87,7 +87,7 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     if both:
         warnings.append(f"{some_of(both)} is on the lists of both teams; are they two people?")
     for one in lists:
-        filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling)
+        filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
     return plan, [*dict.fromkeys(warnings), *league_doubts(scale, rated, "is it the right scale?")]
@@ -136,7 +136,7 @@ def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
     """Return a team; new players get the rating in the middle, and are very uncertain."""
     if read.without_weight and any(form.text(field) for field in ("cap", "at_most")):
         raise RefusalError("refused_weight", name=read.without_weight)
-    roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling)
+    roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
     errors = np.zeros(len(roster)) if form.text("sure") else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
     return TeamSheet(

@@ -72,7 +72,7 @@ def test_chances_are_averaged_over_the_errors(run, roster):
 
 
 def test_new_players_start_with_a_stated_prior(run, roster):
-    path = roster("player,rating,games\nAnn,92,140\nBo,,0\nCy,85,0\n")
+    path = roster("player,rating,games\nAnn,92,\nBo,,0\nCy,85,0\n")
     rows = answer(run, path, *SURE)["pairs"]
     assert [(row["difference"], row["difference_error"]) for row in rows] == [
         (7.0, 30.0), (12.0, 30.0), (5.0, pytest.approx(30.0 * 2**0.5)),

@@ -75,12 +75,13 @@ def _named(
         )
     elif file.scale is None:
         refuse_levels(file, "say with --scale how many levels double the odds")
-    roster = file.roster
+    points = file.scale_by(scale, SAY_WHICH)
+    roster = file.roster.with_starters(points.centre, points.points_per_doubling, points)
     places = find_players(roster, names, said="--from", where=file.source)
     if len(places) < 2:
         refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
     for place in places:
-        if math.isnan(roster.rating[place]):
+        if math.isnan(file.roster.rating[place]):
             refuse(f"{roster.players[place]!r} has no rating in {file.source}; give two ratings")
     a, b = places
     if cannot_be_compared(roster, a, b):
@@ -92,7 +93,7 @@ def _named(
     players = TwoPlayers.rated(
         float(roster.rating[a]),
         float(roster.rating[b]),
-        file.scale_by(scale, SAY_WHICH),
+        points,
         names=(roster.players[a], roster.players[b]),
         errors=(errors[a], errors[b]),
     )

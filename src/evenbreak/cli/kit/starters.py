@@ -48,4 +48,4 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
         refuse(
             f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
         )
-    return roster.with_starters(scale.centre if starter is None else starter, spread)
+    return roster.with_starters(scale.centre if starter is None else starter, spread, scale)

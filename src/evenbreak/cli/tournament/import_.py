@@ -69,6 +69,7 @@ def command(
     import numpy as np
 
     from evenbreak import files
+    from evenbreak.answers.starters import games_words
     from evenbreak.answers.tournament import unrated_words
     from evenbreak.answers.wording import count_of
     from evenbreak.files.evening_file import is_database
@@ -86,7 +87,9 @@ def command(
     if ratings is not None:
         file = files.read_entrants(ratings)
         points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
-        errors = np.nan_to_num(file.roster.standard_error).tolist()
+        filled = file.roster.with_starters(points.centre, points.points_per_doubling, points)
+        warnings += filter(None, [games_words(file.roster, filled)])
+        errors = np.nan_to_num(filled.standard_error).tolist()
         known = {
             name: Entrant(name, rating, error)
             for name, rating, error in zip(

@@ -85,10 +85,12 @@ def _unrated(entered: Entered, state: Evening) -> list[str]:
     """Return what is assumed of players without a rating, as a sentence if there are any."""
     import numpy as np
 
+    from evenbreak.answers.starters import games_words
     from evenbreak.answers.tournament import unrated_words
 
     read = entered.file.roster
     unrated = [read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist()]
     names = [name for name in unrated if name in state.entrants]  # no bye rows
     plan = state.plan
-    return [unrated_words(names, plan.starter, plan.starter_error)] if names else []
+    said = [unrated_words(names, plan.starter, plan.starter_error)] if names else []
+    return [*said, *filter(None, [games_words(read, entered.roster)])]

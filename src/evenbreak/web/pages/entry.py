@@ -12,15 +12,16 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
+from evenbreak.answers.starters import games_words
 from evenbreak.answers.tournament import unrated_words
 from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
-from evenbreak.files.roster import RosterFile
 from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
+from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
@@ -137,16 +138,22 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
-    plan, rows = _plan(form, scale), _entrants(file, scale, league)
-    known = league is not None
     read = file.roster
+    filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
+    plan, rows = _plan(form, scale), _entrants(filled, league)
+    known = league is not None
     doubts = (
         [] if known else league_doubts(scale, read.rating, "is it the right scale?", read.players)
     )
     doubts += chart_doubts(plan.chart, scale)
-    new = [one.name for one in rows if one.standard_error == plan.starter_error]
+    unrated = zip(rows, np.isnan(read.rating).tolist(), strict=True)
+    new = [
+        one.name for one, is_new in unrated if is_new and not (league and league.known(one.name))
+    ]
     if new:
         doubts.append(unrated_words(new, plan.starter, plan.starter_error))
+    if not known:
+        doubts += filter(None, [games_words(read, filled)])
     return Event(site.clock(), opened(plan, rows)), [*warnings_of(file), *doubts]
 
 
@@ -197,16 +204,10 @@ def _given(form: Form) -> dict[str, Any]:
     return {name: value for name, value in parts.items() if value}
 
 
-def _entrants(file: RosterFile, scale: Scale, league: League | None) -> tuple[Entrant, ...]:
-    """Return the entrants, those of the league with its ratings.
-
-    New players have the rating in the middle, and are very uncertain.
-    """
-    read = file.roster
-    new = np.isnan(read.rating)
-    rating = np.where(new, scale.centre, read.rating)
-    error = np.where(new, scale.points_per_doubling, np.nan_to_num(read.standard_error))
-    rows = zip(read.players, rating.tolist(), error.tolist(), strict=True)
+def _entrants(filled: Roster, league: League | None) -> tuple[Entrant, ...]:
+    """Return the entrants, those of the league with its ratings."""
+    errors = np.nan_to_num(filled.standard_error)
+    rows = zip(filled.players, filled.rating.tolist(), errors.tolist(), strict=True)
     return tuple(Entrant(*((league.known(one[0]) if league else None) or one)) for one in rows)
 
 
