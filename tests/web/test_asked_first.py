@@ -43,6 +43,7 @@ def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy:
     pair = " against ".join(before.pair("W2.2"))
     shown = busy.director.send("/desk/result", **WRONG)
     assert f"W2.2, {pair}, would leave table 4 at 2:0." in shown.words
+    assert "Nothing that was played is lost" in shown.words
     assert "would leave table 1." in shown.words
     assert busy.state.on_tables == before.on_tables
     assert answered(busy, "/desk/result", shown).status == 200
@@ -111,3 +112,19 @@ def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
     shown = hall.director.send("/desk/entrant", player="Player 2", name="", rating="655")
     assert list(hall.state.entrants)[:3] == ["Player One", "Player 2", "Player 3"]
     assert hall.state.entrants["Player 2"].rating == 655.0
+
+
+def test_a_phone_whose_player_has_left_the_match_is_told_so(busy: Hall) -> None:
+    match, token = "W2.2", busy.site.match_token("W2.2")
+    gone = busy.state.counted["W1.3"].winner
+    phones = {name: Phone(busy.site) for name in busy.state.pair(match)}
+    for k, phone in enumerate(phones.values()):
+        phone.send(f"/m/{token}/me", me=k)
+    assert "Game for" in phones[gone].open(f"/m/{token}").words
+    busy.director.send("/desk/result", **WRONG, sure="yes")
+    for name, phone in phones.items():
+        words = phone.open(f"/m/{token}").words
+        assert (f"{name} is no longer in {match}" in words) == (name == gone)
+        assert ("Game for" in words) == (name != gone)
+    busy.director.send("/desk/result", **{**WRONG, "a": 3, "b": 1})
+    assert "Game for" in phones[gone].open(f"/m/{token}").words

@@ -175,3 +175,41 @@ def test_a_tournament_of_another_program_goes_on(night, tmp_path):
     assert night("result", one["match"], "5:0")["next"]
     wrong = night.run("tournament", "import", str(listed), "--out", str(tmp_path / "b.db"))
     assert (wrong.exit_code, "ratings.csv" in wrong.stderr) == (3, True)
+
+
+def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
+    for match in ("W1.1", "W1.2"):
+        begun("result", match, "3:0")
+    begun("call", "W2.1", "--table", "2")
+    begun("score", "W2.1", "2:1")
+    wrong = ("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
+    for words, said in (
+        (wrong, "W2.1, Ann against Bo, would leave table 2 at 2:1. "),
+        (("tournament", "drop", "ann", "--file", begun.file), "would end at 2:1. "),
+    ):
+        asked = begun.run(*words)
+        assert asked.exit_code == 2
+        assert f"{said}Give --yes if that is meant" in asked.stderr
+    entered = len(read_events(begun.file))
+    assert begun.run(*wrong, "--yes").exit_code == 0
+    begun("correct", "W1.1", "3:0")
+    on = {one["match"]: one["table"] for one in begun("next")["next"]}
+    assert on["W2.1"] == 2
+    said = begun.run("tournament", "call", "W2.1", "--back", "--file", begun.file, "--text")
+    assert "W2.1 is off table 2." in said.stdout
+    assert begun.run("tournament", "call", "--back", "--file", begun.file).exit_code == 2
+    said = begun.run("tournament", "undo", "--file", begun.file, "--text")
+    assert "Taken back: W2.1 taken off its table." in said.stdout
+    assert len(read_events(begun.file)) == entered + 4
+
+
+def test_a_name_is_corrected_before_the_draw(night):
+    words = ("--race", "3", "--tables", "2", "--seeding", "listed", "--out", night.file)
+    assert night.run("tournament", "new", night.entrants, *words).exit_code == 0
+    said = night.run("tournament", "edit", "ann", "--name", "Anne", "--file", night.file, "--text")
+    assert "Anne is entered with a rating of 640." in said.stdout
+    night("edit", "Cy", "--rating", "580")
+    assert night.run("tournament", "edit", "Cy", "--file", night.file).exit_code == 2
+    night("draw")
+    matches = night("show")["matches"]
+    assert {"Anne", "Di"} == {matches[0]["player_a"], matches[0]["player_b"]}

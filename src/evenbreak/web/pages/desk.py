@@ -145,9 +145,9 @@ def _ask(request: Request, form: Form, said: Said, asked: _AskError) -> Response
     fields |= {"named": _name_of(asked.before, asked.after)}
     for name in ("csrf", "sure"):
         fields.pop(name, None)
-    lines = [*lost_words(asked.before, asked.after), *said(asked.before, asked.after)]
-    shown = [in_words(request, line) for line in lines]
-    return page(request, "sure.html", fields=fields, lines=shown)
+    lost = lost_words(asked.before, asked.after)
+    lines = [in_words(request, one) for one in (*lost, *said(asked.before, asked.after))]
+    return page(request, "sure.html", fields=fields, lines=lines, lost=lost)
 
 
 def _name_of(before: Evening, after: Evening) -> str:

@@ -58,11 +58,14 @@ async def match(request: Request) -> Response:
     seats = [state.order.index(player) for player in one.players]
     skill = state.ratings[seats[0]] - state.ratings[seats[1]]
     p_game = float(state.scale.win_probability(skill))
-    sides = await _sides(request, name, one.players)
+    entries = await asyncio.to_thread(phone_entries, site_of(request).path, name)
+    sides, phone = sides_between(entries, one.players), phone_of(request)
+    claimed = [entry.player for entry in entries if (entry.kind, entry.phone) == (CLAIMED, phone)]
     shown |= {
         "one": one,
         "odds": _odds(one, p_game),
-        "me": sides.of(phone_of(request)),
+        "me": sides.of(phone),
+        "left": claimed[-1] if claimed and claimed[-1] not in one.players else "",
         "sides": sides,
     }
     return page(request, "match.html", live=True, **shown)
