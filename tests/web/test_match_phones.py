@@ -79,7 +79,7 @@ def test_the_director_alone_releases_a_side(hall: Hall) -> None:
     assert owner.claims(0).status == 200
     assert thief.claims(0).status == 409
     history = hall.director.open("/desk/history").words
-    for line in ("side released", "proposes", "127.0.0.2", "127.0.0.3"):
+    for line in ("released", "sent", "127.0.0.2", "127.0.0.3"):
         assert line in history
 
 
