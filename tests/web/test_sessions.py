@@ -71,7 +71,7 @@ def test_who_leaves_before_the_tournament_begins_has_left_too(tmp_path: Path) ->
 
 def test_what_happened_before_the_tournament_begins_is_kept_with_it(tmp_path: Path) -> None:
     site = Site(tmp_path / "tonight.db")
-    site.change_pin("session")
+    site.change_pin()
     site.end_visit("visit")
     pin = site.pin
     begun_by_command(site.path, 4)

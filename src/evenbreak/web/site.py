@@ -5,9 +5,7 @@ from __future__ import annotations
 import hashlib
 import hmac
 import itertools
-import math
 import secrets
-import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -22,7 +20,6 @@ from evenbreak.web.night import Night, mark_of, now
 from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
-_SECOND_TAP = 10.0  # seconds
 _ENDED = "ended"
 
 
@@ -63,7 +60,6 @@ class Site:
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
-        self._pin_change = "", -math.inf
 
     @property
     def names(self) -> set[str]:
@@ -101,25 +97,13 @@ class Site:
         self.keep_secrets()
         return f"{_ENDED} {visit}" in self._first | self._secrets
 
-    def change_pin(self, by: str) -> None:
-        """Draw another PIN of the director; whoever entered the earlier one is none any more.
-
-        Parameters
-        ----------
-        by
-            the session in which it is done; it may ask once more, as by a second tap.
-        """
+    def change_pin(self) -> None:
+        """Draw another PIN of the director; whoever entered the earlier one is none any more."""
         found = {"pin": new_pin(), "director": _mark()}
         if is_there(self.path):
             change_secrets(self.path, found)
         self._first |= found
         self._secrets |= found
-        self._pin_change = by, time.monotonic()
-
-    def has_changed_pin(self, session: str) -> bool:
-        """Return whether the PIN was changed in this session just now."""
-        by, at = self._pin_change
-        return by == session and time.monotonic() - at < _SECOND_TAP
 
     @property
     def pin(self) -> str:
