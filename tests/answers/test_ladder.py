@@ -38,7 +38,11 @@ def test_files_have_a_row_for_each_error(npl):
 
 def test_form_and_drift_are_in_the_heading():
     answer = asked(Ladder("npl", day_sd=5.0, match_sd=2.0, drift=-0.1), 25, newcomer=True)
-    for number in ("5 points", "2 points", "falls by 0.1"):
+    for number in (
+        "5 points",
+        "2 points",
+        "falls by a whole point with a chance of 10%: 0.1 points",
+    ):
         assert number in answer.heading
     assert "too high on average" in answer.sentences[0]
     assert "25 points too high" in answer.sentences[2]

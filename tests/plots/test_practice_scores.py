@@ -1,6 +1,8 @@
 import numpy as np
 import pytest
+from scipy.stats import linregress, t
 
+from evenbreak.answers.getting_better import getting_better_answer, trend_line_of
 from evenbreak.files.scores import ScoresFile
 from evenbreak.plots.practice_scores import plot_scores, plot_two_lists
 from evenbreak.stats import mean_interval
@@ -27,6 +29,27 @@ def test_scores_mean_band_and_the_new_one_after_them(days):
         "mean 48.00",
         "new score 53",
     ]
+
+
+def test_the_trend_that_the_text_states_is_drawn_with_its_band():
+    dates = DAYS[[2, 0, 3, 1]]
+    file = ScoresFile(SCORES, dates, "s.csv", ())
+    said = getting_better_answer(file, confidence=0.8).sentences[0]
+    axes = plot_scores(file, mean_interval(SCORES, 0.8), trend_line_of(file, 0.8)).axes[0]
+    trend = axes.lines[-1]
+    assert trend.get_label() == "trend"
+    weeks = (trend.get_xdata() - DAYS[0]).astype(float) / 7.0
+    slope, _ = np.polyfit(weeks, trend.get_ydata(), 1)
+    assert f"{abs(slope):.2f} points a week" in said
+    # The band is that of the textbook's formula.
+    scores = SCORES[np.argsort(dates)]
+    fit = linregress(weeks, scores)
+    line = fit.intercept + fit.slope * weeks
+    spread, away = np.sqrt(((scores - line) ** 2).sum() / 2.0), (weeks - weeks.mean()) ** 2
+    half = t.ppf(0.9, 2) * spread * np.sqrt(0.25 + away / away.sum())
+    (band,) = axes.collections
+    edge = band.get_paths()[0].vertices[:, 1]
+    assert (edge.min(), edge.max()) == pytest.approx(((line - half).min(), (line + half).max()))
 
 
 def test_equal_scores_stand_beside_one_another():

@@ -1,11 +1,14 @@
 """Whether a player is getting better: the scores of a drill over time."""
 
+import numpy as np
+
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
+from evenbreak.arrays import Floats
 from evenbreak.files.scores import ScoresFile
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of
-from evenbreak.stats.trend import Trend, trend
+from evenbreak.stats.trend import Trend, TrendLine, trend, trend_line
 
 TWO = decimals(2)
 DAYS_A_WEEK = 7.0
@@ -81,8 +84,22 @@ def _trend(file: ScoresFile, confidence: float) -> Trend | None:
     """Return the trend in points a week; None without enough dates to see one."""
     if file.dates is None or len(file.scores) < 3 or sd_of(file.scores) == 0.0:
         return None
-    days = (file.dates - file.dates.min()).astype(float)
-    return trend(days / DAYS_A_WEEK, file.scores, confidence) if days.any() else None
+    weeks = _weeks(file)
+    return trend(weeks, file.scores, confidence) if weeks.any() else None
+
+
+def trend_line_of(file: ScoresFile, confidence: float) -> TrendLine | None:
+    """Return the line of the trend on the day of each score; None without enough dates for one."""
+    if _trend(file, confidence) is None:
+        return None
+    weeks = _weeks(file)
+    return trend_line(weeks, file.scores, weeks, confidence)
+
+
+def _weeks(file: ScoresFile) -> Floats:
+    """Return when each score was made, in weeks since the first."""
+    dates = np.asarray(file.dates)
+    return np.asarray((dates - dates.min()).astype(float) / DAYS_A_WEEK)
 
 
 def _in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | None) -> str:

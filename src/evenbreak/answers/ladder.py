@@ -8,7 +8,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.by_way import by_way
 from evenbreak.answers.ladder_findings import LadderFindings
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.wording import count_of, decimals
+from evenbreak.answers.wording import count_of, decimals, percent
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
@@ -96,7 +96,11 @@ def _heading(found: LadderFindings) -> str:
         lines.append(f"{_form('match', ladder.match_sd)}.")
     if ladder.drift:
         way = "rises" if ladder.drift > 0.0 else "falls"
-        lines.append(f"The player's skill {way} by {abs(ladder.drift):g} points a match.")
+        chance = percent(abs(ladder.drift))
+        lines.append(
+            f"After each match the player's skill {way} by a whole point with a chance of "
+            f"{chance}: {abs(ladder.drift):g} points a match on average."
+        )
     return "\n".join(lines)
 
 

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,6 +12,7 @@ from evenbreak.files.scores import ScoresFile
 from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, legend_below, new_axes
 from evenbreak.stats.confidence import MeanInterval
+from evenbreak.stats.trend import TrendLine
 
 BAND = "0.85"
 STEP = 0.08
@@ -23,21 +24,31 @@ WIDEST = 0.3
 
 @overload
 def plot_scores(
-    file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None, ax: Axes
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    line: TrendLine | None = None,
+    *,
+    new: float | None = None,
+    ax: Axes,
 ) -> Axes: ...
 @overload
 def plot_scores(
-    file: ScoresFile, interval: MeanInterval | None, *, new: float | None = None
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    line: TrendLine | None = None,
+    *,
+    new: float | None = None,
 ) -> Picture: ...
 @in_our_look
 def plot_scores(
     file: ScoresFile,
     interval: MeanInterval | None,
+    line: TrendLine | None = None,
     *,
     new: float | None = None,
     ax: Axes | None = None,
 ) -> Picture | Axes:
-    """Return a figure of the scores of a file, their mean and the interval of the true mean.
+    """Return a figure of the scores of a file, their mean and trend, and how sure these are.
 
     Parameters
     ----------
@@ -45,6 +56,8 @@ def plot_scores(
         the scores, drawn over their dates, or in the order of the file if it has no dates.
     interval
         of the true mean; None draws no band.
+    line
+        of the trend on the date of each score; None draws none.
     new
         one more score, drawn after the others.
     ax
@@ -79,11 +92,24 @@ def plot_scores(
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
     axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
+    if line is not None:
+        _draw_trend(axes, when, line)
     if new is not None:
         label = f"new score {new:g}"
         axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
     legend_below(figure, ax)
     return figure if ax is None else ax
+
+
+def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
+    """Draw the line of a trend, and the band in which the true one lies."""
+    order = np.argsort(when, kind="stable")
+    dates, (at, low, high) = when[order], (column[order] for column in line)
+    style = LINES[2]
+    axes.fill_between(
+        dates, low, high, color=style.color, alpha=0.15, linewidth=0, label="interval of the trend"
+    )
+    axes.plot(dates, at, **style._asdict(), label="trend")
 
 
 @overload

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
@@ -19,6 +20,38 @@ class Trend(NamedTuple):
     low: float
     high: float
     p_value: float
+
+
+class TrendLine(NamedTuple):
+    """The line of a trend at some times, and the interval of the true line at each of them."""
+
+    at: Floats
+    low: Floats
+    high: Floats
+
+
+def trend_line(times: Any, scores: Any, at: Any, confidence: float = 0.95) -> TrendLine:
+    """Return the line of `trend` at some times, with its interval.
+
+    Parameters
+    ----------
+    times, scores, confidence
+        as for `trend`.
+    at
+        the times.
+
+    >>> found = trend_line([0, 1, 2, 3], [50, 52, 51, 53], [0, 1.5])
+    >>> [column.round(2).tolist() for column in found]
+    [[50.3, 51.5], [46.88, 49.46], [53.72, 53.54]]
+    """
+    import numpy as np
+
+    found = trend(times, scores, confidence)
+    when, away = np.asarray(times, dtype=float), np.asarray(at, dtype=float) - np.mean(times)
+    line = np.mean(scores) + found.slope * away
+    # The mean and the slope are independent, and the mean is off as the slope is at this distance.
+    half = (found.high - found.slope) * np.sqrt(when.var() + away**2)
+    return TrendLine(line, line - half, line + half)
 
 
 def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:

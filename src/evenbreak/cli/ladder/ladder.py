@@ -99,7 +99,8 @@ Examples:
     "--drift",
     type=Number(-MOST_DRIFT, MOST_DRIFT, f"; give a number from {-MOST_DRIFT} to {MOST_DRIFT}"),
     metavar="POINTS",
-    help="How much the player's skill rises with each match.",
+    help="How much the player's skill rises with each match on average: by a whole point, with "
+    "this chance.",
 )
 @click.option(
     "--from",

@@ -74,7 +74,7 @@ def command(
 
 
 def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str | None) -> Answer:
-    from evenbreak.answers.getting_better import getting_better_answer, interval_of
+    from evenbreak.answers.getting_better import getting_better_answer, interval_of, trend_line_of
     from evenbreak.answers.new_score import new_score_answer
 
     own = interval_of(file, confidence)
@@ -83,7 +83,8 @@ def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str 
     if plot is not None:
         from evenbreak.plots.practice_scores import plot_scores
 
-        write_plot(plot_scores(file, own, new=new), plot)
+        line = trend_line_of(file, confidence) if new is None else None
+        write_plot(plot_scores(file, own, line, new=new), plot)
     if new is not None:
         return new_score_answer(file, new, confidence=confidence)
     return getting_better_answer(file, confidence=confidence)
