@@ -47,5 +47,5 @@ def test_a_share_of_the_races_at_the_end_of_those_tried_is_called_so(share, larg
     found = Evidence("race", sizes, gains, True, share, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(fit(season, levels=Levels(race=share)), choice)
-    assert f"{share:.0%}" in text
+    assert f"differ by {share:.2f} times what their races take back, give or take 0.10" in text
     assert ("No larger share was tried" in text) == largest

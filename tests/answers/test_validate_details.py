@@ -1,9 +1,14 @@
 """The statistics of a validated season: every figure where a person looks for it."""
 
+from dataclasses import replace
+
+import numpy as np
+
 from evenbreak.answers.parts import Table
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import scored_of
 from evenbreak.ratings import Results, scale_of, validate
+from evenbreak.ratings.levels import Levels
 
 NPL, FARGO = scale_of("npl"), scale_of("fargo")
 
@@ -80,3 +85,26 @@ def test_few_matches_have_no_slope(play_season):
 
 def test_newcomers_are_counted(demo):
     assert f"In {int(demo.forecasts.new.sum())} matches" in parts_of(demo)[1]
+
+
+def test_how_even_handicaps_make_the_matches_is_what_the_season_shows(demo, play_season):
+    even = tuple(row._replace(predicted=0.54) for row in demo.matches)
+    text = parts_of(replace(demo, matches=even))[1]
+    assert "One player gave games in 89% of the matches" in text
+    assert "favourite 54% on average: nearly even" in text
+    season = play_season(5, skills=1.0)
+    few = np.arange(len(season)) < 20
+    some = replace(season, race_b=np.where(few, season.race_b, season.race_a))
+    handicapped = replace(some, race_a=np.where(few, 9, some.race_a))
+    wins = np.where(few & (season.score_a > season.score_b), 9, season.score_a)
+    text = parts_of(validate(replace(handicapped, score_a=wins), prior_sd=1.0))[1]
+    assert "One player gave games in 2.2% of the matches" in text
+    assert "nearly even" not in text
+
+
+def test_two_factors_of_the_races_are_not_taken_for_one(demo):
+    """What is taken before any result and what all results show are said apart, in one unit."""
+    known = replace(demo, forecasts=replace(demo.forecasts, levels=Levels(race=1.88)))
+    text = parts_of(known)[1]
+    assert f"The {demo.starts.share.value:.2f} is what all results show" in text
+    assert "The 1.88 that is taken before any result" in text

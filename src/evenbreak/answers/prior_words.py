@@ -56,14 +56,14 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
             f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
         )
     if levels.race:
-        error = _error(choice, "race", 100.0, decimals(0), "%")
+        error = _error(choice, "race", 1.0, decimals(2), "")
         largest = choice is not None and any(
             found.at_most for found in choice.evidence if found.of == "race"
         )
         end = " No larger share was tried, so more may be better still." if largest else ""
         yield (
-            f"The stated races count too: {100 * levels.race:.0f}% of the difference that they "
-            f"imply between two players is taken as real before any result{error}.{end}"
+            f"The stated races count too: before any result, two players are taken to differ by "
+            f"{levels.race:.2f} times what their races take back{error}.{end}"
         )
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]

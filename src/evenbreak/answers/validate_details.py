@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
@@ -15,6 +17,9 @@ from evenbreak.ratings.match_form import MatchForm
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
+
+NEARLY_EVEN = 0.56
+"""Favourites with less than this chance, on average, are hardly any."""
 
 _EXPLAINED = (
     "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
@@ -55,18 +60,38 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     if found.matches:
         yield _matches(found)
         if found.spots:
-            yield (
-                "With handicaps every match is nearly even, and the ratings pick their favourite "
-                "mostly by their own errors, so predictions of matches are of little use."
-            )
+            yield _evenness(found)
             yield _by_spot(found)
     if found.starts is not None:
         yield starts_table(found.starts, scale)
+        if race := found.forecasts.levels.race:
+            yield (
+                f"The {found.starts.share.value:.2f} is what all results show. The {race:.2f} that "
+                "is taken before any result is what predicts later games best; the players' own "
+                "results then add to it."
+            )
     if found.experience:
         yield _experience(found, scale)
     new = int(found.forecasts.new.sum())
     if new:
         yield f"In {count_of(new, 'match', 'matches')} one of the players had not played before."
+
+
+def _evenness(found: Validation) -> str:
+    """Return how many matches had a start, and how even that leaves the matches."""
+    matches = np.array([row.matches for row in found.matches])
+    favourite = float(matches @ [row.predicted for row in found.matches] / matches.sum())
+    spots = found.spots[-1].matches / int((found.forecasts.race_a > 0).sum())
+    text = (
+        f"One player gave games in {percent(spots)} of the matches, and the ratings give their "
+        f"favourite {percent(favourite)} on average"
+    )
+    if favourite > NEARLY_EVEN:
+        return f"{text}, starts included."
+    return (
+        f"{text}: nearly even, so the favourite is picked mostly by the ratings' own errors, and "
+        "predictions of matches are of little use."
+    )
 
 
 def _scored(found: Validation, scale: Scale) -> Table:

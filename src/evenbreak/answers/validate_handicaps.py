@@ -279,8 +279,8 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
     value, low, high = starts.share
     title = (
         "By how many points the player who should give games is stronger, and how many the races "
-        f"take back. Players differ by {value:.2f} times as much as races take back ({low:.2f} to "
-        f"{high:.2f}):"
+        f"take back. All results together say that players differ by {value:.2f} times what races "
+        f"take back ({low:.2f} to {high:.2f}):"
     )
     return Table("", columns, list(starts.groups), title)
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Ints
 from evenbreak.files.problems import Problems
 from evenbreak.files.text_table import TextTable
+from evenbreak.ratings.doubtful_scores import doubtful_scores, usual_score
 from evenbreak.ratings.results import Results
 
 if TYPE_CHECKING:
@@ -18,36 +18,6 @@ if TYPE_CHECKING:
 
 MOST_LISTED = 20
 """How many rows are listed; the rest are counted."""
-
-FEWEST_MATCHES = 20
-"""Matches from which a file shows how long its matches are."""
-
-HIGH = 25
-"""A score below this is never doubted: few races are longer."""
-
-TIMES = 2.5
-"""How many times what 95% of the winners need a score must be to be doubted."""
-
-
-def doubtful_scores(results: Results) -> Bools:
-    """Return which scores are so much higher than the others that they can hardly be games won.
-
-    A score is compared with all others, but where its race is stated, it is not doubted.
-
-    >>> season = Results.from_names(["Ann"] * 30, ["Bo"] * 30, [7] * 29 + [67], [5] * 29 + [45])
-    >>> np.flatnonzero(doubtful_scores(season))
-    array([29])
-    """
-    score = np.maximum(results.score_a, results.score_b)
-    played = (score > 0) & ~results.given_away
-    if played.sum() < FEWEST_MATCHES:
-        return np.zeros(len(results), dtype=bool)
-    judged = played & (results.races[0] == 0) & (score >= HIGH)
-    return np.asarray(judged & (score > TIMES * _usual(score[played])))
-
-
-def _usual(score: Ints) -> float:
-    return float(np.quantile(score, 0.95, method="inverted_cdf"))
 
 
 def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
@@ -65,7 +35,7 @@ def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: 
 def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
     rows = np.flatnonzero(doubtful_scores(results))
     score = np.maximum(results.score_a, results.score_b)
-    usual = _usual(score[(score > 0) & ~results.given_away]) if len(rows) else 0.0
+    usual = usual_score(score[(score > 0) & ~results.given_away]) if len(rows) else 0.0
     return [
         f"{source}:{lines[row]}: {results.score_a[row]}-{results.score_b[row]} can hardly be games "
         f"won, as nearly all winners here have {usual:.0f} or fewer; they may be points"

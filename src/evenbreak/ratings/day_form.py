@@ -22,6 +22,7 @@ from evenbreak.matches.form import centre_of_form
 from evenbreak.ratings.calibration import Estimate, with_error
 from evenbreak.ratings.decay import until
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.fit import weights_of
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
@@ -155,7 +156,7 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
     played = in_time.played().results
     weight, _ = weights_of(played, in_time.won_only(), ratings.half_life, ratings.as_of)
     games = played.score_a + played.score_b
-    counted = (games > 1) & (games <= LONGEST)
+    counted = (games > 1) & (games <= LONGEST) & ~doubtful_scores(played)
     if counted.sum() < FEWEST:
         return None
     scored, weight = played.select(counted), weight[counted]

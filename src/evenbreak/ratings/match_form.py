@@ -23,6 +23,7 @@ from evenbreak.ratings.day_form import (
     log_odds_of,
     normal_nodes,
 )
+from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.walk_forward import Forecasts
 
 
@@ -92,7 +93,8 @@ def match_form(forecasts: Forecasts, cluster: Ints, rng: np.random.Generator) ->
 def _judged(forecasts: Forecasts) -> Bools:
     fewest = np.minimum(forecasts.race_a, forecasts.race_b)
     most = np.maximum(forecasts.race_a, forecasts.race_b)
-    return np.asarray((fewest > 1) & (most <= LONGEST) & (forecasts.date_of > 0))
+    judged = (fewest > 1) & (most <= LONGEST) & (forecasts.date_of > 0)
+    return np.asarray(judged & ~doubtful_scores(forecasts.results))
 
 
 def _shapes(

@@ -15,6 +15,7 @@ from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.calibration import two_sided
+from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.walk_forward import Forecasts
 
 REPLICAS = 300
@@ -79,6 +80,7 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
     """
     longest = np.maximum(forecasts.race_a, forecasts.race_b)
     rows = (longest > 0) & (longest <= LONGEST_SIMULATED) & (forecasts.date_of > 0)
+    rows &= ~doubtful_scores(forecasts.results)
     if not rows.any():
         return None
     p = forecasts.p_game_integrated[rows]
