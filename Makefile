@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-drift lint types test lowest layers docs reports drift bench browse browser \
+.PHONY: check check-rest check-drift lint types test tries lowest layers docs reports drift bench browse browser \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -27,6 +27,10 @@ types:
 
 test:             ## tests and every docstring's, README's and page's example
 	$(PYTHON) -m pytest -q -n logical
+
+tries:            ## 200 or more of each attack in tests/tries.md; takes an hour
+	EVENBREAK_TRIES=200 $(PYTHON) -m pytest -q -n logical \
+		$$(grep -rlE '\btries\("|who_may' tests --include='test_*.py')
 
 lowest:           ## tests that lean on other libraries, at the lowest versions declared
 	$(PYTHON) -m venv .venv-lowest

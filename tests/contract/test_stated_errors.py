@@ -1,10 +1,6 @@
-"""Every command that draws random numbers states an error, by which seeds differ.
-
-EVENBREAK_SEEDS raises how many seeds are tried.
-"""
+"""Every command that draws random numbers states an error, by which seeds differ."""
 
 import json
-import os
 import shlex
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -19,8 +15,7 @@ from click.testing import CliRunner
 from evenbreak.cli.program import program
 from evenbreak.ratings.calibration import END_ERROR
 from places import ROOT
-
-SEEDS = int(os.environ.get("EVENBREAK_SEEDS", "4"))
+from tries import tries
 
 MOST = 1.7
 """Seeds may differ by so many times the stated error: four of them do so by luck once in 500."""
@@ -130,6 +125,8 @@ CASES = {
     "drill": Drawn("drill --log data/drill_log.csv", of_tests),
     "validate": Drawn("validate RESULTS", of_intervals),
 }
+
+SEEDS = tries("seeds of a command", 4, parts=len(CASES))
 
 LOTS = ("tournament new", "tournament draw", "tournament tiebreak")
 """Commands that draw lots, and estimate nothing."""

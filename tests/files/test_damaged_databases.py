@@ -3,7 +3,6 @@
 import asyncio
 import base64
 import json
-import os
 import random
 import re
 import shutil
@@ -21,9 +20,9 @@ from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.site import Site
 from files.mutants import mutate
 from tournament_nights import SAVED
+from tries import tries
 
-MUTANTS = int(os.environ.get("EVENBREAK_MUTANTS", "10"))
-"""How many databases are damaged; 600 take minutes."""
+MUTANTS = tries("damaged databases", 10)
 
 COMMANDS = (
     ("show",),

@@ -1,7 +1,6 @@
 """Workbooks made to exhaust the memory or the reader: each is one clear problem."""
 
 import io
-import os
 import random
 import time
 import zipfile
@@ -12,9 +11,7 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files import spreadsheet, workbook
 from evenbreak.files.spreadsheet import sheets_of
-
-TRIES = int(os.environ.get("EVENBREAK_HOSTILE", "2"))
-"""How many workbooks of each kind are tried; 20 take a minute."""
+from tries import tries
 
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
@@ -205,6 +202,7 @@ KINDS: list[Make] = [
     wrong_xml,
     binary,
 ]
+TRIES = tries("hostile workbooks", 2, parts=len(KINDS))
 
 
 @pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)

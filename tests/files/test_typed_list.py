@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import os
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,9 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.entrants import read_entrants
 from evenbreak.files.roster import RosterFile
+from tries import tries
 
-TRIES = int(os.environ.get("EVENBREAK_LISTS", "120"))
+TRIES = tries("pasted lists", 120)
 
 FIRST = ("Ann", "Bo", "José", "Élodie", "Łukasz", "D’Angelo", "Mei-Lin", "J. R.", "Zoë", "Đặng")
 LAST = (

@@ -1,7 +1,5 @@
 """Corrections and undos take nothing away that they do not name, and give it back."""
 
-import os
-
 import numpy as np
 import pytest
 
@@ -11,9 +9,10 @@ from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, S
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.losses import losses, matches_of
 from evenbreak.tournaments.evening.undoing import undo, undoable
+from tries import tries
 
 AT = "2025-03-01T20:00:00"
-TRIES = int(os.environ.get("EVENBREAK_NIGHTS", "12"))
+TRIES = tries("moves of a tournament", 12)
 PHONE = "phone: Ann"
 
 

@@ -1,6 +1,5 @@
 """Whatever stands in a request's head, or however it is cut, is answered and never fails."""
 
-import os
 import random
 import socket
 import time
@@ -11,11 +10,11 @@ from urllib.parse import urlsplit
 import pytest
 
 from evenbreak.web import guard
+from tries import tries
 from web.conftest import Hall
 from web.phones import Phone
 
-TRIES = int(os.environ.get("EVENBREAK_HEADERS", "250"))
-"""How many requests are tried; 5,000 take two minutes."""
+TRIES = tries("heads of requests", 250)
 
 PATHS = [
     *("/", "/players", "/bracket", "/screen", "/fair", "/prizes", "/league", "/team", "/pin"),

@@ -1,7 +1,6 @@
 """The command itself: it starts soon, and a kill at any moment loses nothing acknowledged."""
 
 import http.client
-import os
 import random
 import signal
 import socket
@@ -19,10 +18,10 @@ from evenbreak.files.tournament_desk import back_up, kept_secrets
 from evenbreak.files.tournament_store import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
+from tries import tries
 from web.phones import Phone, free_port, running
 
-KILLS = int(os.environ.get("EVENBREAK_KILLS", "1"))
-"""How often the server is killed; 200 takes minutes."""
+KILLS = tries("kills", 1)
 
 
 def begun(path: Path, players: int) -> None:

@@ -1,16 +1,15 @@
 """Who may score for whom: one phone, however it is opened, never scores for both sides."""
 
-import os
 import random
 
 import pytest
 
 from evenbreak.files.tournament_store import read_tournament
+from tries import tries
 from web.conftest import Hall, begun
 from web.phones import Phone, Shown, running, two_phones
 
-SEEDS = int(os.environ.get("EVENBREAK_TAPS", "8"))
-"""How many orders of taps are tried; 200 take half a minute."""
+SEEDS = tries("taps of one address", 8)
 
 
 class Player:

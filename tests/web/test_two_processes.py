@@ -22,10 +22,10 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
+from tries import tries
 from web.phones import Phone, free_port, running
 
-EVENINGS = int(os.environ.get("EVENBREAK_EVENINGS", "1"))
-"""How many evenings are played with each company; 200 take minutes."""
+EVENINGS = tries("evenings of two processes", 1)
 
 AT = "2025-03-01T19:30:00"
 MATCHES = 16

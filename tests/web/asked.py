@@ -1,0 +1,158 @@
+"""Browsers that ask a page's application without a server between: soon answered, and all alike."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import json
+import re
+import urllib.parse
+from collections.abc import Mapping
+from html import unescape
+from typing import Any, NamedTuple
+
+from itsdangerous import TimestampSigner
+from starlette.applications import Starlette
+
+from evenbreak.web.app import cookie_name, make_app
+from evenbreak.web.site import Site
+
+
+class Got(NamedTuple):
+    """What a browser was answered."""
+
+    status: int
+    body: bytes
+    to: str
+
+    @property
+    def text(self) -> str:
+        return self.body.decode("utf-8", "replace")
+
+    @property
+    def words(self) -> str:
+        """The text without tags."""
+        inner = re.sub(r"<(script|style).*?</\1>", " ", self.text, flags=re.DOTALL)
+        return " ".join(unescape(re.sub(r"<[^>]+>", " ", inner)).split())
+
+
+class Room:
+    """An application with the loop that it runs in, and what it complains of."""
+
+    def __init__(self, site: Site) -> None:
+        self.site = site
+        self.app: Starlette = make_app(site)
+        self.app.state.closing = True  # a stream says one thing and ends
+        self.loop = asyncio.new_event_loop()
+
+    def close(self) -> None:
+        self.loop.close()
+
+
+class Browser:
+    """A browser with cookies and an address of its own."""
+
+    def __init__(self, room: Room, *, address: str = "127.0.0.9", director: bool = False) -> None:
+        self.room, self.address = room, address
+        self.cookies: dict[str, str] = {}
+        self.kept = ""
+        self.fixed = False  # whether it keeps its cookies whatever the page sets
+        if director:
+            assert self.send("/pin", pin=room.site.pin).status == 303
+
+    def token(self) -> str:
+        """Return the token of this browser's forms."""
+        if not self.kept:
+            self.kept = re.findall(r'name="csrf" value="([^"]+)"', self.open("/pin").text)[0]
+        return self.kept
+
+    def open(self, path: str, **asked: str) -> Got:
+        if asked:
+            path = f"{path}?{urllib.parse.urlencode(asked)}"
+        return self.ask("GET", path)
+
+    def send(self, path: str, **fields: object) -> Got:
+        """Send a form of this browser."""
+        return self.ask("POST", path, {"csrf": self.token(), **fields})
+
+    def told(self, path: str, **fields: object) -> Got:
+        """Send a form, and open the page that it leads to."""
+        got = self.send(path, **fields)
+        return self.open(got.to) if got.status == 303 else got
+
+    def ask(
+        self,
+        method: str,
+        path: str,
+        fields: Mapping[str, object] | None = None,
+        *,
+        host: str = "localhost",
+        body: bytes = b"",
+        kind: str = "application/x-www-form-urlencoded",
+    ) -> Got:
+        """Ask whatever is to be asked."""
+        body = body or urllib.parse.urlencode(fields or {}, doseq=True).encode()
+        cookie = "; ".join(f"{name}={value}" for name, value in self.cookies.items())
+        head = {"host": host, "cookie": cookie, "content-type": kind}
+        head["content-length"] = str(len(body))
+        return self.room.loop.run_until_complete(self._asked(method, path, head, body))
+
+    async def asking(self, method: str, path: str, fields: Mapping[str, object]) -> Got:
+        """Ask beside others of the same loop."""
+        body = urllib.parse.urlencode(fields, doseq=True).encode()
+        cookie = "; ".join(f"{name}={value}" for name, value in self.cookies.items())
+        head = {"host": "localhost", "cookie": cookie, "content-length": str(len(body))}
+        head["content-type"] = "application/x-www-form-urlencoded"
+        return await self._asked(method, path, head, body)
+
+    async def _asked(self, method: str, path: str, head: dict[str, str], body: bytes) -> Got:
+        got: list[Any] = []
+
+        async def receive() -> dict[str, Any]:
+            await asyncio.sleep(0)
+            return {"type": "http.request", "body": body, "more_body": False}
+
+        async def send(message: Any) -> None:
+            got.append(message)
+
+        plain, _, query = path.partition("?")
+        scope = {
+            "type": "http",
+            "method": method,
+            "path": urllib.parse.unquote(plain),
+            "raw_path": plain.encode(),
+            "query_string": query.encode(),
+            "headers": [(name.encode(), value.encode()) for name, value in head.items() if value],
+            "client": (self.address, 1),
+            "server": ("localhost", 80),
+            "scheme": "http",
+            "http_version": "1.1",
+            "root_path": "",
+        }
+        await self.room.app(scope, receive, send)
+        headers = [(name.decode(), value.decode()) for name, value in got[0]["headers"]]
+        for name, value in headers:
+            if name == "set-cookie" and not self.fixed:
+                key, _, held = value.partition(";")[0].partition("=")
+                self.cookies[key] = held
+        to = urllib.parse.urlsplit(dict(headers).get("location", ""))
+        return Got(
+            got[0]["status"],
+            b"".join(one.get("body", b"") for one in got[1:]),
+            to._replace(scheme="", netloc="").geturl(),
+        )
+
+
+def session(site: Site, held: Mapping[str, object], key: str = "") -> dict[str, str]:
+    """Return the cookie of a session that holds this, signed with a key (that of the site)."""
+    data = base64.b64encode(json.dumps(dict(held)).encode())
+    signed = TimestampSigner(key or site.cookie_key).sign(data)
+    return {cookie_name(site): signed.decode()}
+
+
+def copy_of(browser: Browser, *, address: str = "127.0.0.8") -> Browser:
+    """Return another browser with the same cookies."""
+    same = Browser(browser.room, address=address)
+    same.kept = browser.token()
+    same.cookies = dict(browser.cookies)
+    return same
