@@ -114,6 +114,15 @@ class Panel:
         return max(1, round(1.0 / min(closest, default=1.0)))
 
     @property
+    def rows(self) -> float:
+        """How many matches high the panel is."""
+        return self.row(max(self.boxes, key=lambda box: box.height)) + 0.5 if self.boxes else 1.0
+
+    def row(self, box: Box) -> float:
+        """Return how many matches below the top of the panel the middle of a match is."""
+        return (box.height - min(one.height for one in self.boxes)) * self.most + 0.5
+
+    @property
     def columns(self) -> list[list[Box]]:
         """The boxes of each round, from the top."""
         return [

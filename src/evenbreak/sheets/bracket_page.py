@@ -6,24 +6,30 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from evenbreak.answers.bracket_view import Box, Panel
+from evenbreak.answers.short_names import short_names
 from evenbreak.sheets.answer_page import Section
 from evenbreak.sheets.html_page import drawn, html_page
-from evenbreak.sheets.pdf_page import POINTS, shortened
+from evenbreak.sheets.pdf_page import POINTS, fitted
 
 COLUMN, ROW, WIDE, HIGH = 250.0, 66.0, 214.0, 46.0
 """The distance of columns and of rows, and the size of a box, in units of the drawing."""
 
 _HEADINGS = 34.0
-_LETTERS = 13.0  # their size in the drawing
+_LETTERS = 12.5  # the size of names in the drawing
+_ROOM = WIDE - 60.0  # for a name
 
 
 class _Drawn(NamedTuple):
-    """A box in the drawing: its left end and its middle, and its two lines, shortened."""
+    """A box in the drawing: its left end and its middle, and its two names.
+
+    `squeezed` is the width that a name is squeezed into; 0 if it fits.
+    """
 
     box: Box
     x: float
     y: float
     names: tuple[str, str]
+    squeezed: tuple[float, float]
     path: str
 
 
@@ -58,12 +64,14 @@ def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
 
 def _drawing(panel: Panel) -> dict[str, object]:
     """Return what the drawing of a side needs."""
-    height = _HEADINGS + panel.most * ROW
+    height = _HEADINGS + panel.rows * ROW
     places = {
-        box.match: (box.column * COLUMN + 1.0, _HEADINGS + box.height * panel.most * ROW)
+        box.match: (box.column * COLUMN + 1.0, _HEADINGS + panel.row(box) * ROW)
         for box in panel.boxes
     }
     column = {box.match: box.column for box in panel.boxes}
+    short = short_names(line.text for box in panel.boxes for line in box.lines if line.known)
+    room = _ROOM / POINTS
     boxes = []
     for box in panel.boxes:
         x, y = places[box.match]
@@ -72,7 +80,13 @@ def _drawing(panel: Panel) -> dict[str, object]:
             other_x, other_y = places[box.to]
             middle = 0.5 * (x + WIDE + other_x)
             path = f"M{x + WIDE:g} {y:g}H{middle:g}V{other_y:g}H{other_x:g}"
-        boxes.append(_Drawn(box, x, y, _names(box), path))
+        names = [
+            fitted(line.text, _LETTERS, room, short=short.get(line.text, "")) for line in box.lines
+        ]
+        squeezed = [_ROOM if size < _LETTERS else 0.0 for _, size in names]
+        boxes.append(
+            _Drawn(box, x, y, (names[0][0], names[1][0]), (squeezed[0], squeezed[1]), path)
+        )
     return {
         "width": len(panel.rounds) * COLUMN - (COLUMN - WIDE) + 2.0,
         "height": height,
@@ -81,9 +95,3 @@ def _drawing(panel: Panel) -> dict[str, object]:
         "high": HIGH,
         "column": COLUMN,
     }
-
-
-def _names(box: Box) -> tuple[str, str]:
-    room = (WIDE - 60.0) / POINTS
-    one, other = (shortened(line.text, 0.96 * _LETTERS, room) for line in box.lines)
-    return one, other

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, pdf_bytes, shortened
+from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, fitted, pdf_bytes
 
 _SIZE, _ROW = 11.0, 0.27
 _TOP = MARGIN + 0.75
@@ -52,8 +52,10 @@ def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") ->
     pages = []
     for start in range(0, max(1, len(listed)), most):
         page = Paper(wide, high)
-        page.text(MARGIN, MARGIN + 0.2, f"The draw: {event}", size=16, bold=True)
-        page.text(MARGIN, MARGIN + 0.45, shortened(about, 10, wide - 2 * MARGIN), size=10)
+        title, size = fitted(f"The draw: {event}", 16, wide - 2 * MARGIN, bold=True)
+        page.text(MARGIN, MARGIN + 0.2, title, size=size, bold=True)
+        line, size = fitted(about, 10, wide - 2 * MARGIN)
+        page.text(MARGIN, MARGIN + 0.45, line, size=size)
         for k, one in enumerate(listed[start : start + most]):
             _row(page, one, _TOP + (k + 0.7) * _ROW, wide, grey=k % 2 == 0)
         pages.append(page.figure)
@@ -63,10 +65,12 @@ def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") ->
 def _row(page: Paper, one: FirstMatch, y: float, wide: float, *, grey: bool) -> None:
     if grey:
         page.band(MARGIN, y - 0.7 * _ROW, wide - 2 * MARGIN, _ROW, grey="0.93")
-    page.text(MARGIN + 0.05, y, shortened(one.name, _SIZE, 2.5), size=_SIZE, bold=True)
+    name, size = fitted(one.name, _SIZE, 2.6, bold=True)
+    page.text(MARGIN + 0.05, y, name, size=size, bold=True)
     page.text(MARGIN + 2.75, y, f"seed {one.seed}", size=9, color="0.3")
     page.text(MARGIN + 3.45, y, one.match, size=_SIZE)
     against = f"against {one.other}" if one.other else ""
-    page.text(MARGIN + 4.3, y, shortened(against, _SIZE, 2.1), size=_SIZE)
+    against, size = fitted(against, _SIZE, 2.1)
+    page.text(MARGIN + 4.3, y, against, size=size)
     if one.table is not None:
         page.text(wide - MARGIN - 0.05, y, f"table {one.table}", size=_SIZE, ha="right")

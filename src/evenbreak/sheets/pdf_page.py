@@ -4,7 +4,7 @@ import io
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,9 @@ MARGIN = 0.5
 
 POINTS = 72.0
 """In an inch."""
+
+LEAST = 0.8
+"""The least part of its size at which a name is still written in full."""
 
 UNKNOWN = "\N{WHITE SQUARE}"
 """Stands for a letter that the font lacks."""
@@ -115,16 +118,22 @@ def drawable(text: str) -> str:
     )
 
 
-def width_of(text: str, size: float) -> float:
+def width_of(text: str, size: float, *, bold: bool = False) -> float:
     """Return how wide a text is, in inches.
 
     >>> round(width_of("7:4", 72), 1)
     1.6
     """
-    font = _font(False).copy()
-    font.set_size(size)
+    return _width(text, bold) * size
+
+
+@lru_cache(maxsize=8192)
+def _width(text: str, bold: bool) -> float:
+    """Return how wide a text is in letters of one point, in inches: widths grow with the size."""
+    font = _font(bold).copy()
+    font.set_size(POINTS)
     width, _, _ = text_to_path.get_text_width_height_descent(drawable(text), font, ismath=False)
-    return float(width) / POINTS
+    return float(width) / POINTS**2
 
 
 def shortened(text: str, size: float, width: float) -> str:
@@ -139,6 +148,32 @@ def shortened(text: str, size: float, width: float) -> str:
         range(len(text)), width, key=lambda length: width_of(f"{text[:length]}…", size)
     )
     return f"{text[: max(fitting - 1, 0)].rstrip()}…"
+
+
+def fitted(
+    text: str, size: float, width: float, *, short: str = "", bold: bool = False
+) -> tuple[str, float]:
+    """Return a text that is never cut, and the size at which all of it fits a width in inches.
+
+    Parameters
+    ----------
+    text, size
+        what is written, and the size of its letters in points where there is room.
+    width
+        the room.
+    short
+        what is written instead where the text would be less than `LEAST` of that size.
+    bold
+        whether the letters are bold.
+
+    >>> fitted("Ann Lee", 10, 2.0), fitted("Maximiliane Lee", 10, 0.5, short="M. Lee")
+    (('Ann Lee', 10.0), ('M. Lee', 10.0))
+    """
+    room = 0.98 * width  # a screen rounds the widths of letters
+    wide = width_of(text, size, bold=bold)
+    if short and wide * LEAST > room:
+        text, wide = short, width_of(short, size, bold=bold)
+    return text, size * min(1.0, room / wide) if wide else size
 
 
 def _file(bold: bool) -> Path:

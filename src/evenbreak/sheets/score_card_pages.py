@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from evenbreak.answers.score_cards import Card
-from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, pdf_bytes, shortened
+from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, fitted, pdf_bytes
 
 _GAP = 0.25
 MOST_BOXES = 15
@@ -50,7 +50,8 @@ def _card(
     page.frame(left, top, wide, high, thick=0.8)
     inner, right = left + 0.15 * unit, left + wide - 0.15 * unit
     room = right - inner
-    page.text(inner, top + 0.32 * unit, shortened(event, 9 * unit, 0.6 * room), size=9 * unit)
+    title, size = fitted(event, 9 * unit, 0.6 * room)
+    page.text(inner, top + 0.32 * unit, title, size=size)
     table = "table ____" if card.table is None else f"table {card.table}"
     page.text(right, top + 0.36 * unit, table, size=16 * unit, bold=True, ha="right")
     page.text(inner, top + 0.56 * unit, f"{card.match}: {card.where}", size=8 * unit, color="0.3")
@@ -63,15 +64,16 @@ def _card(
     page.text(inner + 2.05 * unit, y, "Signed", size=9 * unit)
     page.line((inner + 2.55 * unit, right), (y, y))
     onward = "  ".join(card.onward)
-    page.text(inner, top + 3.3 * unit, shortened(onward, 8 * unit, room), size=8 * unit)
+    onward, size = fitted(onward, 8 * unit, room)
+    page.text(inner, top + 3.3 * unit, onward, size=size)
 
 
 def _player(
     page: Paper, name: str, needs: int, left: float, y: float, room: float, unit: float
 ) -> None:
     """Write a player's name and race, with a box for each game."""
-    text = shortened(name, 15 * unit, room - 1.1 * unit)
-    page.text(left, y, text, size=15 * unit, bold=True)
+    text, size = fitted(name, 15 * unit, room - 1.1 * unit, bold=True)
+    page.text(left, y, text, size=size, bold=True)
     page.text(left + room, y, f"needs {needs}", size=11 * unit, ha="right")
     if needs > MOST_BOXES:
         page.frame(left, y + 0.1 * unit, 1.2 * unit, 0.32 * unit)
