@@ -210,10 +210,16 @@ def test_a_late_player_is_read_like_one_of_the_list(hall: Hall) -> None:
     assert "from the median" in shown.words
 
 
-def test_odds_that_fail_leave_the_director_a_desk(tmp_path: Path) -> None:
+def test_odds_that_fail_leave_the_director_a_desk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError("no odds")
+
+    monkeypatch.setattr("evenbreak.web.night.night_answer", fail)
     path = tmp_path / "tonight.db"
     plan = Plan("single", 3, scale="fargo", tables=2)
-    what = Opened(plan, (Entrant("Ann", float("nan")), *(Entrant(n, 500.0) for n in PLAYERS[:3])))
+    what = Opened(plan, tuple(Entrant(n, 500.0) for n in ("Ann", *PLAYERS[:3])))
     new_tournament(path, [Event("2025-03-01T19:30:00", what)])
     with running(path) as site:
         director, guest = Phone(site, director=True), Phone(site)
