@@ -15,7 +15,7 @@ from evenbreak.files.header import Header, quoted_list
 from evenbreak.files.problems import quoted
 from evenbreak.files.spreadsheet import Sheet, is_spreadsheet, sheets_of
 
-SAMPLE = 50
+SAMPLE = 2000
 """How many rows are looked at to guess what the columns are."""
 
 
