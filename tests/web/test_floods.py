@@ -1,6 +1,7 @@
 """A guest who opens connection after connection keeps nobody else out, and fills no terminal."""
 
 import asyncio
+import random
 import socket
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from typing import NamedTuple
 import pytest
 
 from evenbreak.web.door import KEPT, Door, in_few_lines
+from tries import tries
 from web.phones import free_port
 from web.test_kills import begun
 
@@ -93,6 +95,20 @@ def test_connections_that_stay_busy_keep_nobody_else_out(server: Served, sent: b
                 server.line(ATTACKER, stack).sendall(sent)
         assert all(server.answers(address) for address in ("127.0.0.1", "127.0.0.2"))
         assert server.errors.stat().st_size < 5000
+
+
+def test_no_mix_of_connections_keeps_others_out(server: Served) -> None:
+    whole = ASKED + b"\r\n"
+    for seed in range(tries("floods of connections", 2)):
+        luck = random.Random(seed)
+        kinds = luck.choices([b"", ASKED, whole, STREAM, BODY, whole + ASKED * 40], k=3)
+        with ExitStack() as stack:
+            for _ in range(luck.randrange(200, 400)):
+                with suppress(OSError):
+                    server.line(ATTACKER, stack).sendall(luck.choice(kinds))
+            for address in ("127.0.0.1", f"127.0.3.{seed % 200 + 1}"):
+                assert server.answers(address), (seed, address)
+    assert server.errors.stat().st_size < 5000
 
 
 def test_a_room_full_of_phones_is_served_at_a_low_limit(server: Served) -> None:
