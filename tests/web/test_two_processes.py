@@ -28,7 +28,7 @@ from web.phones import Phone, free_port, running
 EVENINGS = tries("evenings of two processes", 1)
 
 AT = "2025-03-01T19:30:00"
-MATCHES = 16
+MATCHES = 8
 
 COMMANDS = """
 import sys
@@ -78,7 +78,7 @@ COMMANDS_OF_A_FILE = (
     ("undo", "--file", "{path}"),
     ("import", "{path}", "--out", "{path}.new"),
     ("export", "--events", "--file", "{path}"),
-    ("print", "--file", "{path}"),
+    ("prizes", "--fee", "20", "--file", "{path}"),
 )
 SERVE = "from evenbreak.cli import main; main()"
 WATCHED = """
