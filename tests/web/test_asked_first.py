@@ -9,6 +9,9 @@ from evenbreak.files.tournament_store import read_events
 from web.conftest import Hall
 from web.phones import Phone, Shown
 
+TAPS = 5
+"""How often players tap between the director's undo and its page."""
+
 
 def tap(hall: Hall, phone: Phone, match: str, a: int, b: int) -> Shown:
     """Tap the score of a match in play on a player's phone."""
@@ -84,7 +87,7 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
     desk = busy.director.open("/desk").words
     assert "Undo: the call of W2.2 to table 4" in desk
     entry = busy.state.numbers[-2]
-    for k in range(25):
+    for k in range(TAPS):
         assert tap(busy, busy.guest, "W2.2", 2, 1 - k % 2).status == 200
         shown = busy.director.send("/desk/undo", entry=entry)
         assert shown.status == 200
@@ -94,7 +97,7 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
     assert busy.state.live["W2.2"].what.score == (2, 1)
     assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
     history = busy.director.open("/desk/history").text
-    assert history.count("<s>The call of W2.2 to table 4</s> (taken back)") == 25
+    assert history.count("<s>The call of W2.2 to table 4</s> (taken back)") == TAPS
 
 
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
