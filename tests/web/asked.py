@@ -7,8 +7,10 @@ import base64
 import json
 import re
 import urllib.parse
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from html import unescape
+from html.parser import HTMLParser
 from typing import Any, NamedTuple
 
 from itsdangerous import TimestampSigner
@@ -84,7 +86,7 @@ class Browser:
         self,
         method: str,
         path: str,
-        fields: Mapping[str, object] | None = None,
+        fields: Mapping[str, object] | Sequence[tuple[str, object]] | None = None,
         *,
         host: str = "localhost",
         body: bytes = b"",
@@ -156,3 +158,79 @@ def copy_of(browser: Browser, *, address: str = "127.0.0.8") -> Browser:
     same.kept = browser.token()
     same.cookies = dict(browser.cookies)
     return same
+
+
+@dataclass
+class Form:
+    """A form that is posted, as a page shows it.
+
+    Parameters
+    ----------
+    action
+        where it goes to.
+    fields
+        what it sends if nothing is done, in its order.
+    typed, choices
+        the fields that are typed in, and the values among which others are chosen.
+    words
+        what stands in it.
+    """
+
+    action: str
+    fields: list[tuple[str, str]] = field(default_factory=list)
+    typed: list[str] = field(default_factory=list)
+    choices: dict[str, list[str]] = field(default_factory=dict)
+    words: str = ""
+
+    def filled(self, **more: str) -> list[tuple[str, str]]:
+        """Return its fields with others, or with other values."""
+        return [*((name, value) for name, value in self.fields if name not in more), *more.items()]
+
+
+class _Reader(HTMLParser):
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.forms: list[Form] = []
+        self.inside = False
+        self.select = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        at = {name: value or "" for name, value in attrs}
+        if tag == "form":
+            self.inside = at.get("method") == "post"
+            if self.inside:
+                self.forms.append(Form(at["action"]))
+        if not self.inside:
+            return
+        form, name = self.forms[-1], at.get("name", "")
+        if tag == "input" and at.get("type") == "hidden":
+            form.fields.append((name, at["value"]))
+        elif tag == "input" and name:
+            form.typed.append(name)
+            form.fields.append((name, at.get("value", "")))
+        elif tag == "button" and name and "disabled" not in at:
+            form.choices.setdefault(name, []).append(at["value"])
+        elif tag == "select":
+            self.select = name
+            form.choices[name] = []
+        elif tag == "option" and self.select and "value" in at:
+            form.choices[self.select].append(at["value"])
+
+    def handle_data(self, data: str) -> None:
+        if not self.inside:
+            return
+        form = self.forms[-1]
+        form.words += data
+        if self.select and self.lasttag == "option" and data.strip():
+            form.choices[self.select].append(data.strip())
+
+    def handle_endtag(self, tag: str) -> None:
+        self.inside = self.inside and tag != "form"
+        if tag == "select":
+            self.select = ""
+
+
+def forms_of(got: Got) -> list[Form]:
+    """Return the forms of a page that are posted."""
+    return _Reader(got.text).forms

@@ -82,6 +82,16 @@ def test_the_director_alone_releases_a_side(hall: Hall) -> None:
         assert line in history
 
 
+def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hall: Hall) -> None:
+    for match in ("W1.1", "W1.2"):
+        hall.director.send("/desk/result", match=match, a=3, b=0, how="new")
+    one = Player(hall, "127.0.0.2", "W2.1")
+    assert hall.director.send("/desk/undo", entry=hall.state.numbers[-1]).status == 200
+    for shown in (one.claims(0), one.sends(1, 0), hall.director.send(f"{one.to}/release", me=0)):
+        assert shown.status == 409
+        assert "W2.1 is not being played now" in shown.words
+
+
 def test_claims_and_proposals_outlast_a_restart_and_hold_for_every_server(hall: Hall) -> None:
     owner = Player(hall, "127.0.0.2")
     owner.claims(0)

@@ -87,7 +87,7 @@ async def be(request: Request) -> Response:
     name, state = await _match(request)
     form = await form_of(request)
     _count_tap(request, name)
-    pair = state.pair(name)
+    pair = _players(state, name)
     await asyncio.to_thread(_claim, request, name, pair, pair[form.whole("me", 0, 1)])
     return done(request, f"/m/{request.path_params['token']}")
 
@@ -97,7 +97,7 @@ async def release(request: Request) -> Response:
     name, state = await _match(request)
     form = await form_of(request)
     check_director(request)
-    site, pair = site_of(request), state.pair(name)
+    site, pair = site_of(request), _players(state, name)
     player = pair[form.whole("me", 0, 1)]
 
     def decide(sides: Sides) -> Entry | None:
@@ -138,6 +138,13 @@ async def tap(request: Request) -> Response:
     key = form.key(request.url.path)
     await asyncio.to_thread(add_events, site.path, decide, by=by, form=key)
     return done(request, to)
+
+
+def _players(state: Evening, name: str) -> tuple[str, str]:
+    """Return who plays a match; refuse a page that was opened before somebody left it."""
+    if name not in state.standing.to_play and name not in state.counted:
+        raise RefusalError("refused_over", status=409, match=name)
+    return state.pair(name)
 
 
 def _count_tap(request: Request, name: str) -> None:

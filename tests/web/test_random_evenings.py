@@ -1,0 +1,214 @@
+"""Evenings by whatever forms the pages show: nothing played is lost, and every page agrees."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.night import Night
+from evenbreak.web.site import Site
+from tries import tries
+from web.asked import Browser, Form, Got, Room, forms_of
+
+EVENINGS = tries("evenings by forms", 3)
+STEPS = 25
+FORMS = {
+    "double": {"losers_race": 2}, "single": {"third_place": "on"}, "round-robin": {},
+    "swiss": {"rounds": 3}, "groups": {"groups": 2, "qualifiers": 1}, "chips": {"chips": "hoboken"},
+    "consolation": {}, "king-of-the-hill": {}, "pods": {"qualifiers": 2},
+}  # fmt: skip
+LEFT_ALONE = ("/desk/pin", "/leave", "/language", "/desk/save", "/pin", "/new", "/league/tonight")
+ODD = ("", "x", "-1", "1e3", "²", "9" * 30, "3:2", "<b>", " 2 ")
+
+
+class Played:
+    """An evening in play: the director, two phones, and tabs that were left open."""
+
+    def __init__(self, path: Path, seed: int) -> None:
+        self.luck = random.Random(seed)
+        seconds = itertools.count()
+        clock = lambda: f"2025-03-01T20:{(n := next(seconds)) // 60 % 60:02d}:{n % 60:02d}"  # noqa: E731
+        self.room = Room(Site(path, hosts=frozenset({"localhost"}), clock=clock))
+        self.path = path
+        self.director = Browser(self.room, director=True)
+        self.phones = [Browser(self.room, address=f"10.0.0.{k}") for k in (1, 2)]
+        self.stale: list[tuple[Browser, list[tuple[str, str]], Form]] = []
+        self.taken: set[str] = set()
+        self.last = ""
+        form = self.luck.choice(list(FORMS))
+        size = self.luck.choice((5, 6, 7, 8)) if form != "pods" else 16
+        names = [f"P{k:02d}" for k in range(size)]
+        plan = {
+            "entrants": "\n".join(f"{name},{700 - 20 * k}" for k, name in enumerate(names)),
+            "format": form, "races": "even", "race": 3, "tables": 3, "discipline": "8-ball",
+            "seeding": "", "scale": "fargo", **FORMS[form],
+        }  # fmt: skip
+        if form == "chips":
+            plan.pop("race")
+        got = self.director.send("/new", **plan)
+        assert got.status == 303, got.words
+        self.about = f"seed {seed}, {form} of {size}"
+
+    @property
+    def state(self) -> Evening:
+        return read_tournament(self.path)
+
+    def fill(self, form: Form) -> list[tuple[str, str]]:
+        """Fill a form in, mostly as somebody would who knows what they do."""
+        luck, more = self.luck, {}
+        for name in form.typed:
+            sense = {
+                "a": str(luck.choice((3, 3, 2, 1, 0))), "b": str(luck.choice((3, 2, 1, 0))),
+                "name": f"N{luck.randrange(20)}", "rating": luck.choice(("", "500")),
+                "tables": luck.choice(("", "2", "4")), "race": luck.choice(("", "", "2", "4")),
+            }.get(name, "")  # fmt: skip
+            more[name] = sense if luck.random() < 0.95 else luck.choice(ODD)
+        for name, values in form.choices.items():
+            more[name] = luck.choice([one for one in values if one] or [""])
+        return form.filled(**more)
+
+    def step(self) -> None:
+        """Let somebody send a form that they see, or saw a while ago."""
+        luck, before = self.luck, self.state
+        if self.stale and luck.random() < 0.15:
+            browser, fields, form = luck.choice(self.stale)
+        else:
+            browser, page = self.page(before)
+            shown = [one for one in forms_of(page) if one.action not in LEFT_ALONE]
+            if not shown:
+                return
+            form = self.chosen(shown)
+            fields = self.fill(form)
+            if luck.random() < 0.3:
+                self.stale.append((browser, fields, form))
+        question = self.sent(browser, fields, form)
+        if question is not None and luck.random() < 0.8:
+            if luck.random() < 0.2:  # somebody enters something before it is answered
+                self.step()
+            self.sent(browser, question.filled(sure="yes"), question)
+
+    def page(self, state: Evening) -> tuple[Browser, Got]:
+        """Return somebody's page, and whose it is."""
+        if state.drawn and state.standing.to_play and self.luck.random() < 0.35:
+            match = self.luck.choice(list(state.standing.to_play)[:3])
+            browser = self.luck.choice(self.phones)
+            return browser, browser.open(f"/m/{self.room.site.match_token(match)}")
+        return self.director, self.director.open("/desk")
+
+    def chosen(self, shown: list[Form]) -> Form:
+        """Choose results more often than anything else."""
+        weights = {"/desk/result": 6, "/desk/call": 4, "/desk/draw": 3, "/desk/drop": 0.4}
+        each = [weights.get(one.action, 1) for one in shown]
+        return self.luck.choices(shown, each)[0]
+
+    def sent(self, browser: Browser, fields: list[tuple[str, str]], form: Form) -> Form | None:
+        """Send a form and look at what became of it; return the question that it is asked."""
+        before, count = self.state, len(read_events(self.path))
+        got = browser.ask("POST", form.action, fields)
+        after = self.state
+        said = f"{self.about}: {form.action} {fields[2:]} -> {got.status} {got.words[-300:]}"
+        assert got.status in (200, 303, 400, 403, 409, 429), said
+        if got.status != 303:
+            assert len(read_events(self.path)) == count, said
+        question = next((one for one in forms_of(got) if one.action == form.action), None)
+        if got.status == 200:
+            assert question is not None, said
+            question.words += got.words
+        named = " ".join([form.words, *(value for _, value in fields)])
+        for match in lost(before, after):
+            assert match in named, f"{said}: lost {match}"
+        entered, key = dict(fields), repr(sorted(fields))
+        if key in self.taken:  # the answer may be as before, and nothing is entered again
+            assert len(read_events(self.path)) == count, said
+        elif got.status == 303 and form.action == "/desk/result":
+            there = after.counted.get(entered["match"])
+            pair = after.pair(entered["match"])
+            score = (there.games[pair[0]], there.games[pair[1]]) if there else None
+            assert score == (int(entered["a"]), int(entered["b"])), said
+        if got.status == 303:
+            self.taken.add(key)
+        self.last = said
+        return question if got.status == 200 else None
+
+    def look(self) -> None:
+        """Compare what the pages show with the file."""
+        state = self.state
+        again = Site(self.path).night.state()
+        assert again.events == state.events
+        history = self.director.open("/desk/history")
+        assert history.status == 200
+        for page in ("/", "/players", "/screen", "/bracket", "/desk/codes", "/prizes?fee=10"):
+            assert self.director.open(page).status in (200, 404), (self.last, page)
+        if not state.drawn or not state.counted:
+            return
+        rows = list(csv.DictReader(self.director.open("/results.csv").text.splitlines()))
+        exported = {
+            (row["match"], row["player_a"], row["player_b"], row["score_a"], row["score_b"])
+            for row in rows
+        }
+        desk, bracket = self.director.open("/desk"), self.director.open("/bracket").text
+        corrected = {
+            dict(form.fields)["match"]: (dict(form.fields)["a"], dict(form.fields)["b"])
+            for form in forms_of(desk)
+            if dict(form.fields).get("how") == "correct"
+        }
+        for name, result in played(state):
+            pair = state.pair(name)
+            score = str(result.games[pair[0]]), str(result.games[pair[1]])
+            assert {(name, *pair, *score), (name, *pair[::-1], *score[::-1])} & exported, self.last
+            assert corrected[name] == score, self.last
+            assert all(who in bracket for who in pair), self.last
+
+
+def played(state: Evening) -> Iterator[tuple[str, Any]]:
+    for name, result in state.counted.items():
+        if name in state.records and not result.forfeit:
+            yield name, result
+
+
+def lost(before: Evening, after: Evening) -> set[str]:
+    """Return the matches whose result, table or score has gone, and that have not just ended."""
+    if not before.drawn:
+        return set()
+    then = dict(played(before))
+    now = dict(played(after)) if after.drawn else {}
+    gone = {name for name, result in then.items() if now.get(name) != result}
+    if before.plan.form == "chips":  # racks have no score, and a table takes the next in the queue
+        return gone
+    on, live = (after.on_tables, after.live) if after.drawn else ({}, {})
+    for name, one in before.on_tables.items():
+        if name not in on and not (name in now and set(now[name].players) == set(one.call.players)):
+            gone.add(name)
+    for name, score in before.live.items():
+        ended = name in now and set(now[name].players) == set(score.what.players)
+        if any(score.what.score) and name not in live and not ended:
+            gone.add(name)
+    return gone
+
+
+@pytest.mark.parametrize("seed", range(EVENINGS))
+def test_an_evening_by_forms_loses_nothing_unsaid(
+    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def not_yet(_: Night) -> None:
+        """The odds are worked out beside, and have tests of their own."""
+
+    lots, drawn = np.random.default_rng(seed), np.random.default_rng
+    monkeypatch.setattr(np.random, "default_rng", lambda *given: drawn(*given) if given else lots)
+    monkeypatch.setattr(Night, "outlook", not_yet)
+    evening = Played(tmp_path / "tonight.db", seed)
+    for step in range(STEPS):
+        evening.step()
+        if step % 8 == 7:
+            evening.look()
+    evening.look()
+    evening.room.close()
