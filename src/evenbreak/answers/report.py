@@ -14,12 +14,12 @@ from evenbreak.answers.scale_words import decimals_of
 from evenbreak.answers.sheet import MOST_ON_SHEET, NO_RACE, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
+    heading,
     how_even,
     how_rated,
     how_to_read,
     played,
     rating_model,
-    source_and_dates,
 )
 from evenbreak.files.csv_writer import rows_of
 
@@ -57,7 +57,7 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
     )
     items = list(left_out(sheet, listed=listed, in_table=many))
     return Answer(
-        f"Fair races from {source_and_dates(sheet)}\n{played(sheet)}",
+        "\n".join([*heading(sheet), played(sheet)]),
         [
             " ".join([sheet.offered.in_words, *how_even(shown.paired)]),
             races,

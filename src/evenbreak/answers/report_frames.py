@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from evenbreak import __version__
-from evenbreak.answers.file_words import file_name
+from evenbreak.answers.file_words import file_name, fingerprints
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.files.results import ResultsFile
@@ -25,7 +25,7 @@ def summary_frame(
     first, last = dates_of(file.results, ratings.as_of)
     rows: dict[str, object] = {
         "results_file": file_name(file),
-        "results_sha256": file.sha256,
+        "results_sha256": fingerprints(file),
         "matches_read": len(file.results),
         "matches_used": ratings.matches,
         "forfeits_left_out": ratings.forfeits,

@@ -41,6 +41,8 @@ class Sheet:
         the tables of `Ratings.to_frame` and `matchups_frame`.
     choice
         how the prior was chosen, if it was.
+    title
+        what stands above it, such as the name of the league; '' for none.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -56,6 +58,7 @@ class Sheet:
     rated: pd.DataFrame
     paired: pd.DataFrame
     choice: PriorChoice | None = None
+    title: str = ""
 
     @classmethod
     def of(
@@ -65,10 +68,11 @@ class Sheet:
         offered: OfferedRaces,
         players: Sequence[int],
         choice: PriorChoice | None = None,
+        title: str = "",
     ) -> Sheet:
         """Return the sheet that pairs these players (positions in `ratings.players`)."""
         paired = matchups_frame(ratings, players, offered)
-        return cls(file, ratings, offered, ratings.to_frame(), paired, choice)
+        return cls(file, ratings, offered, ratings.to_frame(), paired, choice, title)
 
     def __repr__(self) -> str:
         return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
@@ -115,7 +119,9 @@ class Sheet:
     @cached_property
     def summary(self) -> pd.DataFrame:
         """What the sheet was made from and how: the table of summary.csv."""
-        return summary_frame(self.file, self.ratings, self.paired, self.offered)
+        made = summary_frame(self.file, self.ratings, self.paired, self.offered)
+        given = pd.DataFrame({"key": ["title"], "value": [self.title]}, dtype=object)
+        return pd.concat([given, made], ignore_index=True) if self.title else made
 
 
 def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from evenbreak.answers.file_words import file_name
+from evenbreak.answers.file_words import file_name, fingerprints
 from evenbreak.answers.form_words import form_used_words
 from evenbreak.answers.prior_words import level_words
 from evenbreak.answers.report_frames import count_groups, dates_of
@@ -20,6 +20,11 @@ def source_and_dates(sheet: Sheet) -> str:
     days = f", {first}" if first else ""
     days += f" to {last}" if last != first else ""
     return f"{file_name(sheet.file)}{days}"
+
+
+def heading(sheet: Sheet) -> list[str]:
+    """Return the title that was given, if any, and what the sheet is."""
+    return [*filter(None, [sheet.title]), f"Fair races from {source_and_dates(sheet)}"]
 
 
 def played(sheet: Sheet) -> str:
@@ -127,4 +132,4 @@ def version_and_source(sheet: Sheet) -> str:
     """Return what the sheet was made by, and from which bytes."""
     from evenbreak import __version__
 
-    return f"evenbreak {__version__}, from results with the SHA-256 {sheet.file.sha256[:12]}…"
+    return f"evenbreak {__version__}, from results with the SHA-256 {fingerprints(sheet.file, 12)}"

@@ -61,6 +61,8 @@ class ResultsFile:
         a warning if matches have neither a winner nor a race; a chart may still say who won.
     skipped
         how many rows were left out because of `skip_bad`.
+    read
+        the name and the fingerprint of each file that was read, where there are several.
     """
 
     results: Results
@@ -73,6 +75,7 @@ class ResultsFile:
     )
     ties: tuple[str, ...] = ()
     skipped: int = 0
+    read: tuple[tuple[str, str], ...] = ()
 
 
 def read_results(

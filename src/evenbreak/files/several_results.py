@@ -71,6 +71,7 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
         hashlib.sha256("".join(prints).encode()).hexdigest(),
         ties=tuple(text for file in found for text in file.ties),
         skipped=sum(file.skipped for file in found),
+        read=tuple((file.source, file.sha256) for file in found),
     )
 
 

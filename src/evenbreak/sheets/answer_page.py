@@ -12,6 +12,7 @@ from markupsafe import Markup
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import body_lines, part_lines
 from evenbreak.answers.file_warnings import warnings_of
+from evenbreak.answers.file_words import fingerprints
 from evenbreak.answers.parts import Part, Table
 from evenbreak.answers.remarks import Remarks
 from evenbreak.files.results import ResultsFile
@@ -87,7 +88,7 @@ def drawn_page(
         sections=sections,
         below=_parts(part for part in answer.details if not isinstance(part, Remarks)),
         made_of=made_of,
-        sha256=file.sha256,
+        sha256=fingerprints(file),
     )
 
 

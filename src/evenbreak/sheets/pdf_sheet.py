@@ -13,6 +13,7 @@ from evenbreak.answers.report_frames import count_groups
 from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
 from evenbreak.answers.sheet_words import (
     about_ratings,
+    heading,
     how_even,
     how_rated,
     how_to_read,
@@ -43,6 +44,7 @@ from evenbreak.sheets.pdf_page import (
     WIDTH,
     Paper,
     drawable,
+    fitted,
     pdf_bytes,
     shortened,
 )
@@ -56,7 +58,9 @@ LEADING = 1.45
 def sheet_pdf(sheet: Sheet) -> bytes:
     """Return the sheet as a PDF document, the same bytes every time."""
     with our_look():
-        return pdf_bytes(sheet_pages(sheet), f"Fair races from {file_name(sheet.file)}")
+        return pdf_bytes(
+            sheet_pages(sheet), sheet.title or f"Fair races from {file_name(sheet.file)}"
+        )
 
 
 def sheet_pages(sheet: Sheet) -> list[Figure]:
@@ -103,8 +107,10 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
 
 def _heading(page: Paper, sheet: Sheet, shown: Sheet) -> None:
-    page.text(MARGIN, MARGIN + 0.22, "Fair races", size=22, bold=True)
-    lines = [f"{source_and_dates(sheet)}. {played(sheet)}", sheet.offered.in_words]
+    title, size = fitted(sheet.title or "Fair races", 22, WIDTH - 2 * MARGIN, bold=True)
+    page.text(MARGIN, MARGIN + 0.22, title, size=size, bold=True)
+    source = heading(sheet)[-1] if sheet.title else source_and_dates(sheet)
+    lines = [f"{source}. {played(sheet)}", sheet.offered.in_words]
     for k, line in enumerate(lines):
         text = shortened(line, 10.0, WIDTH - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.5 + 0.2 * k, text, size=10.0)

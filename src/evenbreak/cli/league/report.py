@@ -25,6 +25,7 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
+from evenbreak.files.player_names import clean_name, is_name
 from evenbreak.files.problems import quoted
 from evenbreak.ratings.scale import Scale
 
@@ -42,7 +43,7 @@ Examples:
   evenbreak report season.csv --out sheet
   evenbreak report season.csv --out sheet --scale fargo --race-to 9
   evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
-  evenbreak report season.csv --out sheet --html --excel
+  evenbreak report season.csv --out sheet --html --excel --title "Tuesday league"
   evenbreak report season.csv --out sheet --prior 20 --half-life 365
 """
 
@@ -61,6 +62,13 @@ class ReportCommand(click.Command):
                     )
                     raise click.UsageError(message, ctx=ctx)
         return super().parse_args(ctx, args)
+
+
+def _title(ctx: click.Context, param: click.Parameter, value: str) -> str:  # noqa: ARG001
+    title = clean_name(value)
+    if title and not is_name(title):
+        refuse(f"--title has {len(title):,} letters, or some that cannot be printed; give a line")
+    return title
 
 
 @click.command("report", cls=ReportCommand, epilog=EXAMPLES)
@@ -87,6 +95,14 @@ class ReportCommand(click.Command):
 @players_file_option
 @results_options
 @click.option(
+    "--title",
+    metavar="TEXT",
+    default="",
+    show_default=False,
+    callback=_title,
+    help="What stands above the sheet, such as the league's name.  [default: none]",
+)
+@click.option(
     "--html", is_flag=True, help="Also write sheet.html, one file for phones, screens and printers."
 )
 @click.option("--excel", is_flag=True, help="Also write sheet.xlsx, a workbook of all tables.")
@@ -106,6 +122,7 @@ def command(
     top: int | None,
     players_file: str | None,
     reading: dict[str, Any],
+    title: str,
     html: bool,
     excel: bool,
     excel_csv: bool,
@@ -159,7 +176,7 @@ def command(
         hint = "" if given else " (or --top N, or --players to name them)"
         long = f": {pairs:,} pairs, which takes minutes" if pairs > MANY_PAIRS else ""
         say(f"Pairing {len(chosen):,} of them{why}{hint}{long}")
-    sheet = answers.Sheet.of(file, ratings, offered, chosen, choice)
+    sheet = answers.Sheet.of(file, ratings, offered, chosen, choice, title)
     write_folder(out, _files(sheet, html=html, excel=excel, excel_csv=excel_csv))
     answer = answers.report_answer(sheet)
     return replace(answer, warnings=[*warnings, *answer.warnings])
