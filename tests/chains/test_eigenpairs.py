@@ -1,11 +1,14 @@
 """The vectors of eigenvalue 1 and of the other roots of 1, by hand and by their equations."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
-from evenbreak.chains import chain_of
+from evenbreak.chains import chain_of, spectrum, stochastic_limit
 from evenbreak.chains.eigenpairs import SHIFT, UnitPairs, leading_pairs, roots_of_one
 from evenbreak.errors import AccuracyError
+from evenbreak.games import Race, Rack
 
 # From S play goes to the absorbing state W, or to a ring of three with a uniform law.
 RING = [("a", "b", 1.0), ("b", "c", 1.0), ("c", "a", 1.0)]
@@ -56,3 +59,38 @@ def test_a_defective_matrix_has_too_few_vectors() -> None:
     path = chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 3, 1.0)])
     with pytest.raises(AccuracyError, match="defective"):
         leading_pairs(path, UnitPairs(path), 3)
+
+
+@pytest.mark.parametrize(("m", "n"), [(1, 1), (7, 5), (25, 25)])
+def test_the_bound_of_a_limit_holds_against_fractions(m, n) -> None:
+    """The sum of all errors of the limit by eigenvectors of a race, from one state and from all."""
+    chain = chain_of(Race(m, n, Rack(0.55)))
+    found = spectrum(chain, k=m + n)
+    anywhere = np.full(len(chain), 1.0 / len(chain))
+    for start in (chain.start, anywhere):
+        exact = exact_limit_of(chain, start)
+        errors = (abs(Fraction(p) - q) for p, q in zip(found.limit(start), exact, strict=True))
+        assert float(sum(errors)) <= found.limit_error < 1e-13
+
+
+def exact_limit_of(chain, start):
+    """Return the limit in fractions, of the matrix as its floats are, by following the scores."""
+    matrix = chain.matrix
+    mass = [Fraction(p) for p in chain.density(start).tolist()]
+    for j in chain.structure.order.tolist():  # upstream first
+        arcs = range(matrix.indptr[j], matrix.indptr[j + 1])
+        moves = {int(matrix.indices[k]): Fraction(float(matrix.data[k])) for k in arcs}
+        if j not in moves:
+            out = sum(moves.values())
+            for i, p in moves.items():
+                mass[i] += mass[j] * p / out
+            mass[j] = Fraction(0)
+    return mass
+
+
+def test_a_long_race_is_answered_by_eigenvectors() -> None:
+    """Its 5,040 states bring no error of their own: each chance is a sum of few roundings."""
+    race = chain_of(Race(70, 70, Rack(0.55)))
+    exact = stochastic_limit(race).probability
+    found = stochastic_limit(race, via="eigen").probability
+    assert np.abs(found - exact).sum() <= UnitPairs(race).error < 1e-13

@@ -43,6 +43,7 @@ TOLERANCE = 1e-8
 SHIFT = 1.0 + 1e-10
 """As close to eigenvalue 1 as a factorisation can be made."""
 EPS = float(np.finfo(float).eps)
+_WIDE_EPS = float(np.finfo(np.longdouble).eps)
 _FLOOR = 1e-3
 
 
@@ -73,7 +74,7 @@ class UnitPairs:
                 self.left[i, states] = 1.0
                 self.right[states, i], error = _law(chain, np.sort(states))
                 worst = max(worst, error)
-            self.error = float(worst + self._set_chances() + n * EPS)
+            self.error = float(worst + self._set_chances() + rounding_of_limit(n))
 
     def _set_chances(self) -> float:
         """Fill in the chances from the transient states; return a bound on their error."""
@@ -104,6 +105,29 @@ class UnitPairs:
         """Return (SHIFT I - M)^-T y with the eigenvalues 1 projected out."""
         y = self._factors.solve(y - self.left.T @ (self.right.T @ y), trans="T")
         return np.asarray(y - self.left.T @ (self.right.T @ y))
+
+
+def limit_by(
+    right: NDArray[Any], left: NDArray[Any], v: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the limit R (L v) by the vectors of eigenvalue 1; see `rounding_of_limit`.
+
+    >>> limit_by(np.eye(2), np.array([[1.0, 0.25], [0.0, 0.75]]), np.array([0.5, 0.5]))
+    array([0.625, 0.375])
+    """
+    chances = [float(row.real.astype(np.longdouble) @ v) for row in left]
+    return np.asarray(right.real @ np.array(chances))
+
+
+def rounding_of_limit(n: int) -> float:
+    """Return a bound on the sum of the rounding errors of `limit_by`, over n states.
+
+    A chance L v of ending in a class is a sum in extended precision of terms that are not negative,
+    rounded once to a float. A state is in one closed class at most, so that R times the chances has
+    one product for it, rounded once more, and beside it only zeros. All are relative errors of
+    numbers that sum to 1.
+    """
+    return 2.0 * EPS + (n + 2) * _WIDE_EPS
 
 
 def _shifted(M: csc_array, n: int) -> csc_array:

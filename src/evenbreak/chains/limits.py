@@ -270,7 +270,7 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
     The vectors are solved for from the matrix. Those of reversible classes, which `spectrum` has
     in closed form, serve where the others are not accurate enough.
     """
-    from evenbreak.chains.eigenpairs import UnitPairs
+    from evenbreak.chains.eigenpairs import UnitPairs, limit_by
     from evenbreak.chains.spectrum import check_room, spectrum
 
     v, units = chain.density(start), int(chain.structure.closed.sum())
@@ -282,10 +282,11 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
         error, right, left = found.limit_error, found.right, found.left
     if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
-            f"the limit by eigenvectors may be wrong by {error:.1e}: the states are too many, or "
-            "other eigenvalues are too close to 1; use elimination, which loses no digits there"
+            f"the limit by eigenvectors is only proved to {error:.1e}, which is above "
+            f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1; use elimination, "
+            "which loses no digits there"
         )
-    limit = right @ (left @ v)
+    limit = limit_by(right, left, v)
     missed = float(np.abs(chain.matrix @ limit - limit).max())
     return Limit(chain, limit, _period_reached(chain, start), missed)
 

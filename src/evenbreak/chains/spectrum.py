@@ -29,6 +29,7 @@ from evenbreak.chains.eigenpairs import (
     TOLERANCE,
     UnitPairs,
     leading_pairs,
+    limit_by,
     no_basis,
     within_unit_disc,
 )
@@ -126,8 +127,7 @@ class Spectrum:
         """
         self._check_error()
         v = self.chain.density(start)
-        chances = self._left[: self.units] @ v
-        return np.asarray((self._right[:, : self.units] @ chances).real)
+        return limit_by(self._right[:, : self.units], self._left[: self.units], v)
 
     @property
     def gap(self) -> float:
