@@ -50,7 +50,7 @@ def test_where_nothing_fits_no_option_is_proposed(tmp_path, content):
     assert "--columns" not in caught.value.problems[0]
 
 
-TRIES = int(os.environ.get("EVENBREAK_TABLES", "300"))
+TRIES = int(os.environ.get("EVENBREAK_TABLES", "120"))
 PLAYERS = [f"{a} {b}" for a in ("Ann", "Bo", "Cy", "Di", "Élodie") for b in ("Lee", "Ng", "Żak")]
 SIDES = [
     *(("Heim", "Gast"), ("Spieler A", "Spieler B"), ("Xq", "Vw"), ("Name 1", "Name 2")),
