@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import time
 from pathlib import Path
 
 import numpy as np
@@ -217,3 +218,13 @@ def test_what_could_mean_something_else_is_said(tmp_path, text, said):
 )
 def test_what_could_mean_two_things_is_refused(tmp_path, text):
     assert read(tmp_path / "list.txt", text) is None
+
+
+@pytest.mark.parametrize("sign", ["x", ",", "\t", "9 ", "((", " -", "a 1"])
+def test_a_line_without_end_is_refused_at_once(tmp_path: Path, sign: str) -> None:
+    path, began = tmp_path / "list.txt", time.monotonic()
+    path.write_text(f"Ann Lee 612\n{sign * 40_000}\n", encoding="utf-8")
+    with pytest.raises(DataError, match="letters, which is no name") as caught:
+        read_entrants(path)
+    assert len(caught.value.problems) == 1
+    assert time.monotonic() - began < 5.0

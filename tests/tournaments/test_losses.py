@@ -5,12 +5,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from evenbreak.answers.tournament_night import night_answer
 from evenbreak.errors import InputError
 from evenbreak.tournaments import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Scored, Undone
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.losses import losses, matches_of
+from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.undoing import undo, undoable
 from tries import tries
 
@@ -202,3 +204,16 @@ def test_a_name_or_a_rating_is_corrected_in_its_place() -> None:
     assert evening(drawn).ratings.tolist() == [500.0, 620.0, 500.0]
     with pytest.raises(InputError, match="draw has been made"):
         moves.edit(evening(drawn), "Bo", name="Bob")
+
+
+def test_a_result_of_a_round_whose_draw_is_undone_is_set_aside_in_words() -> None:
+    entrants = tuple(Entrant(f"P{k}", 500.0) for k in range(4))
+    events = [Event(AT, Opened(Plan("swiss", 3, scale="fargo", rounds=2), entrants))]
+    events.append(Event(AT, moves.draw(evening(events), np.random.default_rng(1))))
+    events += [Event(AT, one) for one in moves.draw_next(evening(events), np.random.default_rng(2))]
+    name = evening(events).standing.to_play[0]
+    events.append(Event(AT, moves.result(evening(events), name, (3, 1)), "phones: P0 and P1"))
+    events.append(Event(AT, undo(evening(events))))
+    answer = night_answer(Outlook(evening(events), AT))
+    (warning,) = answer.warnings
+    assert f"in {name}, but the match is not drawn now" in warning

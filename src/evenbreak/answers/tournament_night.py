@@ -202,8 +202,10 @@ def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answe
 def _aside_words(state: Evening, result: Result) -> str:
     """Return what is to be done about a match that the wrong players have played."""
     name = result.match
-    seats = state.standing.seats[name]
-    if NOBODY in seats:
+    seats = state.standing.seats.get(name)
+    if seats is None:  # its draw was undone
+        now, play = "the match is not drawn now", ""
+    elif NOBODY in seats:
         now, play = "the match is not needed now", ""
     elif None in seats:
         waits = waits_for(state, name)
@@ -213,6 +215,8 @@ def _aside_words(state: Evening, result: Result) -> str:
         play = f"Play {name} again, "
     stand = f"let it stand (evenbreak tournament stand {name})"
     settle = f"{play}{stand}" if play else f"{stand[0].upper()}{stand[1:]}"
+    if seats is None:
+        settle = "Draw again"
     return (
         f"{score_words(result)} in {name}, but {now}; the result is kept but does not count. "
         f"{settle} or undo the correction"

@@ -176,6 +176,8 @@ def _connected(
     place: Path, part: Path | None = None, *, reading: bool = False
 ) -> Iterator[sqlite3.Connection]:
     """Connect to a file, or to the part that takes its place later; errors name the file."""
+    if place.is_dir():
+        raise DataError([f"{place} is a folder; name the file of a tournament"])
     try:
         with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
             yield base

@@ -23,6 +23,9 @@ _RATING_DIGITS = 3
 _HIGHEST_PLACE = 256
 """A number in front of a name that is higher than this is no place on a list."""
 
+_LONGEST_LINE = 1000
+"""Letters of a line: far more than a name and its numbers have."""
+
 _WRITE_IT = "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
 
 
@@ -69,11 +72,15 @@ def read_players(
         return read_table(path, required, optional, rows="players")
     problems = Problems(source)
     most = len(numbers)
-    found = _lines(lines, most)
+    for number, line in enumerate(lines, 1):
+        if len(line) > _LONGEST_LINE:
+            has = f"{quoted(line)} has {len(line):,} letters"
+            problems.add(number, f"{has}, which is no name; {_WRITE_IT}")
+    found = _lines([line if len(line) <= _LONGEST_LINE else "" for line in lines], most)
     warnings = _fronts(found, problems)
     rows = _with_numbers_after_blanks(found, most)
     _refuse_other_text(rows, problems)
-    if not rows:
+    if not rows and not len(problems):
         problems.add(None, "names nobody; write one player on each line")
     columns = {name: Texts.of([""] * len(rows)) for name in header.columns}
     columns["player"] = Texts.of([one.name for one in rows])
