@@ -10,7 +10,9 @@ import re
 from collections.abc import Callable, Collection, Sequence
 from itertools import combinations, pairwise
 
+from evenbreak.files.results_layout import WALKOVERS
 from evenbreak.matches.formats import BETWEEN
+from evenbreak.ratings.result_words import letters
 
 _SCORE = re.compile(rf"\d{{1,3}}\s*{BETWEEN}\s*\d{{1,3}}", re.ASCII)
 _CLOCK = re.compile(r"([01]?\d|2[0-3])[:.][0-5]\d", re.ASCII)
@@ -85,6 +87,10 @@ def _is_name(text: str) -> bool:
     return any(map(str.isalpha, text)) and not _DATE.fullmatch(text)
 
 
+def _is_score(text: str) -> bool:
+    return bool(_SCORE.fullmatch(text)) or letters(text) in WALKOVERS
+
+
 def _players(columns: Sequence[Column], known: Collection[str]) -> dict[str, str]:
     """Return the two columns that share the most cells: players are on either side."""
     missing = [name for name in ("player_a", "player_b") if name not in known]
@@ -119,7 +125,9 @@ def _scores(
 ) -> dict[str, str]:
     """Return the only column of scores, or the only two columns of games won by either."""
     scores = [
-        one for one in _of_kind(columns, _SCORE.fullmatch) if not _of_kind([one], _CLOCK.fullmatch)
+        one
+        for one in _of_kind(columns, _is_score)
+        if any(map(_SCORE.fullmatch, one[1])) and not _of_kind([one], _CLOCK.fullmatch)
     ]
     missing = [name for name in ("score_a", "score_b") if name not in known]
     if scores or len(missing) == 1:

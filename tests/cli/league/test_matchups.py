@@ -364,7 +364,6 @@ def test_another_scale_than_that_of_the_list_is_refused(run, fargo_list):
 
 @pytest.mark.parametrize("command", [
     ("rate", str(DATA / "demo_league.csv"), "--system", "npl", "--roster"),
-    ("sandbag", "watch", str(DATA / "demo_league.csv"), "--roster"),
     ("ladder", "--league"),
     ("ladder", "--compare", "--league"),
 ])  # fmt: skip
