@@ -1,5 +1,6 @@
 """Several programs on one file: whatever was acknowledged is in it, whoever opens and closes it."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -12,20 +13,26 @@ from pathlib import Path
 
 import pytest
 
+from evenbreak.files.match_phones import PROPOSED, phone_entries
+from evenbreak.files.team_night_store import read_team_events
 from evenbreak.files.tournament_store import (
     add_events,
     new_tournament,
     read_events,
     read_tournament,
 )
+from evenbreak.teams.evening.fold import team_evening
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
 from tries import tries
 from web.phones import Phone, free_port, running
+from web.test_who_may import TEAMS
 
 EVENINGS = tries("evenings of two processes", 1)
+EVENINGS_OF_PHONES = tries("evenings of phones at two servers", 1)
+NIGHTS = tries("team nights at two servers", 1)
 
 AT = "2025-03-01T19:30:00"
 MATCHES = 8
@@ -66,6 +73,7 @@ with opened(path) as base:
     sys.stdin.read()
 """
 EACH = """
+import itertools
 import json
 from click.testing import CliRunner
 from evenbreak.cli.program import program
@@ -223,3 +231,92 @@ def test_the_file_is_opened_through_sqlite_alone(tmp_path: Path) -> None:
     )
     said += ran.stderr
     assert "opened" not in said
+
+
+def by_phones(sites: list[Site], match: str, kept: list[str]) -> None:
+    """Let the two players of a match tap and propose, each at a server of their own."""
+    state, token = read_tournament(sites[0].path), sites[0].match_token(match)
+    pair = dict(zip(("player_a", "player_b"), state.pair(match), strict=True))
+    number = int(match.rpartition(".")[2])
+    for side, site in enumerate(sites):
+        phone = Phone(site, address=f"127.0.{side + 2}.{number}")
+        for score in ((1, 0), (1, 1), (5, 2)):
+            fields = {**pair, "a": score[0], "b": score[1], "me": side}
+            shown = phone.send(f"/m/{token}/score", **fields)
+            assert shown.status == 200, shown.words
+            kept.append(f"{match} {side} {score}")
+
+
+def test_what_phones_are_told_at_two_servers_is_in_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    begun(path)
+    with running(path) as site, server(path) as second:
+        for _ in range(EVENINGS_OF_PHONES):
+            matches = begun(path, in_place_of=len(read_events(path)))
+            kept: list[str] = []
+            threads = [
+                threading.Thread(target=by_phones, args=([site, second][::turn], match, kept))
+                for match, turn in zip(matches, itertools.cycle((1, -1)))
+            ]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            assert len(kept) == 6 * len(matches)
+            state = read_tournament(path)
+            assert {name: one.score for name, one in state.counted.items()} == dict.fromkeys(
+                matches, (5, 2)
+            )
+            proposed = [one for one in phone_entries(path) if one.kind == PROPOSED]
+            assert len(proposed) == 2 * len(matches)
+            taps = [one.what for one in state.events if isinstance(one.what, Scored)]
+            assert {one.match for one in taps} == {*matches}
+
+
+def test_what_captains_are_told_at_two_servers_is_in_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    with running(path) as site:
+        director = Phone(site, director=True)
+        assert director.send("/team/new", **TEAMS).status == 200
+        with server(path) as second:
+            for _ in range(NIGHTS):
+                events = read_team_events(path)
+                night = team_evening(events)
+                assert night is not None
+                phones = [Phone(at) for at in (site, second)]
+                for side, phone in enumerate(phones):
+                    pin = site.captain_pin(night.began, side)
+                    assert phone.send("/team/pin", pin=pin).status == 200
+                threads = [
+                    threading.Thread(target=captain, args=(phone, side, night.began))
+                    for side, phone in enumerate(phones)
+                ]
+                for thread in threads:
+                    thread.start()
+                for thread in threads:
+                    thread.join()
+                after = team_evening(read_team_events(path))
+                assert after is not None
+                assert [line.score for line in after.sets] == [(5, 3), (5, 3), (5, 3)]
+                assert director.send("/team/new", **TEAMS).status == 200
+
+
+def captain(phone: Phone, side: int, night: int) -> None:
+    """Hand in a line-up, and propose every result, each form twice."""
+    own = {"night": night, "by": side}
+    picks = {f"pick{k}": k - 1 for k in (1, 2, 3)}
+    for once in ("x", "x"):
+        assert phone.send("/team/hand", **own, **picks, once=f"{once}{night}").status == 200
+    other = 1 - side
+    while phone.site and not both_in(phone.site.path, other):
+        time.sleep(0.01)
+    for number in (1, 2, 3):
+        for once in ("y", "y"):
+            fields = {**own, "number": number, "a": 5, "b": 3, "once": f"{once}{number}{night}"}
+            shown = phone.send("/team/result", **fields)
+            assert shown.status in (200, 400), shown.words
+
+
+def both_in(path: Path, side: int) -> bool:
+    state = team_evening(read_team_events(path))
+    return state is not None and bool(state.sets[0].picks[side])
