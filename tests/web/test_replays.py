@@ -1,0 +1,155 @@
+"""Forms that come in several times at once, and again later: each is entered once at most."""
+
+from __future__ import annotations
+
+import asyncio
+import random
+import re
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from evenbreak.files.match_phones import phone_entries
+from evenbreak.files.team_night_store import read_team_events
+from evenbreak.files.tournament_store import read_events
+from evenbreak.web.app import make_app
+from evenbreak.web.night import Night
+from evenbreak.web.once import OF_THE_SESSION
+from evenbreak.web.site import Site
+from tries import tries
+from web.asked import Browser, Got, Room
+from web.test_who_may import NEW, TEAMS
+
+REPLAYS = tries("forms that come in again", 3)
+ANSWERS = (200, 303, 400, 403, 404, 409)
+NOT_HERE = {*OF_THE_SESSION, "/team/pin", "/team/leave", "/league", "/league/tonight", "/desk/save"}
+"""Routes that add no entry: those of a session, the league's, and a copy of the file."""
+
+
+class Hall:
+    """A drawn tournament and a team night, with a director, two players and two captains."""
+
+    def __init__(self, path: Path) -> None:
+        self.room = Room(Site(path, hosts=frozenset({"localhost"})))
+        self.path, site = path, self.room.site
+        self.director = Browser(self.room, director=True)
+        for where, fields in (("/new", NEW), ("/desk/draw", {}), ("/team/new", TEAMS)):
+            assert self.director.send(where, **fields).status == 303
+        (began,) = re.findall(r'name="night" value="(\d+)"', self.director.open("/team").text)[:1]
+        self.night = int(began)
+        self.pair = site.night.state().pair("W1.1")
+        self.captains = [Browser(self.room, address=f"10.0.1.{k}") for k in (1, 2)]
+        for side, browser in enumerate(self.captains):
+            pin = site.captain_pin(self.night, side)
+            assert browser.send("/team/pin", pin=pin).status == 303
+        self.players = [Browser(self.room, address=f"10.0.2.{k}") for k in (1, 2)]
+        for side, browser in enumerate(self.players):
+            assert browser.send(self.match("W1.1", "/me"), me=side).status == 303
+
+    def match(self, name: str, what: str) -> str:
+        return f"/m/{self.room.site.match_token(name)}{what}"
+
+    def entries(self) -> tuple[int, int, int]:
+        """Return how many entries there are: of the tournament, the team night, the phones."""
+        files = read_events(self.path), read_team_events(self.path), phone_entries(self.path)
+        return len(files[0]), len(files[1]), len(files[2])
+
+    def forms(self) -> dict[str, tuple[Browser, str, dict[str, Any]]]:
+        """Return a form of each route, as it would be taken once."""
+        site, director = self.room.site, self.director
+        state = site.night.state()
+        night: dict[str, Any] = {"night": self.night, "number": 1}
+        three = {"match": "W1.3"}
+        picks = {f"pick{k}": k - 1 for k in (1, 2, 3)}
+        tap = {"player_a": self.pair[0], "player_b": self.pair[1]}
+        return {
+            name: (browser, path, fields)
+            for name, browser, path, fields in [
+                ("call", director, "/desk/call", {"match": "W1.2", "table": 1}),
+                ("back", director, "/desk/back", {"match": "W1.2"}),
+                ("result", director, "/desk/result", {**three, "a": 3, "b": 1, "how": "new"}),
+                ("correct", director, "/desk/result",
+                 {**three, "a": 1, "b": 3, "how": "correct", "sure": "yes"}),
+                ("forfeit", director, "/desk/forfeit", {"player": "Hal", "sure": "yes"}),
+                ("drop", director, "/desk/drop", {"player": "Gus", "sure": "yes"}),
+                ("change", director, "/desk/change", {"tables": 3}),
+                ("undo", director, "/desk/undo", {"entry": state.numbers[-1], "sure": "yes"}),
+                ("late", director, "/desk/late", {"name": "Late Larry", "rating": 500}),
+                ("entrant", director, "/desk/entrant", {"player": "Ann", "name": "Annie"}),
+                ("draw", director, "/desk/draw", {}),
+                ("tiebreak", director, "/desk/tiebreak", {}),
+                ("stand", director, "/desk/stand", {"match": "W1.3"}),
+                ("pin", director, "/desk/pin", {}),
+                ("prizes", director, "/prizes", {"fee": 10, "added": 0, "payout": "60/40"}),
+                ("new", director, "/new", NEW),
+                ("team new", director, "/team/new", {**TEAMS, "team_a": "Others"}),
+                ("team undo", director, "/team/undo", {"seen": len(read_team_events(self.path))}),
+                ("hand", self.captains[0], "/team/hand", {**night, "by": 0, **picks}),
+                ("hand b", self.captains[1], "/team/hand", {**night, "by": 1, **picks}),
+                ("put", director, "/team/put", {**night, "by": "director", "team": 0, "pick": 0}),
+                ("propose", self.captains[0], "/team/result", {**night, "by": 0, "a": 5, "b": 3}),
+                ("set", director, "/team/result", {**night, "by": "director", "a": 5, "b": 3}),
+                ("tap", self.players[0], self.match("W1.1", "/score"), {**tap, "a": 1, "b": 0}),
+                ("full", self.players[0], self.match("W1.1", "/score"), {**tap, "a": 3, "b": 1}),
+                ("agree", self.players[1], self.match("W1.1", "/score"), {**tap, "a": 3, "b": 1}),
+                ("release", director, self.match("W1.1", "/release"), {"me": 0}),
+            ]
+        }  # fmt: skip
+
+
+async def together(browser: Browser, path: str, form: dict[str, Any], times: int) -> list[Got]:
+    return await asyncio.gather(*(browser.asking("POST", path, form) for _ in range(times)))
+
+
+@pytest.fixture
+def hall(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Hall]:
+    async def not_yet(_: Night) -> None:
+        """The odds are worked out beside."""
+
+    monkeypatch.setattr(Night, "outlook", not_yet)
+    found = Hall(tmp_path / "tonight.db")
+    with closing(found.room):
+        yield found
+
+
+def test_every_route_that_adds_an_entry_is_tried(hall: Hall) -> None:
+    posts = {
+        one.path
+        for one in make_app(hall.room.site).routes
+        if "POST" in (getattr(one, "methods", None) or ())
+    }
+    tried = {re.sub(r"/m/[^/]+", "/m/{token}", path) for _, path, _ in hall.forms().values()}
+    assert tried == posts - NOT_HERE
+
+
+@pytest.mark.parametrize("seed", range(REPLAYS))
+def test_a_form_is_entered_once_however_often_it_comes_in(hall: Hall, seed: int) -> None:
+    luck = random.Random(seed)
+    sent: list[tuple[Browser, str, dict[str, Any]]] = []
+    for number in range(14):
+        name, (browser, path, fields) = luck.choice(list(hall.forms().items()))
+        form = {"csrf": browser.token(), **fields, "once": f"{seed} {number}"}
+        before = hall.entries()
+
+        times = luck.randint(2, 4)
+        got = hall.room.loop.run_until_complete(together(browser, path, form, times))
+        said = (seed, name, [one.status for one in got], got[0].words[-200:])
+        assert all(one.status in ANSWERS for one in got), said
+        added = [now - then for now, then in zip(hall.entries(), before, strict=True)]
+        if name == "new":
+            assert added[0] <= 0, said
+        else:
+            assert added[0] <= 1, (said, added)
+        assert added[1] <= 1, (said, added)
+        assert added[2] <= 2, (said, added)  # both agree: the proposal, and that it is entered
+        if any(one.status == 303 for one in got):  # what is refused may come in again
+            sent.append((browser, path, form))
+        if sent and luck.random() < 0.5:
+            old, where, again = luck.choice(sent)
+            there = hall.entries()
+            shown = old.ask("POST", where, again)
+            assert shown.status in ANSWERS, (seed, where, shown.words[-200:])
+            assert hall.entries() == there, (seed, name, where, again)
