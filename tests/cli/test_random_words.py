@@ -15,7 +15,7 @@ from evenbreak.cli.program import program
 from files.test_mutated_files import CHIPS, LEVELS, TEAM, first
 from tries import tries
 
-WORDS = tries("words of a command", 60)
+WORDS = tries("words of a command", 30)
 LEFT_OUT = ("serve", "reproduce", "demo", "report", "sandbag power")
 """Those that run on, take long, or write more than a file."""
 

@@ -24,7 +24,7 @@ from tournament_nights import SAVED, night
 from tries import tries
 
 DATA = ROOT / "data"
-TAMPERED = tries("files for a command", 40)
+TAMPERED = tries("files for a command", 20)
 CHANGED = tries("files with a changed cell", 40)
 
 

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from evenbreak.cli.program import program
 from tries import tries
 
-MATCHES = tries("matches", 60)
+MATCHES = tries("matches", 40)
 CHANCES = (0.0, 1.0, 0.5, 1e-300, 5e-324, 1e-16, 1 - 2**-53, 0.999, 1e-3, 1 / 3, 0.55)
 ONE = Fraction(1)
 

@@ -14,7 +14,7 @@ from web.asked import Browser, Room
 from web.test_who_may import NEW, TEAMS
 
 PART = "--edge\r\nContent-Disposition: form-data"
-UPLOADS = tries("uploads", 30)
+UPLOADS = tries("uploads", 15)
 WHERE = {
     "/new": ("file", {**NEW, "entrants": ""}, first("demo_entrants.csv", 9)),
     "/league": ("file", {"scale": "fargo", "race": "5"}, first("demo_league.csv", 12)),
