@@ -1,5 +1,6 @@
 """The events of a tournament as CSV: out and in again they are the same."""
 
+import csv
 from pathlib import Path
 
 import pytest
@@ -7,7 +8,8 @@ import pytest
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament_matches import tournament_events_answer
 from evenbreak.errors import DataError
-from evenbreak.files.event_list import is_event_list, read_event_list
+from evenbreak.files.event_list import event_rows, is_event_list, read_event_list
+from evenbreak.files.tournament_store import new_tournament, read_events
 from evenbreak.handicaps import chart
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
@@ -38,11 +40,23 @@ HAPPENED = (
 
 
 def test_out_and_in_again(tmp_path: Path) -> None:
-    events = [Event(AT, what) for what in HAPPENED]
+    by = "director's page", "phone: Ann, the «first»", "phones: Ann and Bo", ""
+    events = [Event(AT, what, by[k % len(by)]) for k, what in enumerate(HAPPENED)]
     path = tmp_path / "events.csv"
     path.write_text("".join(to_csv(tournament_events_answer(events, "tonight"))))
     assert is_event_list(path)
     assert read_event_list(path) == events
+    new_tournament(tmp_path / "again.db", read_event_list(path))
+    assert read_events(tmp_path / "again.db") == events
+
+
+def test_a_list_of_an_earlier_version_has_no_authors(tmp_path: Path) -> None:
+    path = tmp_path / "events.csv"
+    rows = event_rows([Event(AT, what) for what in HAPPENED])
+    with path.open("w", newline="") as file:
+        csv.writer(file).writerows([("number", "at", "kind", "what"), *(r[:4] for r in rows)])
+    assert is_event_list(path)
+    assert read_event_list(path) == [Event(AT, what) for what in HAPPENED]
 
 
 def test_a_bracket_of_another_program_is_kept(tmp_path: Path) -> None:
@@ -64,6 +78,7 @@ def test_a_bracket_of_another_program_is_kept(tmp_path: Path) -> None:
     [
         ("1,x,opened,{}\n", "events.csv:2"),
         ("1,x,opened\n", "events.csv:2"),
+        ("1,x,opened,{},Ann,Bo\n", "events.csv:2"),
         ("1,x,undone,{}\n", "nothing to undo"),
         ("", "does not open"),
     ],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import http.client
 import random
 import re
+import secrets
 import socket
 import threading
 import urllib.error
@@ -83,9 +84,14 @@ class Phone:
             self.kept = found[1]
         return self.kept
 
+    def hidden(self) -> dict[str, str]:
+        """Return what every form of a page that is opened now carries unseen."""
+        begun = self.site.night.begun_at
+        return {"csrf": self.token(), "once": secrets.token_urlsafe(9), "begun": begun}
+
     def send(self, path: str, **fields: object) -> Shown:
         """Send a form of this phone."""
-        return self.send_raw(path, {"csrf": self.token(), **fields})
+        return self.send_raw(path, {**self.hidden(), **fields})
 
     def send_raw(self, path: str, fields: Mapping[str, object], **headers: str) -> Shown:
         """Send just these fields."""
@@ -95,7 +101,7 @@ class Phone:
 
     def send_files(self, path: str, files: Mapping[str, bytes], **fields: object) -> Shown:
         """Send a form of this phone with files."""
-        parts = {"csrf": self.token(), **fields}
+        parts = {**self.hidden(), **fields}
         edge, body = "edge-of-a-part", b""
         for name, content in parts.items():
             body += _part(edge, f'name="{name}"', str(content).encode())

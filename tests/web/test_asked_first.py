@@ -117,17 +117,24 @@ def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
     assert hall.state.entrants["Player 2"].rating == 655.0
 
 
-def test_a_phone_whose_player_has_left_the_match_is_told_so(busy: Hall) -> None:
-    match, token = "W2.2", busy.site.match_token("W2.2")
+def test_a_phone_is_told_when_others_play_the_match_that_it_opened(busy: Hall) -> None:
+    match, at = "W2.2", f"/m/{busy.site.match_token('W2.2')}"
     gone = busy.state.counted["W1.3"].winner
-    phones = {name: Phone(busy.site) for name in busy.state.pair(match)}
-    for k, phone in enumerate(phones.values()):
-        phone.send(f"/m/{token}/me", me=k)
-    assert "Game for" in phones[gone].open(f"/m/{token}").words
-    busy.director.send("/desk/result", **WRONG, sure="yes")
+    phones = {name: Phone(busy.site) for name in (*busy.state.pair(match), "a guest")}
     for name, phone in phones.items():
-        words = phone.open(f"/m/{token}").words
-        assert (f"{name} is no longer in {match}" in words) == (name == gone)
-        assert ("Game for" in words) == (name != gone)
+        assert "Game for" in phone.open(at).words
+        if name != "a guest":
+            phone.send(f"{at}/me", me=busy.state.pair(match).index(name))
+    busy.director.send("/desk/result", **WRONG, sure="yes")
+    now = " and ".join(busy.state.pair(match))
+    assert gone not in now
+    for name, phone in phones.items():
+        for _ in range(2):
+            words = phone.open(at).words
+            assert (f"{now} are in {match} now" in words) == (name not in now)
+            assert ("Game for" in words) == (name in now)
+    assert "Game for" in Phone(busy.site).open(at).words
+    fresh = next(k for k, name in enumerate(busy.state.pair(match)) if name not in phones)
+    assert "Game for" in phones["a guest"].send(f"{at}/me", me=fresh).words
     busy.director.send("/desk/result", **{**WRONG, "a": 3, "b": 1})
-    assert "Game for" in phones[gone].open(f"/m/{token}").words
+    assert "Game for" in phones[gone].open(at).words

@@ -76,8 +76,8 @@ def test_every_form_of_every_page_carries_a_number(six: Hall) -> None:
     for shown in pages_of(six, six.director):
         assert 'method="post"' in shown.text, shown.url
         for action, fields in Forms(shown.text).found:
-            assert {"csrf", "once"} <= fields.keys(), (shown.url, action)
             assert fields["once"], (shown.url, action)
+            assert fields["begun"] == six.site.night.begun_at, (shown.url, action)
             seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
     assert {"/desk/drop", "/new", "/prizes", "/league", "/m/{token}/score"} <= seen
 
@@ -119,7 +119,7 @@ FORMS: list[tuple[str, dict[str, Any], int]] = [
 def fields_of(hall: Hall, path: str, given: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of a form as the desk holds it, with those that are filled in."""
     held = [f for action, f in Forms(hall.director.open("/desk").text).found if action == path]
-    return (held[0] if held and not given else {"csrf": hall.director.token()}) | given
+    return (held[0] if held and not given else hall.director.hidden()) | given
 
 
 def twice(hall: Hall, path: str, fields: dict[str, Any], *, together: bool) -> list[Shown]:
@@ -165,7 +165,7 @@ def test_a_form_that_comes_in_twice_is_taken_once(six: Hall, together: bool) -> 
 
 
 def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
-    sent = {"player": "Ann", "sure": "yes", "once": "n", "csrf": six.director.token()}
+    sent = {**six.director.hidden(), "player": "Ann", "sure": "yes"}
     assert six.director.send_raw("/desk/drop", sent).status == 200
     entered = read_events(six.site.path)
     with running(six.site.path) as site:
@@ -173,6 +173,35 @@ def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
         shown = six.director.send_raw("/desk/drop", sent)
     assert "nothing was entered a second time" in shown.words.lower()
     assert read_events(six.site.path) == entered
+
+
+def test_a_form_without_its_number_is_refused(six: Hall) -> None:
+    before = read_events(six.site.path)
+    for path, given, _ in [*FORMS, ("/team/new", TEAMS, 0)]:
+        shown = six.director.send(path, **given, once="")
+        assert (shown.status, "another visit" in shown.words) == (400, True), path
+    assert (read_events(six.site.path), read_team_events(six.site.path)) == (before, [])
+
+
+def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) -> None:
+    six.director.send("/desk/result", match="W1.3", a=3, b=0, how="new")
+    pages = [(shown.url, Forms(shown.text).found) for shown in pages_of(six, six.director)]
+    stale = [(action, fields) for _, found in pages for action, fields in found]
+    six.site.clock = lambda: "2031-01-01T20:00:00"
+    held = dict(Forms(six.director.open("/new").text).found[0][1])
+    begun(six.director, NAMES, in_place_of=held["in_place_of"], format="double", tables=2)
+    before, secret = read_events(six.site.path), six.site.pin
+    assert before[0].at == "2031-01-01T20:00:00"
+    seen = set()
+    for action, fields in stale:
+        if action in OF_THE_SESSION or action.endswith("/me") or action.startswith("/team/"):
+            continue
+        shown = six.director.send_raw(action, fields)
+        assert shown.status == 409, (action, shown.words)
+        assert "Another tournament has started since" in shown.words
+        seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
+    assert {"/desk/result", "/desk/undo", "/desk/drop", "/new", "/m/{token}/score"} <= seen
+    assert (read_events(six.site.path), six.site.pin) == (before, secret)
 
 
 def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
@@ -185,7 +214,7 @@ def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
         plan = {"entrants": "Ann,1\nBo,2", "format": "single", "races": "even", "race": 3}
         more = {"tables": 2, "discipline": "9-ball", "seeding": "listed", "scale": "npl"}
         for _ in range(2):
-            assert director.send("/new", **plan, **more, once="e").status == 200
+            assert director.send("/new", **plan, **more, begun="", once="e").status == 200
             director.send("/desk/draw", once="d")
         assert [type(one.what).__name__ for one in read_events(site.path)] == ["Opened", "Drawn"]
 

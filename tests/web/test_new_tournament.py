@@ -260,7 +260,7 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
 
 
 def test_a_refusal_leads_back_to_where_it_came_from(hall: Hall) -> None:
-    token, site = hall.director.token(), hall.site
+    site = hall.site
     for came, back in (
         ("/desk", "/desk"),
         ("/fair?a=Ann", "/fair?a=Ann"),
@@ -268,12 +268,14 @@ def test_a_refusal_leads_back_to_where_it_came_from(hall: Hall) -> None:
         ("//elsewhere.example/x", "/desk"),
     ):
         shown = hall.director.send_raw(
-            "/desk/drop", {"csrf": token, "player": "Nobody"}, Referer=site.address + came
+            "/desk/drop",
+            {**hall.director.hidden(), "player": "Nobody"},
+            Referer=site.address + came,
         )
         assert shown.status == 400
         assert f'class="button" href="{back}"' in shown.text
     shown = hall.guest.send_raw(
-        "/desk/drop", {"csrf": hall.guest.token()}, Referer="http://elsewhere.example/x"
+        "/desk/drop", hall.guest.hidden(), Referer="http://elsewhere.example/x"
     )
     assert 'class="button" href="/"' in shown.text
 

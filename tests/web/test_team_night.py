@@ -268,6 +268,20 @@ def test_a_form_that_comes_in_twice_does_nothing_twice(night: Night) -> None:
     assert night.state.began == began
 
 
+def test_undo_names_the_entry_and_whose_it_is(night: Night) -> None:
+    night.put(0, "Ann")
+    shown = night.director.open("/team")
+    assert "Undo what the captain of Racks entered: Racks put up Ann in set 1" in shown.words
+    seen = re.search(r'name="seen" value="([^"]+)"', shown.text)
+    assert seen
+    night.put(1, "Wim")
+    assert night.direct("undo", seen=seen[1]).status == 409
+    night.direct("result", number=1, a=4, b=2)
+    assert "Undo: result of set 1: 4:2" in night.director.open("/team").words
+    german = Phone(night.site, director=True, language="de").open("/team").words
+    assert "Zurücknehmen: " in german
+
+
 def test_both_captains_at_the_same_moment_lose_nothing(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", order="blind") as night:
 

@@ -124,6 +124,9 @@ def lost_words(before: Evening, after: Evening) -> list[str]:
             said.append(f"{one.match}, {score_words(one.result)}, would no longer count.")
         elif one.table is None:
             said.append(f"{match} would end at {at}.")
+        elif after.drawn and after.plan.form == "chips" and one.match in after.on_tables:
+            now = " against ".join(after.pair(one.match))
+            said.append(f"{match} would be {now} on table {one.table}.")
         else:
             said.append(f"{match} would leave table {one.table}{f' at {at}' if at else ''}.")
     return said

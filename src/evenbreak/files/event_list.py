@@ -12,19 +12,15 @@ from evenbreak.files.encoding import text_of
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import evening
 
-TITLES = ("number", "at", "kind", "what")
+TITLES = ("number", "at", "kind", "what", "by")
+_BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no authors
 
 
-def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str]]:
-    """Return the rows below `TITLES`; the last holds the details as JSON."""
+def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str, str]]:
+    """Return the rows below `TITLES`; `what` holds the details as JSON."""
     return [
-        (
-            number,
-            event.at,
-            NAMES[type(event.what)],
-            json.dumps(as_dict(event.what)),
-        )
-        for number, event in enumerate(events, 1)
+        (number, one.at, NAMES[type(one.what)], json.dumps(as_dict(one.what)), one.by)
+        for number, one in enumerate(events, 1)
     ]
 
 
@@ -32,7 +28,7 @@ def is_event_list(path: str | Path) -> bool:
     """Return whether a file begins like a list of events."""
     try:
         with Path(path).open("rb") as file:
-            return file.read(64).removeprefix(b"\xef\xbb\xbf").startswith(",".join(TITLES).encode())
+            return file.read(64).removeprefix(b"\xef\xbb\xbf").startswith(_BEGINNING.encode())
     except OSError:
         return False
 
@@ -50,8 +46,8 @@ def read_event_list(path: str | Path) -> list[Event]:
     events = []
     for line, row in enumerate(reader, 2):
         try:
-            _, at, kind, what = row
-            events.append(Event(at, event_of(kind, json.loads(what))))
+            _, at, kind, what, by = row if len(row) == len(TITLES) else (*row, "")
+            events.append(Event(at, event_of(kind, json.loads(what)), by))
         except (InputError, ValueError) as error:
             raise DataError([f"{path}:{line}: is not an event of a tournament: {error}"]) from None
     try:

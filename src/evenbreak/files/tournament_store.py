@@ -78,6 +78,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
         base.executemany(_ADD, rows)
+        _sign(base, events)
 
     begin(path, write)
     return state
@@ -148,8 +149,7 @@ def add_events(
         if check:
             check(before, after)
         base.executemany(_ADD, _rows(added, len(earlier)))
-        if by:
-            _sign(base, len(earlier), len(added), by)
+        _sign(base, added, len(earlier))
         if form:
             base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
     return before, after
@@ -177,11 +177,12 @@ def _refuse_taken(base: sqlite3.Connection, form: str) -> None:
         raise TakenBeforeError("that was entered before; nothing was entered a second time")
 
 
-def _sign(base: sqlite3.Connection, count: int, added: int, by: str) -> None:
-    """Keep who entered the last events."""
-    base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
-    numbers = range(count + 1, count + added + 1)
-    base.executemany("INSERT INTO author VALUES (?, ?)", [(number, by) for number in numbers])
+def _sign(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> None:
+    """Keep who entered events after others."""
+    signed = [(number, one.by) for number, one in enumerate(events, count + 1) if one.by]
+    if signed:
+        base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
+        base.executemany("INSERT INTO author VALUES (?, ?)", signed)
 
 
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:

@@ -66,8 +66,8 @@ class Form:
         text = self.text(name)
         return default if not text and default is not None else whole(name, text, low, high)
 
-    def key(self, *more: str) -> str | None:
-        """Return what a form is known by if it comes in again; None if it has no number.
+    def key(self, *more: str) -> str:
+        """Return what a form is known by if it comes in again; refuse one without a number.
 
         Somebody who goes back and changes a field sends another form.
 
@@ -76,7 +76,7 @@ class Form:
         [True, True, False]
         """
         if not self.text("once"):
-            return None
+            raise RefusalError("refused_form")
         sent = sorted((k, repr(v)) for k, v in self.fields.multi_items() if k != "csrf")
         return hashlib.sha256(repr([*more, sent]).encode()).hexdigest()
 

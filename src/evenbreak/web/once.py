@@ -1,6 +1,6 @@
-"""Each form is taken once: a second tap on its button adds nothing, and is answered as the first.
+"""Each form is taken once, and only in the tournament whose page it was on.
 
-A double tap is answered from memory. What comes in later, or after a restart, is known by the
+A second tap on its button adds nothing, and is answered as the first. A double tap is answered from memory. What comes in later, or after a restart, is known by the
 number that the file keeps with the entry, and is told that it was taken before.
 """
 
@@ -18,7 +18,8 @@ from starlette.routing import Route
 
 from evenbreak.files.tournament_store import TakenBeforeError
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import done, language
+from evenbreak.web.page import begun_at, done, language
+from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token
 from evenbreak.web.words import say
 
@@ -61,17 +62,17 @@ def once_each(routes: Sequence[Route]) -> list[Route]:
 
 
 async def _taken(request: Request, route: Route, answers: _Answers) -> Response:
-    key = (await form_of(request)).key(request.url.path, form_token(request))
-    if key is None:
-        found: Response = await route.endpoint(request)
-        return found
+    form = await form_of(request)
+    key = form.key(request.url.path, form_token(request))
     while key in answers:
         if (first := await asyncio.shield(answers[key])) is not None:
             return _again(request, first)
     waiting = answers[key] = asyncio.get_running_loop().create_future()
     before, answer = dict(request.session), None
     try:
-        found = await route.endpoint(request)
+        if form.text("begun") != await asyncio.to_thread(begun_at, request):
+            raise RefusalError("refused_other_tournament", status=409)
+        found: Response = await route.endpoint(request)
         if isinstance(found, RedirectResponse):
             changed = {k: v for k, v in request.session.items() if before.get(k) != v}
             answer = _Answer(found.headers["location"], changed, time.monotonic())
@@ -81,7 +82,7 @@ async def _taken(request: Request, route: Route, answers: _Answers) -> Response:
     finally:
         waiting.set_result(answer)
         if answer is None:
-            del answers[key]
+            answers.pop(key, None)
         elif len(answers) > _MOST:
             answers.popitem(last=False)
 

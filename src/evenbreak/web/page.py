@@ -21,6 +21,7 @@ from starlette.routing import Match
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.wording import share, share_at_a_glance
+from evenbreak.errors import DataError
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
@@ -157,6 +158,7 @@ def page(
             director=is_director(request),
             csrf=form_token(request),
             once=secrets.token_urlsafe(9),
+            begun=begun_at(request),
             said=[tr(line) for line in request.session.pop(_SAID, [])],
             live=live,
             quick=quick,
@@ -165,6 +167,17 @@ def page(
         )
     )
     return HTMLResponse(shown, status_code=status)
+
+
+def begun_at(request: Request) -> str:
+    """Return when tonight's tournament was begun: what its forms are known by; '' if there is none.
+
+    A file that cannot be read has none: its pages say why.
+    """
+    try:
+        return site_of(request).night.begun_at
+    except DataError:
+        return ""
 
 
 def asked_again(

@@ -57,17 +57,18 @@ def test_a_whole_chip_night(begun, run):
         "player_b": "Ed",
         "state": "",
     }
-    fixed = begun("correct", "1", "ann", "--at", "19:09")
+    begun("correct", "1", "ann", "--at", "19:09", fails=2)  # R3 is in play
+    fixed = begun("correct", "1", "ann", "--at", "19:09", "--yes")
     assert (line(fixed), chips(fixed)["Bo"], chips(fixed)["Ann"]) == (["Bo"], 1, 2)
     times = begun("time", "--at", "19:09")
     assert times["finish_p10"] < times["finish_p50"] < times["finish_p90"]
     assert begun("time", "--tables", "1", "--at", "19:09")["finish_p50"] > times["finish_p50"]
     late = begun("late", "Flo", "--rating", "560", "--at", "19:10")
     assert (line(late), chips(late)["Flo"]) == (["Bo", "Flo"], 4)
-    gone = begun("drop", "Di", "--at", "19:11")
+    gone = begun("drop", "Di", "--at", "19:11", "--yes")
     assert (gone["next"][1]["player_b"], line(gone)) == ("Bo", ["Flo"])
-    assert line(begun("undo", "--at", "19:12")) == ["Bo", "Flo"]
-    begun("drop", "Di", "--at", "19:13")
+    assert line(begun("undo", "--at", "19:12", "--yes")) == ["Bo", "Flo"]
+    begun("drop", "Di", "--at", "19:13", "--yes")
     begun("forfeit", "Bo", "--at", "19:14")
     answer, exact = begun("next", "--at", "19:15"), []
     while answer.get("next"):

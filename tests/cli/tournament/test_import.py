@@ -122,8 +122,9 @@ program(["tournament", *{asked!r}, "--out", {str(out)!r}])
     assert read_tournament(out).entrants
 
 
-def test_a_database_is_not_taken_for_a_list(tmp_path: Path) -> None:
-    saved = tmp_path / "tonight.sqlite"
+@pytest.mark.parametrize("name", ["tonight.sqlite", "tonight.db"])
+def test_a_database_is_not_taken_for_a_list(tmp_path: Path, name: str) -> None:
+    saved = tmp_path / name
     shutil.copyfile(SAVED / "v0_2_0" / "tournament.db", saved)
     said = run("import", saved, "--out", tmp_path / "new.db")
     assert said.exit_code == 2

@@ -33,7 +33,8 @@ COMMANDS = {
 """Each command, in the module of its name, with its line of help."""
 
 
-_NAMES_IT = ("--file", "--out")
+_NAMES_IT = ("--file", "--out", "import")
+"""What stands before a file that has an option already, or is what is imported."""
 
 
 class _OfFile(LazyGroup):

@@ -58,10 +58,7 @@ def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Itera
         if (ended and not there[name].forfeit) or (name in about and not ended):
             continue
         table, score = None, None
-        swapped = (
-            before.plan.form == "chips" and name in on
-        )  # the rack goes on with the right player
-        if name in before.on_tables and not (ended or swapped or _plays(on.get(name), pair)):
+        if name in before.on_tables and not (ended or _plays(on.get(name), pair)):
             table = before.on_tables[name].call.table
         if name in before.live and not _plays(live.get(name), pair):
             games = before.live[name].what

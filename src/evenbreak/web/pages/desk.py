@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import hashlib
-import secrets
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -141,8 +140,7 @@ async def _enter(
 
 def _ask(request: Request, form: Form, said: Said, asked: _AskError) -> Response:
     """Ask whether it is meant, with the same number, so that two answers enter it once."""
-    fields: dict[str, Any] = {"once": secrets.token_urlsafe(9)} | dict(form.fields.items())
-    fields |= {"named": _name_of(asked.before, asked.after)}
+    fields = dict(form.fields) | {"named": _name_of(asked.before, asked.after)}
     for name in ("csrf", "sure"):
         fields.pop(name, None)
     lost = lost_words(asked.before, asked.after)

@@ -39,6 +39,8 @@ from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import address_of, check_director, phone_of
 from evenbreak.web.words import say
 
+_SEEN, _MOST_SEEN = "seen", 4
+
 
 async def match(request: Request) -> Response:
     """Show a match to its players."""
@@ -59,16 +61,32 @@ async def match(request: Request) -> Response:
     skill = state.ratings[seats[0]] - state.ratings[seats[1]]
     p_game = float(state.scale.win_probability(skill))
     entries = await asyncio.to_thread(phone_entries, site_of(request).path, name)
-    sides, phone = sides_between(entries, one.players), phone_of(request)
-    claimed = [entry.player for entry in entries if (entry.kind, entry.phone) == (CLAIMED, phone)]
+    sides = sides_between(entries, one.players)
+    me = sides.of(phone_of(request))
     shown |= {
         "one": one,
         "odds": _odds(one, p_game),
-        "me": sides.of(phone),
-        "left": claimed[-1] if claimed and claimed[-1] not in one.players else "",
+        "me": me,
+        "of_others": _is_of_others(request, shown["token"], one.players, bool(me)),
         "sides": sides,
     }
     return page(request, "match.html", live=True, **shown)
+
+
+def _is_of_others(request: Request, token: str, pair: tuple[str, str], mine: bool) -> bool:
+    """Return whether others played the match when this phone opened it for the first time.
+
+    Whom it has seen is kept in its session, until its holder says who of the new pair they are.
+    """
+    kept = request.session.get(_SEEN)
+    seen = kept if isinstance(kept, dict) else {}
+    before = seen.get(token)
+    if before and set(before) != set(pair) and not mine:
+        return True
+    if before != list(pair):
+        last = [one for one in seen.items() if one[0] != token][1 - _MOST_SEEN :]
+        request.session[_SEEN] = {**dict(last), token: list(pair)}
+    return False
 
 
 def _odds(one: MatchView, p_game: float) -> tuple[float, float, float]:

@@ -20,6 +20,7 @@ from evenbreak.answers.team_night import (
     waiting_words,
 )
 from evenbreak.web.page import page, site_of
+from evenbreak.web.pages.desk import BY
 from evenbreak.web.sessions import captain_of, check_director, is_director
 from evenbreak.web.team_captain import captain_values
 from evenbreak.web.team_night import TeamNow, night_on
@@ -77,7 +78,9 @@ def _for_director(request: Request, now: TeamNow) -> dict[str, Any]:
     return {
         "pins": [(name, site.captain_pin(state.began, k)) for k, name in enumerate(state.teams)],
         "seen": len(now.events),
-        "last": last_words(state),
+        "by": BY,
+        "last": state.last,
+        "said": last_words(state),
         "number": line.number if line else 0,
         "options": {} if state.sealed else {k: plain_options(state, k) for k in state.due},
     }

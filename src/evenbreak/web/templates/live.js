@@ -20,7 +20,7 @@
   const holds = (one) => one.nodeType === 1 && [one, ...one.querySelectorAll("form")].some(held);
 
   // What a part of the page is known by: a form by where it goes and what it sends unasked.
-  const sent = (form) => fields(form).filter((one) => one.type === "hidden" && !["csrf", "once"].includes(one.name));
+  const sent = (form) => fields(form).filter((one) => one.type === "hidden" && !["csrf", "once", "begun"].includes(one.name));
   const name = (one) => one.nodeType !== 1 ? one.nodeName : one.tagName !== "FORM"
     ? `${one.tagName} ${one.dataset.key || (one.tagName === "DETAILS" && one.firstElementChild.textContent) || ""}`
     : [one.getAttribute("action"), ...sent(one).map((field) => `${field.name}=${field.value}`)].join(" ");
