@@ -1,7 +1,8 @@
 """Each form is taken once, and only in the tournament whose page it was on.
 
-A second tap on its button adds nothing, and is answered as the first. A double tap is answered from memory. What comes in later, or after a restart, is known by the
-number that the file keeps with the entry, and is told that it was taken before.
+A second tap on its button adds nothing, and is answered as the first: a double tap from memory;
+what comes in later, or after a restart, is known by the number that the file keeps with the entry,
+and is told that it was taken before.
 """
 
 from __future__ import annotations
