@@ -25,7 +25,7 @@ from tries import tries
 
 DATA = ROOT / "data"
 TAMPERED = tries("files for a command", 20)
-CHANGED = tries("files with a changed cell", 40)
+CHANGED = tries("files with a changed cell", 20)
 
 
 def first(name: str, rows: int = 25) -> str:

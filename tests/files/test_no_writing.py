@@ -66,7 +66,7 @@ def undo(path: Path) -> None:
 def test_what_can_only_be_read_is_shown(folder: Path, modes: tuple[int, int]) -> None:
     path = folder / "tonight.db"
     expected = tournament(path)
-    show = ["tournament", "show", "--file", str(path)]
+    show = ["tournament", "export", "--file", str(path)]
     shown = CliRunner().invoke(program, show).stdout
     path.chmod(modes[0])
     folder.chmod(modes[1])
@@ -77,7 +77,8 @@ def test_what_can_only_be_read_is_shown(folder: Path, modes: tuple[int, int]) ->
         with pytest.raises(DataError, match=r"^tonight.db can(not be opened| only be read)"):
             undo(path)
         said = CliRunner().invoke(program, show)
-    assert (said.exit_code, said.stdout.splitlines()[:3]) == (0, shown.splitlines()[:3])
+    assert (said.exit_code, said.stdout) == (0, shown)
+    assert shown.count("\n") > 3
 
 
 def test_on_a_full_disk_the_file_is_shown_and_an_entry_refused(folder: Path) -> None:

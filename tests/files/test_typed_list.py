@@ -13,7 +13,7 @@ from evenbreak.files.entrants import read_entrants
 from evenbreak.files.roster import RosterFile
 from tries import tries
 
-TRIES = tries("pasted lists", 120)
+TRIES = tries("pasted lists", 60)
 
 FIRST = ("Ann", "Bo", "José", "Élodie", "Łukasz", "D’Angelo", "Mei-Lin", "J. R.", "Zoë", "Đặng")
 LAST = (

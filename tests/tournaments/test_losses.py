@@ -17,7 +17,7 @@ from evenbreak.tournaments.evening.undoing import undo, undoable
 from tries import tries
 
 AT = "2025-03-01T20:00:00"
-TRIES = tries("moves of a tournament", 12)
+TRIES = tries("moves of a tournament", 6)
 PHONE = "phone: Ann"
 
 

@@ -14,7 +14,7 @@ from tries import tries
 from web.conftest import Hall
 from web.phones import Phone
 
-TRIES = tries("heads of requests", 250)
+TRIES = tries("heads of requests", 100)
 
 PATHS = [
     *("/", "/players", "/bracket", "/screen", "/fair", "/prizes", "/league", "/team", "/pin"),

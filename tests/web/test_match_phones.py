@@ -9,7 +9,7 @@ from tries import tries
 from web.conftest import Hall, begun
 from web.phones import Phone, Shown, running, two_phones
 
-SEEDS = tries("taps of one address", 8)
+SEEDS = tries("taps of one address", 4)
 
 
 class Player:

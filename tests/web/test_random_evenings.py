@@ -20,7 +20,7 @@ from evenbreak.web.site import Site
 from tries import tries
 from web.asked import Browser, Form, Got, Room, forms_of
 
-EVENINGS = tries("evenings by forms", 3)
+EVENINGS = tries("evenings by forms", 2)
 STEPS = 25
 FORMS = {
     "double": {"losers_race": 2}, "single": {"third_place": "on"}, "round-robin": {},
