@@ -18,6 +18,7 @@ from starlette.applications import Starlette
 
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.site import Site
+from web.phones import carried
 
 
 class Got(NamedTuple):
@@ -75,7 +76,11 @@ class Browser:
 
     def send(self, path: str, **fields: object) -> Got:
         """Send a form of this browser."""
-        return self.ask("POST", path, {"csrf": self.token(), **fields})
+        return self.ask("POST", path, {**self.hidden(), **fields})
+
+    def hidden(self) -> dict[str, str]:
+        """Return what every form of a page that is opened now carries unseen."""
+        return carried(self.room.site, self.token())
 
     def told(self, path: str, **fields: object) -> Got:
         """Send a form, and open the page that it leads to."""

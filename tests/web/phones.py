@@ -86,8 +86,7 @@ class Phone:
 
     def hidden(self) -> dict[str, str]:
         """Return what every form of a page that is opened now carries unseen."""
-        begun = self.site.night.begun_at
-        return {"csrf": self.token(), "once": secrets.token_urlsafe(9), "begun": begun}
+        return carried(self.site, self.token())
 
     def send(self, path: str, **fields: object) -> Shown:
         """Send a form of this phone."""
@@ -120,6 +119,11 @@ class Phone:
         except urllib.error.HTTPError as error:
             text = error.read().decode("utf-8", "replace")
             return Shown(error.code, text, error.url or "", error.headers)
+
+
+def carried(site: Site, token: str) -> dict[str, str]:
+    """Return the hidden fields of a form, as a page shows them now."""
+    return {"csrf": token, "once": secrets.token_urlsafe(9), "begun": site.night.begun_at}
 
 
 def _part(edge: str, named: str, content: bytes) -> bytes:

@@ -32,7 +32,7 @@ def room(tmp_path: Path) -> Iterator[Room]:
 def sent(browser: Browser, path: str, name: str, content: bytes, fields: dict[str, object]):
     """Send a form with a file."""
     body = b""
-    for key, value in {"csrf": browser.token(), **fields}.items():
+    for key, value in {**browser.hidden(), **fields}.items():
         body += (
             f'--edge\r\nContent-Disposition: form-data; name="{key}"\r\n\r\n{value}\r\n'.encode()
         )

@@ -160,7 +160,7 @@ class Rooms:
             path += "?name=Ann"
         if method == "GET":
             return browser.ask("GET", path, host=host)
-        return browser.ask(method, path, {"csrf": browser.token(), **self.fields(route, role)},
+        return browser.ask(method, path, {**browser.hidden(), **self.fields(route, role)},
                            host=host)  # fmt: skip
 
 
