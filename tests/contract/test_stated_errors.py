@@ -152,6 +152,15 @@ def test_every_command_with_a_seed_is_tried() -> None:
     assert {name.partition(",")[0] for name in CASES} | {*LOTS} == seeded
 
 
+def test_every_answer_that_plays_evenings_out_states_its_error() -> None:
+    """Those under way have no seed, and draw all the same; `test_faces` holds them to this."""
+    shapes = json.loads((ROOT / "docs" / "reference" / "answers.schema.json").read_text("utf-8"))
+    names = {name: shape.get("required", []) for name, shape in shapes["$defs"].items()}
+    drawn = {name for name, required in names.items() if "finish_p90" in required}
+    assert drawn == {f"tournament {name}" for name in ("time", "next", "show")}
+    assert {name for name, required in names.items() if "finish_error" in required} == drawn
+
+
 @cache
 def files(folder: Path) -> dict[str, str]:
     """Small files to ask about."""
@@ -198,6 +207,8 @@ def test_seeds_differ_by_the_error_stated(
     monkeypatch.chdir(ROOT)
     # Pictures take longer than all the rest.
     monkeypatch.setattr("evenbreak.cli.league.simulate._pictures", lambda _: {})
+    # Fewer draws have larger errors, which must be the ones stated.
+    monkeypatch.setattr("evenbreak.answers.lineup.MOST_DRAWS", 50)
     found = figures(name, tmp_path)
     keys = [key for key in found[0] if all(key in each for each in found)]
     values, errors = (

@@ -1,6 +1,5 @@
 """The option --columns that a message proposes, and that it works as it stands."""
 
-import os
 import re
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 
 from evenbreak.errors import DataError
 from evenbreak.files.results import read_results
+from tries import tries
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_where_nothing_fits_no_option_is_proposed(tmp_path, content):
     assert "--columns" not in caught.value.problems[0]
 
 
-TRIES = int(os.environ.get("EVENBREAK_TABLES", "120"))
+TRIES = tries("proposals", 60)
 PLAYERS = [f"{a} {b}" for a in ("Ann", "Bo", "Cy", "Di", "Élodie") for b in ("Lee", "Ng", "Żak")]
 SIDES = [
     *(("Heim", "Gast"), ("Spieler A", "Spieler B"), ("Xq", "Vw"), ("Name 1", "Name 2")),
