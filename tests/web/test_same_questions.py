@@ -13,6 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.league.report import command as report
+from evenbreak.cli.match.fair import command as fair
 from evenbreak.cli.program import program
 from evenbreak.cli.team.lineup import command as lineup
 from evenbreak.cli.tournament.new import command as new
@@ -108,6 +109,17 @@ def test_a_tournament_has_the_same_limits_on_the_page(director: Phone, name: str
     found = re.search(r"from ([\d,]+) to ([\d,]+)", refused)
     assert found, refused
     assert [int(end.replace(",", "")) for end in found.groups()] == [kind.min, kind.max]
+
+
+def test_a_race_has_the_same_limits_on_the_page(director: Phone) -> None:
+    ends = [option(one, "race_to").type for one in (report, fair)]
+    assert ends[0].to_info_dict() == ends[1].to_info_dict()
+    allowed = f"from {ends[0].min} to {ends[0].max}"  # type: ignore[attr-defined]
+    page = director.open("/fair", a="612", b="540", scale="fargo", race=10**6)
+    assert allowed in page.words
+    results = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n"
+    asked = {"results": results, "scale": "fargo", "race": 10**6}
+    assert allowed in director.send("/league", **asked).words
 
 
 def test_a_league_and_a_team_night_have_the_same_scale_on_the_page(director: Phone) -> None:

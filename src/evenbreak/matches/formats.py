@@ -16,7 +16,9 @@ from evenbreak.games.rack import Rack
 BETWEEN = r"[:/\-–—−]"
 """What may stand between the two numbers of a race or a score, as a regular expression."""
 
-_LONGEST = 1000
+LONGEST = 1000
+"""The most games that a race, a lead or a score can have."""
+
 _WAYS = (
     "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
     "perhaps followed by 'winner breaks'"
@@ -184,8 +186,8 @@ def match_format(text: str) -> MatchFormat:
             raise InputError(f"{text!r} is not a match format; write {_WAYS}")
         kind, *numbers = part.groups(default="")
         m, n, win_by = (int(number or 1) for number in numbers)
-        if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= _LONGEST:
-            raise InputError(f"{text!r} has a number that is not from 1 to {_LONGEST}; correct it")
+        if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:
+            raise InputError(f"{text!r} has a number that is not from 1 to {LONGEST}; correct it")
         if kind == "ahead " and win_by > 1:
             raise InputError(f"{text!r}: 'ahead' does not go with 'win by'; leave one out")
         innermost = found is None

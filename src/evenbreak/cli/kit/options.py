@@ -10,8 +10,9 @@ import click
 
 from evenbreak.chains.ways import WAYS
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.values import LONGEST, NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
+from evenbreak.cli.kit.values import NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
+from evenbreak.matches.formats import LONGEST
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 

@@ -10,10 +10,7 @@ from typing import Any, NoReturn
 
 import click
 
-from evenbreak.matches.formats import BETWEEN
-
-LONGEST = 1000
-"""The most games that a race, a lead or a score can have here."""
+from evenbreak.matches.formats import BETWEEN, LONGEST
 
 MOST_BALLS = 100_000
 """The most balls that an option can name."""

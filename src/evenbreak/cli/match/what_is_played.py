@@ -7,9 +7,10 @@ import click
 from evenbreak.answers.two_players import TwoPlayers
 from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.players import players_of
-from evenbreak.cli.kit.values import LONGEST, PAIR, SCORE, Whole, refuse
+from evenbreak.cli.kit.values import PAIR, SCORE, Whole, refuse
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
+from evenbreak.matches.formats import LONGEST
 
 MOST_SCORES = 10_000
 """The most scores that a match may still come to, so that every answer takes seconds."""

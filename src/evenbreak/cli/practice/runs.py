@@ -9,7 +9,8 @@ from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.values import CHANCE, LONGEST, MOST_BALLS, Number, TwoWhole, Whole, refuse
+from evenbreak.cli.kit.values import CHANCE, MOST_BALLS, Number, TwoWhole, Whole, refuse
+from evenbreak.matches.formats import LONGEST
 
 AVERAGE = Number(0, MOST_BALLS, f"; give a number of balls an inning from 0 to {MOST_BALLS}")
 LINE = Number(0, MOST_BALLS, f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5")

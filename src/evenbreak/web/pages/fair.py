@@ -13,6 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
 from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
+from evenbreak.matches.formats import LONGEST
 from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of
 from evenbreak.ratings.unstated_scale import unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
@@ -41,7 +42,7 @@ async def fair(request: Request) -> Response:
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
     stated = _scale(request, state, league)
-    length = Form(request.query_params).whole("race", 1, 100, default=7)
+    length = Form(request.query_params).whole("race", 1, LONGEST, default=7)
     shown: dict[str, Any] = {
         "asked": asked,
         "length": length,

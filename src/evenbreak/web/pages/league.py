@@ -15,6 +15,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament_matches import tournament_matches_answer
+from evenbreak.matches.formats import LONGEST
 from evenbreak.ratings.scale import NAMES, SCALES
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.fold import Evening
@@ -88,7 +89,7 @@ async def give(request: Request) -> Response:
         raise RefusalError("refused_nothing")
     found = _league(request)
     scale = form.one_of("scale", tuple(SCALES))
-    race = form.whole("race", 1, 100, default=7)
+    race = form.whole("race", 1, LONGEST, default=7)
     await asyncio.to_thread(found.keep, content, scale, race)
     found.begin()
     return done(request, "/league", say(language(request), "league_taken"))
