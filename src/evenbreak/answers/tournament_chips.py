@@ -8,20 +8,19 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.finish_words import finish_luck, finish_quantities
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
 from evenbreak.answers.tournament_what_if import WORTH_SAYING, moves_words
 from evenbreak.answers.wording import clock, count_of, share
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.event_pace import event_pace
-from evenbreak.tournaments.clock.finish import QUANTILES
+from evenbreak.tournaments.clock.finish import bands_of
 from evenbreak.tournaments.evening.events import Result, as_dict
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import score_words
 from evenbreak.tournaments.evening.outlook import Outlook
-
-_KEYS = ("finish_p10", "finish_p50", "finish_p90")
 
 
 def chip_heading(state: Evening) -> str:
@@ -113,13 +112,15 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
     odds = night.odds
     words = list(said)
     parts: list[Part] = []
+    luck: list[Part] = []
     if playing:
         parts.append(_tables(night))
-        bands = _bands(night)
-        parts.insert(0, Quantities([Quantity(k, v) for k, v in zip(_KEYS, bands, strict=True)]))
+        finishes = night.chip_finishes()
+        parts.insert(0, finish_quantities(finishes))
+        luck.append(finish_luck(finishes))
         begun = minute_of_day(night.start)
         words += [f"Next in the line: {name}." for name in state.chip_night.line[:1]]
-        words.append(ends_words(*(begun + at for at in bands)))
+        words.append(ends_words(*(begun + at for at in bands_of(finishes)[0])))
     else:
         words += [f"{name} wins the tournament." for name in state.chip_night.order]
     table = _players(night, playing=playing)
@@ -135,17 +136,8 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
         "then; the rack is kept but does not count, and its chip is given back"
         for one in state.aside
     ]
-    return Answer(
-        heading, ["\n".join(words), *parts, table], warnings=warnings, data=data, csv=table
-    )
-
-
-def _bands(
-    night: Outlook, *, tables: int | None = None, turnover: Turnover | None = None
-) -> list[float]:
-    found = night.chip_finishes(tables=tables, turnover=turnover)
-    bands: list[float] = np.quantile(found, QUANTILES).tolist()
-    return bands
+    shown: list[Part] = ["\n".join(words), *parts, table]
+    return Answer(heading, shown, details=luck, warnings=warnings, data=data, csv=table)
 
 
 def _tables(night: Outlook) -> Table:
@@ -215,14 +207,16 @@ def chip_time_answer(
     if len(state.chip_night.order) < 2:
         raise InputError("all racks have been played")
     usual = state.plan.tables if tables is None else tables
-    bands = _bands(outlook, tables=usual, turnover=turnover)
+    finishes = outlook.chip_finishes(tables=usual, turnover=turnover)
+    bands, _ = bands_of(finishes)
     begun = minute_of_day(outlook.start)
     words = ends_words(*(begun + at for at in bands))
     changes = {"one_more_table": usual + 1, "one_table_fewer": usual - 1}
     rows = []
     for key, many in changes.items():
         if many:
-            later = _bands(outlook, tables=many, turnover=turnover)[1] - bands[1]
+            moved = outlook.chip_finishes(tables=many, turnover=turnover)
+            later = float(np.median(moved)) - bands[1]
             rows.append([key, f"With {key.replace('_', ' ')}", later])
             if key == "one_more_table" and later <= -WORTH_SAYING:
                 words += f" With one more table it would end {clock(-later)} earlier."
@@ -232,11 +226,7 @@ def chip_time_answer(
         Column("minutes_later", "the finish\nmoves by", moves_words),
     ]
     change = Table("what_if", columns, rows, title="What if")
-    parts: list[Part] = [
-        words,
-        Quantities([Quantity(k, v) for k, v in zip(_KEYS, bands, strict=True)]),
-        change,
-    ]
+    parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
     plain = event_pace(state.plan.discipline).mean_minutes(1)
     usual_words = (
         f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes, with the "

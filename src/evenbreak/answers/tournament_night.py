@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.finish_words import finish_luck, finish_quantities
+from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.times_of_day import ends_words, minute_of_day, time_of_day
 from evenbreak.answers.tournament import pair_words, races_words
 from evenbreak.answers.tournament_chips import chip_heading, chip_night_answer
@@ -121,6 +122,7 @@ def night_answer(
         parts.append(_title_table(night))
         if decides and state.standing.to_play and not decided:
             parts.append(_UNDECIDED)
+    luck = [finish_luck(night.as_things_are.finishes)] if under_way else []
     data: dict[str, Any] = {
         "odds": [
             {"name": name, "p_title": p, "p_title_if_sure": sure}
@@ -134,7 +136,8 @@ def night_answer(
         data["next"] = []  # nothing can be played before a draw or a tie-break
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
-    return Answer(above, ["\n".join(words), *parts], warnings=warnings, data=data)
+    said_all: list[Part] = ["\n".join(words), *parts]
+    return Answer(above, said_all, details=luck, warnings=warnings, data=data)
 
 
 def _what_is_next(
@@ -157,10 +160,7 @@ def _what_is_next(
         if len(decided) > 1:
             words.append(_most_words(state, decided))
     words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
-    keys = ("finish_p10", "finish_p50", "finish_p90")
-    parts: list[Part] = [
-        Quantities([Quantity(k, v) for k, v in zip(keys, found.bands, strict=True)])
-    ]
+    parts: list[Part] = [finish_quantities(found.finishes)]
     if tables:
         parts.append(_next_table(night, tables, decided, calls if decides else (), prizes))
     return words, parts

@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.finish_words import finish_luck, finish_quantities
 from evenbreak.answers.form_words import form_used_words
-from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.parts import Column, Part, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import Tournament, pair_words
 from evenbreak.answers.tournament_what_if import savings, savings_words, what_if
@@ -69,27 +70,16 @@ def tournament_time_answer(
         return finish(tournament.bracket, laws, tables=tables, **asked)
 
     changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
-    early, middle, late = found.bands
-    quantities = Quantities(
-        [
-            Quantity("finish_p10", early),
-            Quantity("finish_p50", middle),
-            Quantity("finish_p90", late),
-            Quantity("finish_error", found.error),
-            *(Quantity(f"minutes_saved_{what}", saved) for what, saved in savings(changes).items()),
-        ]
-    )
+    saved = (Quantity(f"minutes_saved_{what}", by) for what, by in savings(changes).items())
+    quantities = finish_quantities(found.finishes, *saved)
     table = starts_table(found, show)
     when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
     words = "\n".join(filter(None, [when, savings_words(changes)]))
     parts: list[Part] = [words, quantities, table, changes]
     assumed = assumed_words(tables, pace, turnover)
     unrated = tournament.unrated_words(spread=False)
-    luck = (
-        f"{count_of(len(found.finishes), 'evening')} were played out; other luck would move the "
-        f"times of the finish by no more than about {2.0 * found.error:.0f} minutes."
-    )
-    lines = [tournament.byes, unrated, assumed, form_used_words(form, tournament.scale), luck]
+    form_words = form_used_words(form, tournament.scale)
+    lines = [tournament.byes, unrated, assumed, form_words, finish_luck(found.finishes)]
     parts += filter(None, lines)
     return Answer(
         tournament.heading,

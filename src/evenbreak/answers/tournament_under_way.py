@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.answer import Answer
+from evenbreak.answers.finish_words import finish_luck, finish_quantities
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.times_of_day import ends_words, time_of_day
 from evenbreak.answers.tournament import pair_words
@@ -162,13 +163,9 @@ def time_under_way(
     if tables is None and turnover is None:
         found = outlook.as_things_are
     begun = begun_at(outlook)
-    early, middle, late = found.bands
-    keys = ("finish_p10", "finish_p50", "finish_p90")
-    quantities = Quantities(
-        [Quantity(key, value) for key, value in zip(keys, found.bands, strict=True)]
-    )
+    quantities = finish_quantities(found.finishes)
     table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
-    words = [ends_words(begun + early, begun + middle, begun + late), savings_words(changes)]
+    words = [ends_words(*(begun + at for at in found.bands)), savings_words(changes)]
     parts: list[Part] = ["\n".join(filter(None, words)), quantities, table, changes]
     parts.append(assumed_words(usual, state.plan.discipline, turnover))
     if timed := outlook.timed:
@@ -176,6 +173,7 @@ def time_under_way(
             f"Going by the matches called and played so far ({len(timed)}), tonight is "
             f"{_pace_words(found, state.plan.discipline)}."
         )
+    parts.append(finish_luck(found.finishes))
     return Answer(
         heading(outlook, source), parts, csv=table, data={"start": outlook.start.isoformat()}
     )

@@ -65,6 +65,19 @@ class Call(NamedTuple):
     error: float
 
 
+def bands_of(finishes: Floats) -> tuple[tuple[float, float, float], float]:
+    """Return the times by which 10, 50 and 90 of 100 evenings end, and the worst standard error.
+
+    The error is the spread over a time of so many evenings. It takes them as independent. Their
+    luck is spread evenly (a Latin hypercube), so the error is this at most.
+    """
+    early, middle, late = np.quantile(finishes, QUANTILES).tolist()
+    q = np.array(QUANTILES)
+    off = np.sqrt(q * (1.0 - q) / len(finishes))
+    above, below = (np.quantile(finishes, q + side) for side in (off, -off))
+    return (early, middle, late), float((above - below).max() / 2.0)
+
+
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Finish:
@@ -98,20 +111,12 @@ class Finish:
     @property
     def bands(self) -> tuple[float, float, float]:
         """The times by which it has ended in 10, 50 and 90 of 100 evenings."""
-        one, two, three = np.quantile(self.finishes, QUANTILES)
-        return float(one), float(two), float(three)
+        return bands_of(self.finishes)[0]
 
     @property
     def error(self) -> float:
-        """The standard error of the worst of the `bands`: the spread over it of so many evenings.
-
-        It takes evenings as independent. Their luck is spread evenly (a Latin hypercube), so the
-        error is this at most.
-        """
-        q = np.array(QUANTILES)
-        off = np.sqrt(q * (1.0 - q) / len(self.finishes))
-        above, below = (np.quantile(self.finishes, q + side) for side in (off, -off))
-        return float((above - below).max() / 2.0)
+        """The standard error of the worst of the `bands`; see `bands_of`."""
+        return bands_of(self.finishes)[1]
 
     def start(self, match: str) -> Start:
         """Return when a match begins."""
