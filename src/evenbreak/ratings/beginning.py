@@ -25,6 +25,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 
 class Known(NamedTuple):
@@ -94,7 +95,7 @@ class Beginning:
         rating: ArrayLike,
         standard_error: ArrayLike | None = None,
         *,
-        scale: Any = "npl",
+        scale: Any = DEFAULT_SCALE,
         prior_sd: float | ArrayLike | None = None,
         prior_mean: float | ArrayLike | None = None,
         games: ArrayLike | None = None,

@@ -23,6 +23,7 @@ from evenbreak.ratings.pairs import PairCounts, count_pairs
 from evenbreak.ratings.posterior import find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
@@ -48,7 +49,7 @@ def fit(
     results: Results,
     *,
     prior_sd: float = PRIOR_SD,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     anchor: float | Mapping[str, float] | None = None,
     half_life: float | None = None,
     as_of: Any = None,

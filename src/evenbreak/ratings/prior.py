@@ -26,6 +26,7 @@ from evenbreak.ratings.half_life import half_lives_for
 from evenbreak.ratings.levels import Levels, begun, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.stretches import Stretches, StretchLosses
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -140,7 +141,7 @@ def best_prior(
     half_life: float | Literal["best"] | None = "best",
     beginning: Beginning | None = None,
     break_advantage: float | str | None = None,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     progress: Progress = lambda _done, _all: None,
 ) -> PriorChoice:
     """Return the prior, and the half-life, whose ratings predict later matches best.

@@ -22,6 +22,7 @@ from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import scale_of
 from evenbreak.ratings.stated_strength import StatedStrength
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 SOLVED_AT_ONCE = 80
 """Players up to which all ways are solved together, which is faster than one after the other."""
@@ -72,7 +73,7 @@ class SeasonSoFar:
         prior_sd: float = PRIOR_SD,
         half_life: float | None = None,
         break_advantage: float | str | None = None,
-        scale: Any = "npl",
+        scale: Any = DEFAULT_SCALE,
         levels: Levels | None = None,
     ) -> WayToRate:
         breaks = break_advantage is not None

@@ -11,6 +11,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.fair import Candidate, FairRace, longest_matches, shortest_of_ties
 from evenbreak.handicaps.charts.given_ratings import length_given_ratings, win_given_ratings
 from evenbreak.ratings.scale import scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 MOST_RACES = 20_000
 """Races among which the nearest are sought: all of up to 200 games."""
@@ -24,7 +25,7 @@ def nearest_races_given_ratings(
     race_to: int | None = None,
     target: float = 0.5,
     top: int = 5,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> list[FairRace]:
     """Return the races in which player 1's chance is nearest to `target`, the nearest first.

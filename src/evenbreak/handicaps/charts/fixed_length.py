@@ -9,11 +9,12 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import nearest_chart
 from evenbreak.handicaps.charts.race_limits import RaceLimits
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 _LONGEST = 999
 
 
-def fixed_length_chart(games: Any, scale: Any = "npl") -> Chart:
+def fixed_length_chart(games: Any, scale: Any = DEFAULT_SCALE) -> Chart:
     """Return the chart whose races all last at most a given number of games.
 
     At each difference it has the race m:n with m + n - 1 = games that is nearest to even. The

@@ -28,6 +28,7 @@ from evenbreak.matches.length import match_length
 from evenbreak.matches.length_law import MatchLength
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 MOST_DOUBLINGS = 10.0
 """The largest standard error allowed, in doublings of the odds."""
@@ -44,7 +45,7 @@ def win_given_ratings(
     m: float,
     n: float,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> float: ...
 @overload
@@ -54,7 +55,7 @@ def win_given_ratings(
     m: ArrayLike,
     n: ArrayLike,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> Floats: ...
 def win_given_ratings(
@@ -63,7 +64,7 @@ def win_given_ratings(
     m: Any,
     n: Any,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> Any:
     """Return P(player 1 wins the race m:n | the ratings and their standard error).
@@ -123,7 +124,7 @@ def length_given_ratings(
     m: int,
     n: int,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> MatchLength[float, float]: ...
 @overload
@@ -133,7 +134,7 @@ def length_given_ratings(
     m: int,
     n: int,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> MatchLength[Floats, Floats]: ...
 def length_given_ratings(
@@ -142,7 +143,7 @@ def length_given_ratings(
     m: int,
     n: int,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> MatchLength[Any, Any]:
     """Return how long the race m:n lasts, given the ratings and their standard error.
@@ -185,7 +186,7 @@ def fair_races_given_ratings(
     *,
     games: tuple[int, int] | None = None,
     race_to: int | None = None,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     target: float = 0.5,
     form: float = 0.0,
 ) -> tuple[Ints, Ints]:

@@ -19,6 +19,7 @@ from evenbreak.handicaps.charts.chart_of import level_chart_of
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ class LevelAudit:
         return max(self.cells, key=lambda cell: cell.unfairness)
 
 
-def audit_levels(chart: LevelChart | str, *, scale: Any = "npl") -> LevelAudit:
+def audit_levels(chart: LevelChart | str, *, scale: Any = DEFAULT_SCALE) -> LevelAudit:
     """Return how fair a chart by skill level is, and the ratings that fit it best.
 
     Each level is assumed to reach halfway to its neighbours; the lowest and the highest reach

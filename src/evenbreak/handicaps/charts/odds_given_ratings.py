@@ -15,6 +15,7 @@ from evenbreak.matches.form import form_of, given_score, rule_for
 from evenbreak.matches.odds import MatchOdds, match_odds, mixed_odds
 from evenbreak.matches.parameters import checked_match, with_rack
 from evenbreak.ratings.scale import scale_of
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
 
 def odds_given_ratings(
@@ -22,7 +23,7 @@ def odds_given_ratings(
     difference: float,
     standard_error: float,
     *,
-    scale: Any = "npl",
+    scale: Any = DEFAULT_SCALE,
     form: float = 0.0,
 ) -> MatchOdds:
     """Return the odds of a match, averaged over how far a difference of ratings may be off.

@@ -12,6 +12,7 @@ from typing import Annotated, Any, TypeAlias
 from evenbreak.checks import Between, made
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
 
@@ -78,7 +79,7 @@ class Plan:
     final_race: Race | None = None
     handicapped: bool = False
     chart: Chart | None = field(default=None, hash=False)
-    scale: str = "npl"
+    scale: str = DEFAULT_SCALE
     starter: Points = 0.0
     starter_error: Error = 0.0
     tables: Table = 4
