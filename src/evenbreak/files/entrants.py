@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 from evenbreak.errors import DataError
 from evenbreak.files.known_names import KnownNames
 from evenbreak.files.problems import quoted
-from evenbreak.files.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
+from evenbreak.files.roster import (
+    OPTIONAL,
+    REQUIRED,
+    WRITTEN,
+    RosterFile,
+    refuse_to_read,
+    roster_of,
+)
 from evenbreak.files.typed_list import read_players
 from evenbreak.ratings.roster import Roster
 
@@ -166,7 +173,7 @@ def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> No
         if the two files state different scales, or one has skill levels and the other points.
     """
     if np.isnan(entrants.roster.rating).all():
-        return
+        return None
     if league.scale and entrants.scale and not league.scale.same_points(entrants.scale):
         ours, theirs = league.scale.text, entrants.scale.text
     elif league.levels != entrants.levels and not (league.scale and entrants.scale):
@@ -174,8 +181,10 @@ def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> No
             "of skill levels" if levels else "of points"
             for levels in (league.levels, entrants.levels)
         )
+    elif league.scale:
+        return refuse_to_read(entrants, league.scale, league.source, "put all ratings on one scale")
     else:
-        return
+        return None
     raise DataError(
         [
             f"{entrants.source}: its scale {theirs} differs from {ours} in {league.source}; "

@@ -26,10 +26,12 @@ from evenbreak.files.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.text_table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
-from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.ratings.unstated_scale import refuse_contradicted, unstated_scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from evenbreak.files.league import LeagueFile
 
 REQUIRED = {
     "player": ("name", "player name", "full name"),
@@ -129,6 +131,24 @@ class RosterFile:
             or self.scale
             or unstated_scale(rated.rating.tolist(), rated.players, remedy, self.source)
         )
+
+
+def refuse_to_read(file: RosterFile | LeagueFile, scale: Scale, whose: str, remedy: str) -> None:
+    """Refuse to read a list that states no scale on one that its ratings contradict.
+
+    Raises
+    ------
+    InputError
+        as `refuse_contradicted` does, with the name of the file.
+    """
+    if file.scale is not None:
+        return
+    try:
+        refuse_contradicted(
+            scale, file.roster.rating.tolist(), file.roster.players, whose=whose, remedy=remedy
+        )
+    except InputError as error:
+        raise InputError(f"{file.source}: {error}") from None
 
 
 def read_roster(path: str | Path) -> RosterFile:

@@ -13,6 +13,7 @@ from evenbreak.answers.starters import starters_words
 from evenbreak.answers.wording import some_of
 from evenbreak.errors import DataError
 from evenbreak.files.player_names import clean_name, is_name
+from evenbreak.files.roster import refuse_to_read
 from evenbreak.files.team_list import TeamList, read_team
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
@@ -123,6 +124,8 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     if any(not stated[0].same_points(other) for other in stated[1:]):
         raise RefusalError("refused_scales")
     if stated:
+        for one in lists:
+            refuse_to_read(one.file, stated[0], "the other team's list", CHOOSE_IT)
         return stated[0]
     unrated = all(np.isnan(one.file.roster.rating).all() for one in lists)
     if unrated and league.sheet is not None:

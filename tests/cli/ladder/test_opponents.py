@@ -38,9 +38,11 @@ def fargo_league(tmp_path):
     return str(path)
 
 
-def test_a_league_on_another_scale_is_a_warning(ladder, fargo_league):
-    (warning,) = ladder("--league", fargo_league)["warnings"]
-    assert "550" in warning
+def test_a_league_that_looks_like_another_scale_is_refused(run, ladder, fargo_league):
+    for compare in ((), ("--compare",)):
+        result = run("ladder", "--league", fargo_league, *compare)
+        assert (result.exit_code, result.stdout) == (2, "")
+        assert "91% of the time by NPL ratings, 67% by Fargo ratings" in result.stderr
     fits = ("--chart", "fargo_r6_hot", "--scale", "fargo")
     assert ladder(*fits, "--league", fargo_league)["warnings"] == []
 
@@ -50,8 +52,10 @@ def test_a_league_on_another_scale_is_a_warning(ladder, fargo_league):
     ("skill", "code", "named"),
     [("80", 1, "give a --skill nearer to them"), ("5000", 2, "--skill is 5000")],
 )
-def test_opponents_who_are_too_far_are_refused(run, fargo_league, compare, skill, code, named):
-    result = run("ladder", "--league", fargo_league, "--skill", skill, *compare)
+def test_opponents_who_are_too_far_are_refused(run, tmp_path, compare, skill, code, named):
+    path = tmp_path / "far.csv"
+    path.write_text("player,rating,scale\nAnn,600,npl\nBo,500,npl\nCy,550,npl\n")
+    result = run("ladder", "--league", str(path), "--skill", skill, *compare)
     assert (result.exit_code, result.stdout) == (code, "")
     assert named in " ".join(result.stderr.split())
 

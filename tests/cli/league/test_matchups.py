@@ -95,7 +95,6 @@ def test_the_scale_is_that_of_the_chart(run, roster):
         ((712, 421), SURE, False),
         ((712, 421), (*SURE, "--scale", "fargo"), False),
         ((92, 71), SURE, False),
-        ((92, 71), ("--chart", "fargo_r6_hot"), True),
         ((92, 710, 80), (*SURE, "--chart", "npl_10"), True),
     ],
 )
@@ -103,6 +102,17 @@ def test_ratings_of_another_scale_are_doubted(run, roster, ratings, words, doubt
     text = "".join(f"P{k},{rating}\n" for k, rating in enumerate(ratings))
     result = run("matchups", roster(f"player,rating\n{text}"), *words)
     assert ("Warning" in result.stderr) == doubted
+
+
+def test_ratings_that_look_like_another_scale_than_the_charts_are_refused(run, roster):
+    path = roster("player,rating\nAnn,92\nBo,71\n")
+    result = run("matchups", path, "--chart", "fargo_r6_hot")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert (
+        "the scale of the chart fargo_r6_hot: Ann wins a game against Bo 54% of the time by Fargo "
+        "ratings, 62% by NPL ratings; say which with --scale"
+    ) in result.stderr
+    assert run("matchups", path, "--chart", "fargo_r6_hot", "--scale", "fargo").exit_code == 0
 
 
 @pytest.mark.parametrize(

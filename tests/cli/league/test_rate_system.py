@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 LAST = 'player,rating,games\n"Diaz, Bo",80,120\nAnn,92,140\nCy,71,\n=cmd(),60,0\n'
+ELO = "".join(f"{row},{'elo' if k else 'scale'}\n" for k, row in enumerate(LAST.splitlines()))
 NIGHT = (
     "date,player_a,player_b,score_a,score_b,forfeit\n"
     '2026-11-20,Ann,"Diaz, Bo",5,3,\n2026-11-20,Cy,Annie,2,6,\n2026-11-20,Cy,=cmd(),,,yes\n'
@@ -113,7 +114,8 @@ def test_a_league_without_newcomers_hears_nothing_about_them(rate, tmp_path):
     [("step 3", (3, -3)), ("step-2-1", (2, -1)), ("margin", (2, -2)), ("elo 16", (11, -11))],
 )
 def test_other_systems_move_by_their_own_rules(rate, tmp_path, system, change):
-    (tmp_path / "last.csv").write_text("player,rating\nAnn,120\nCy,0\n")
+    scale = "elo" if system.startswith("elo") else "npl"
+    (tmp_path / "last.csv").write_text(f"player,rating,scale\nAnn,120,{scale}\nCy,0,{scale}\n")
     (tmp_path / "night.csv").write_text(
         "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,4,1,4,3\n"
     )
@@ -123,6 +125,7 @@ def test_other_systems_move_by_their_own_rules(rate, tmp_path, system, change):
 
 
 def test_a_system_that_moves_by_the_score_asks_for_it(rate, tmp_path):
+    (tmp_path / "last.csv").write_text(ELO)
     (tmp_path / "night.csv").write_text(
         "player_a,player_b,race_a,race_b,winner\nAnn,Cy,6,4,Ann\nCy,Ann,4,6,Cy\n"
     )
@@ -238,12 +241,16 @@ def test_no_text_makes_a_traceback(run, tmp_path_factory, rows, names):
     assert run(*line.split(), stdin=night.encode("utf-8", "replace")).exit_code in (0, 3)
 
 
-def test_ratings_of_another_size_than_the_systems_are_doubted(rate, tmp_path):
+def test_ratings_that_look_like_another_scale_than_the_systems_are_refused(rate, tmp_path):
     (tmp_path / "raced.csv").write_text(
         "player_a,player_b,score_a,score_b,race_a,race_b\nAnn,Cy,4,1,4,3\n"
     )
-    assert "average about" in rate("raced.csv", "--system", "elo 16").stderr
-    assert "average about" not in rate("night.csv", "--chart", "npl_10").stderr
+    refused = rate("raced.csv", "--system", "elo 16")
+    assert (refused.exit_code, refused.stdout) == (2, "")
+    assert "do not look like Elo ratings, the scale of the system elo 16" in refused.stderr
+    assert "by NPL ratings" in refused.stderr
+    (tmp_path / "last.csv").write_text(ELO)
+    assert rate("raced.csv", "--system", "elo 16").exit_code == 0
 
 
 def test_several_dates_are_rated_night_by_night(rate, tmp_path):
@@ -262,6 +269,7 @@ def test_several_dates_are_rated_night_by_night(rate, tmp_path):
     assert len(answer["matches"]) == 3
     assert "one night" not in season.stderr
     # Elo's steps depend on the ratings of the night.
+    (tmp_path / "last.csv").write_text(ELO)
     steps = [
         [
             m["points"]
@@ -270,6 +278,7 @@ def test_several_dates_are_rated_night_by_night(rate, tmp_path):
         for w in (["season.csv"], ["second.csv"])
     ]
     assert steps[0][1:] != steps[1]
+    (tmp_path / "last.csv").write_text(LAST)
     wrong = nights[1].replace("Ann", "Dee")
     (tmp_path / "season.csv").write_text("\n".join([header, nights[0], wrong]))
     refused = rate("season.csv")

@@ -75,7 +75,9 @@ def _field(
         return spread_field(stated or ratings.SCALES["fargo"], tables), []
     file = files.read_entrants(entrants)
     if stated is not None:
-        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+        refuse_other_scale(
+            file, stated, "--scale", "leave --scale out, or correct the file", stated=True
+        )
     else:
         refuse_levels(file, "say with --scale how many levels double the odds")
     scale = file.scale_by(stated, SAY_WHICH)

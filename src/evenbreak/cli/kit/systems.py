@@ -61,7 +61,7 @@ def refuse_other_scale(
     *,
     stated: bool = False,
 ) -> None:
-    """Refuse a list whose ratings are on another scale, or are skill levels.
+    """Refuse a list whose ratings are on another scale, or look like it, or are skill levels.
 
     Parameters
     ----------
@@ -72,9 +72,10 @@ def refuse_other_scale(
     remedy
         what to do about it.
     stated
-        whether the user stated the scale, which may then be one of skill levels.
+        whether the user stated the scale, which then is not doubted and may be of skill levels.
     """
     from evenbreak.answers.scale_words import scale_words
+    from evenbreak.files.roster import refuse_to_read
 
     if file.scale is not None and not file.scale.same_points(scale):
         refuse(
@@ -83,6 +84,7 @@ def refuse_other_scale(
         )
     if file.scale is None and not stated:
         refuse_levels(file, f"{whose} needs ratings in points; {remedy}")
+        refuse_to_read(file, scale, whose, remedy)
 
 
 def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
@@ -90,7 +92,9 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
     whose = f"the system {system.name}"
     if file.scale is None:
         refuse_levels(file, f"{whose} needs ratings in points; give a list of those")
-    refuse_other_scale(file, system.scale, whose, "give another --system", stated=True)
+    refuse_other_scale(
+        file, system.scale, whose, "give another --system, or state the scale in a column scale"
+    )
 
 
 def refuse_levels(file: files.RosterFile | files.LeagueFile, remedy: str) -> None:

@@ -30,7 +30,9 @@ def comparison(chart_name: str | None, asked: dict[str, Any], plot: str | None) 
             refuse(f"--compare goes through several systems; leave --{option} out")
     npl = system_of("npl")
     chart, warnings = chart_for(npl, chart_name)
-    opponents, name, doubts = opponents_of_options(asked, npl.scale)
+    opponents, name, doubts = opponents_of_options(
+        asked, npl.scale, "--compare is for NPL ratings; leave it out and give --scale for others"
+    )
     try:
         found = compare_ladders(chart, opponents, name)
     except AccuracyError as error:

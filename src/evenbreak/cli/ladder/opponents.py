@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak import files, handicaps
+from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.systems import refuse_other_scale
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import AccuracyError
@@ -15,9 +16,12 @@ MOST_APART = 20.0
 
 
 def opponents_of_options(
-    asked: dict[str, Any], scale: Scale
+    asked: dict[str, Any], scale: Scale, remedy: str = SAY_WHICH
 ) -> tuple[handicaps.Opponents, str, list[str]]:
-    """Return the opponents asked for, the word for them, and warnings about their list."""
+    """Return the opponents asked for, the word for them, and warnings about their list.
+
+    `remedy` says what to do about a list of another scale.
+    """
     given = [name for name in ("autocorrelated", "equal_skill", "league") if asked[name]]
     if len(given) > 1:
         *before, last = (f"--{name.replace('_', '-')}" for name in given)
@@ -26,7 +30,7 @@ def opponents_of_options(
         refuse("--skill is the player's own in a league; give --league ROSTER.csv, or leave it out")
     if asked["league"] is not None:
         opponents, warnings = _of_league(
-            asked["league"], asked["skill"], scale, stated=asked.get("scale") is not None
+            asked["league"], asked["skill"], scale, remedy, stated=asked["scale"] is not None
         )
         return opponents, "league", warnings
     if asked["autocorrelated"]:
@@ -37,7 +41,7 @@ def opponents_of_options(
 
 
 def _of_league(
-    path: str, skill: int | None, scale: Scale, *, stated: bool
+    path: str, skill: int | None, scale: Scale, remedy: str, *, stated: bool
 ) -> tuple[handicaps.Opponents, list[str]]:
     """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
@@ -46,11 +50,11 @@ def _of_league(
     from evenbreak.errors import DataError
 
     file = files.read_roster(path)
-    refuse_other_scale(file, scale, "the ladder", "set the scale with --scale", stated=stated)
+    refuse_other_scale(file, scale, "the ladder", remedy, stated=stated)
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
         raise DataError([f"{file.source}: no player has a rating; write one for each player"])
-    warnings = [*file.warnings, *league_doubts(scale, ratings, "set the scale with --scale")]
+    warnings = [*file.warnings, *league_doubts(scale, ratings, remedy)]
     about = round(float(np.median(ratings))) if skill is None else skill
     low, high = float(ratings.min()), float(ratings.max())
     most = MOST_APART * scale.points_per_doubling

@@ -26,6 +26,7 @@ from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.files.roster import refuse_to_read
 from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
@@ -197,15 +198,23 @@ def _scale_of_list(
         "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
         "levels double the odds",
     )
-    of_chart = "" if of_league is None else of_league.name.partition("_")[0]
-    return file.scale_by(SCALES.get(of_chart), SAY_WHICH), None
+    made_for = _scale_of_chart(of_league)
+    if of_league is None or made_for is None:
+        return file.scale_by(None, SAY_WHICH), None
+    refuse_to_read(file, made_for, f"the chart {of_league.name}", SAY_WHICH)
+    return made_for, None
+
+
+def _scale_of_chart(chart: AnyChart | None) -> Scale | None:
+    """Return the scale that a chart is made for, if its name says it."""
+    return None if chart is None else SCALES.get(chart.name.partition("_")[0])
 
 
 def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
     """Return a warning if a chart is made for another scale than the one of the ratings."""
     from evenbreak.answers.scale_words import scale_words
 
-    made_for = None if chart is None else SCALES.get(chart.name.partition("_")[0])
+    made_for = _scale_of_chart(chart)
     if chart is None or made_for is None or made_for.same_points(stated):
         return []
     return [

@@ -12,7 +12,7 @@ from evenbreak import answers, files, handicaps
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import chart_option, results_options, scale_option
+from evenbreak.cli.kit.options import SAY_WHICH, chart_option, results_options, scale_option
 from evenbreak.cli.kit.systems import read_system
 from evenbreak.cli.kit.values import NUMBER, number_of, refuse
 from evenbreak.cli.league.rate_options import NumberOr, how_to_rate, rated
@@ -145,14 +145,15 @@ def _rate(
     save: str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.ratings.scale import SCALES
-    from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+    from evenbreak.ratings.unstated_scale import unstated_scale
 
     file = files.read_seasons(paths, **reading)
+    anchor = _anchor(file, anchors)
+    points = anchor if isinstance(anchor, dict) else {"the mean": anchor or math.nan}
     ratings, choice = rated(
         file,
-        scale or SCALES[DEFAULT_SCALE],
-        anchor=_anchor(file, anchors),
+        scale or unstated_scale(points.values(), list(points), SAY_WHICH, "--anchor"),
+        anchor=anchor,
         break_advantage=break_advantage,
         **how,
     )

@@ -163,7 +163,9 @@ def rated(
 def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
     from evenbreak.answers.scale_doubts import league_doubts
+    from evenbreak.errors import InputError
     from evenbreak.files.saved_ratings import read_saved
+    from evenbreak.ratings.unstated_scale import refuse_contradicted
 
     saved = read_saved(path, scale, file.results.players)
     if not saved.found:
@@ -171,6 +173,11 @@ def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     beginning, day = saved.beginning, saved.beginning.as_of
     if not saved.scale_stated:
         remedy = "name the scale with --scale, or state it in a column scale"
+        listed = beginning.rating.tolist(), beginning.players
+        try:
+            refuse_contradicted(scale, *listed, whose="the new ratings", remedy=remedy)
+        except InputError as error:
+            refuse(f"--begin {path}: {error}")
         for doubt in league_doubts(scale, beginning.rating, remedy):
             refuse(f"--begin {path}: {doubt}")
     if day is not None and file.results.date is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak import files, league
+from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
 from evenbreak.ratings.scale import SCALES
@@ -61,13 +62,13 @@ def season_of_options(
         file,
         system.scale,
         f"the system {system.name}",
-        "set the scale with --scale",
+        SAY_WHICH,
         stated=played["scale"] is not None,
     )
     chart, of_chart = chart_for(system, played["chart"])
     schedule, weeks, of_schedule = _schedule(file, played)
     play = "racks" if played["racks"] else "matches"
-    doubts = league_doubts(system.scale, file.players.rating, "set the scale with --scale")
+    doubts = league_doubts(system.scale, file.players.rating, SAY_WHICH)
     warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
     return league.Season(file.players, system, chart, schedule, weeks, play), warnings
 

@@ -150,11 +150,11 @@ def _moved(
 
     refuse_levels(first, f"the system {system.name} needs ratings in points; give a list of those")
     own = system.scale.name != DEFAULT_SCALE
-    points = system.scale if own and scale is None else first.scale_by(scale, SAY_WHICH)
+    assumed = own and scale is None
+    points = system.scale if assumed else first.scale_by(scale, SAY_WHICH)
     whose = f"the system {system.name}" if scale is None else "--scale"
-    refuse_other_scale(
-        first, points, whose, "name the scale of the ratings, or correct the file", stated=True
-    )
+    remedy = "name the scale of the ratings, or correct the file"
+    refuse_other_scale(first, points, whose, remedy, stated=not assumed)
     doubts = far_doubts(points, first.roster.rating)  # a slip does not make another scale
     if not doubts and (against := contradiction(points, first.roster, season.results)):
         if scale is None:

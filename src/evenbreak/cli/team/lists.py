@@ -10,6 +10,7 @@ from evenbreak import handicaps, teams
 from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import refuse
+from evenbreak.files.roster import refuse_to_read
 from evenbreak.ratings.unstated_scale import unstated_scale
 
 if TYPE_CHECKING:
@@ -41,6 +42,9 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     points = stated or next(iter(scales), None)
     if points is None:
         points = unstated_scale(rated.tolist(), names, SAY_WHICH)
+    elif stated is None:
+        for each in lists:
+            refuse_to_read(each.file, points, "the other team's list", SAY_WHICH)
     warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
     if not scales:
         warnings += league_doubts(points, rated, "is it the right scale?")

@@ -325,7 +325,9 @@ def _scale(
     from evenbreak.answers.scale_doubts import far_doubts, league_doubts, starter_doubts
 
     if stated is not None:
-        refuse_other_scale(file, stated, "--scale", "leave --scale out, or correct the file")
+        refuse_other_scale(
+            file, stated, "--scale", "leave --scale out, or correct the file", stated=True
+        )
     else:
         refuse_levels(file, "say with --scale how many levels double the odds")
     scale = file.scale_by(stated, SAY_WHICH)

@@ -18,6 +18,7 @@ from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.chart import find_chart
 from evenbreak.files.entrants import read_entrants
+from evenbreak.files.roster import refuse_to_read
 from evenbreak.files.tournament_desk import back_up
 from evenbreak.files.tournament_store import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
@@ -138,6 +139,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
+        refuse_to_read(file, scale, "the league", "put all ratings on one scale")
     read = file.roster
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
     plan, rows = _plan(form, scale), _entrants(filled, league)
