@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from evenbreak.cli.program import program
 from evenbreak.errors import DataError
 from evenbreak.files import demo
-from evenbreak.files.demo import DEMO, write_demo, write_demo_evening
+from evenbreak.files.demo import DEMO, EVENING, write_demo, write_demo_evening
 from evenbreak.files.tournament_store import read_tournament
 from places import DATA, ROOT
 from web.phones import Phone, running
@@ -23,11 +23,11 @@ from web.phones import Phone, running
 def test_the_wheel_holds_the_files_of_the_demo_and_no_others() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     included = project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
-    assert included == {f"data/{name}": f"evenbreak/demo_data/{name}" for name in DEMO}
+    assert included == {f"data/{name}": f"evenbreak/demo_data/{name}" for name in (*DEMO, EVENING)}
 
 
 def test_the_files_are_those_of_the_checkout() -> None:
-    assert all(demo._place(name) == DATA / name for name in DEMO)
+    assert all(demo._place(name) == DATA / name for name in (*DEMO, EVENING))
 
 
 def test_an_installed_package_has_them(tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_the_evening_is_in_the_middle(tmp_path: Path) -> None:
     times = [datetime.fromisoformat(event.at) for event in state.events]
     assert times == sorted(times)
     assert timedelta() < now - times[-1] < timedelta(minutes=5)
-    assert len(state.counted) == demo._RESULTS
+    assert len(state.counted) == 13
     assert any(sum(score.what.score) for score in state.live.values())
     assert set(state.standing.to_play) - set(state.on_tables)  # there is a match to call
     with running(tmp_path / "evening.db") as site:
