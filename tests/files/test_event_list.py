@@ -78,8 +78,9 @@ def test_a_bracket_of_another_program_is_kept(tmp_path: Path) -> None:
     [
         ("1,x,opened,{}\n", "events.csv:2"),
         ("1,x,opened\n", "events.csv:2"),
+        ('1,late,dropped,"{""name"": ""Bo""}"\n', "events.csv:2: .* at is 'late'"),
         ("1,x,opened,{},Ann,Bo\n", "events.csv:2"),
-        ("1,x,undone,{}\n", "nothing to undo"),
+        (f"1,{AT},undone,{{}}\n", "nothing to undo"),
         ("", "does not open"),
     ],
 )

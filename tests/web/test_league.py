@@ -7,6 +7,7 @@ import threading
 import time
 import zipfile
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -223,3 +224,15 @@ def test_an_evening_is_added_to_the_league_once(hall: Hall) -> None:
     worked_out(director)
     assert len(league.sheet.file.results) == 9
     assert "New Ned" in hall.guest.open("/league").words
+
+
+def test_results_that_are_replaced_stay_in_a_file(tmp_path: Path) -> None:
+    league = League(tmp_path / "tonight.db")
+    header = "player_a,player_b,score_a,score_b\n"
+    rows = [f"{header}Ann,Bo,5,{k}\n".encode() for k in range(3)]
+    for before, content in zip(["", *rows], rows, strict=False):
+        league.keep(content, "fargo", 7)
+        league.add_evening(content, datetime(2025, 3, 1, 19))  # the same evening, again and again
+        kept = tmp_path / "tonight.league.csv.replaced"
+        assert (kept.read_bytes() if before else b"") == (before or b"")
+    assert len(league.paths) == 2

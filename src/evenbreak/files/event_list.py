@@ -9,6 +9,7 @@ from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.encoding import text_of
+from evenbreak.files.evening_entries import happened
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import evening
 
@@ -16,11 +17,11 @@ TITLES = ("number", "at", "kind", "what", "by")
 _BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no authors
 
 
-def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str, str]]:
+def event_rows(events: Sequence[Event], first: int = 1) -> list[tuple[int, str, str, str, str]]:
     """Return the rows below `TITLES`; `what` holds the details as JSON."""
     return [
         (number, one.at, NAMES[type(one.what)], json.dumps(as_dict(one.what)), one.by)
-        for number, one in enumerate(events, 1)
+        for number, one in enumerate(events, first)
     ]
 
 
@@ -47,7 +48,7 @@ def read_event_list(path: str | Path) -> list[Event]:
     for line, row in enumerate(reader, 2):
         try:
             _, at, kind, what, by = row if len(row) == len(TITLES) else (*row, "")
-            events.append(Event(at, event_of(kind, json.loads(what)), by))
+            events.append(Event(at, happened(at, kind, what, event_of), by))
         except (InputError, ValueError) as error:
             raise DataError([f"{path}:{line}: is not an event of a tournament: {error}"]) from None
     try:

@@ -6,7 +6,6 @@ other waits.
 
 from __future__ import annotations
 
-import json
 import sqlite3
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -17,8 +16,9 @@ from typing import Any
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.evening_entries import folded, happened, named
 from evenbreak.files.evening_file import DAMAGED, TOURNAMENT, begin, changing, has_table, opened
+from evenbreak.files.event_list import event_rows
 from evenbreak.files.match_phones import TABLE as PHONES
-from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
+from evenbreak.tournaments.evening.events import NAMES, Event, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
 
 _TABLE = """
@@ -29,8 +29,6 @@ CREATE TABLE event (
     what TEXT NOT NULL
 )
 """
-_ADD = "INSERT INTO event VALUES (?, ?, ?, ?)"
-
 _ONCE = "CREATE TABLE IF NOT EXISTS once (form TEXT PRIMARY KEY, number INTEGER NOT NULL)"
 """The forms that were taken, each with the number of the last event after it."""
 
@@ -68,7 +66,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     ...     list(read_tournament(file).entrants)
     ['Ann']
     """
-    state, rows = _shown(evening(events)), _rows(events)
+    state = _shown(evening(events))
 
     def write(base: sqlite3.Connection) -> None:
         if _count(base) != in_place_of:
@@ -77,8 +75,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
         for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
-        base.executemany(_ADD, rows)
-        _sign(base, events)
+        _add(base, events)
 
     begin(path, write)
     return state
@@ -148,8 +145,7 @@ def add_events(
         after = _shown(evening([*earlier, *added]))
         if check:
             check(before, after)
-        base.executemany(_ADD, _rows(added, len(earlier)))
-        _sign(base, added, len(earlier))
+        _add(base, added, len(earlier))
         if form:
             base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
     return before, after
@@ -177,10 +173,13 @@ def _refuse_taken(base: sqlite3.Connection, form: str) -> None:
         raise TakenBeforeError("that was entered before; nothing was entered a second time")
 
 
-def _sign(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> None:
-    """Keep who entered events after others."""
-    signed = [(number, one.by) for number, one in enumerate(events, count + 1) if one.by]
-    if signed:
+def _add(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> None:
+    """Write events after others, and who entered them; one that could not be read is refused."""
+    rows = event_rows(events, count + 1)
+    for _, at, kind, what, by in rows:
+        _event(at, kind, what, by)
+    base.executemany("INSERT INTO event VALUES (?, ?, ?, ?)", [row[:4] for row in rows])
+    if signed := [(row[0], row[4]) for row in rows if row[4]]:
         base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
         base.executemany("INSERT INTO author VALUES (?, ?)", signed)
 
@@ -220,13 +219,3 @@ def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
         if it cannot; it names the entry that does not fit.
     """
     return folded(path, events, lambda some: _shown(evening(some)), NAMES)
-
-
-def _rows(events: Sequence[Event], count: int = 0) -> list[tuple[int, str, str, str]]:
-    """Return the rows of events after others; one that could not be read is never written."""
-    rows = []
-    for number, event in enumerate(events, count + 1):
-        kind, what = NAMES[type(event.what)], json.dumps(as_dict(event.what))
-        _event(event.at, kind, what, event.by)
-        rows.append((number, event.at, kind, what))
-    return rows

@@ -62,8 +62,12 @@ class League:
     @property
     def paths(self) -> list[Path]:
         """The files of results: the league's, if there is one, and the evenings added since."""
+        return self._given + self._evenings
+
+    @property
+    def _given(self) -> list[Path]:
         named = [self._named(ending) for ending in ("csv", "xlsx")]
-        return [path for path in named if path.exists()][:1] + self._evenings
+        return [path for path in named if path.exists()][:1]
 
     @property
     def _evenings(self) -> list[Path]:
@@ -87,6 +91,8 @@ class League:
     def keep(self, content: bytes, scale: str, race: int) -> None:
         """Keep results, and how they are shown, in place of all before; refuse unreadable ones.
 
+        Those before stay in files that end in .replaced.
+
         Raises
         ------
         DataError
@@ -98,11 +104,12 @@ class League:
         ending = ending_of(content)
         shown = json.dumps({"scale": scale, "race": race}).encode()
         written = {self._named(ending).name: content, self._named("json").name: shown}
+        written |= {f"{one.name}.replaced": one.read_bytes() for one in self._given}
         write_files(self.beside.parent, written)
         for other in {"csv", "xlsx"} - {ending}:
             self._named(other).unlink(missing_ok=True)
         for evening in self._evenings:
-            evening.rename(evening.with_suffix(".replaced"))
+            evening.replace(evening.with_suffix(".replaced"))
 
     def known(self, name: str) -> tuple[str, float, float] | None:
         """Return a player's name, rating and standard error; None: not in the league."""
