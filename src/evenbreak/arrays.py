@@ -124,6 +124,11 @@ def short_repr(cls: Class) -> Class:
     return cls
 
 
+def array_values(cls: Class) -> Class:
+    """Let a dataclass own its arrays, and say how large they are: `own_arrays`, `short_repr`."""
+    return own_arrays(short_repr(cls))
+
+
 def _short_repr(value: Any) -> str:
     shown = (f"{f.name}={_short(getattr(value, f.name))}" for f in fields(value) if f.repr)
     return f"{type(value).__name__}({', '.join(shown)})"

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import largest, stochastic_limit
@@ -53,8 +53,7 @@ class _Slopes:
         return np.asarray(self.forward[j] * backward)
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Sensitivity:
     """The derivatives of a weighted sum of a stochastic limit.

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import (
     DENSE,
@@ -52,8 +52,7 @@ LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Eigenvalues of a chain with their right and left vectors.

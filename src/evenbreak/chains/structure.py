@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csgraph, csr_array
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,8 +31,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Arcs, Places
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Structure:
     """The communicating classes of a chain.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.aliases import AliasesFile, read_aliases
 from evenbreak.files.bad_rows import doubtful_score_warnings, without_bad_rows
@@ -37,8 +37,7 @@ MOST_RENAMED = 20
 """How many names are listed that aliases changed; the rest are counted."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
     """The contents of a results file.

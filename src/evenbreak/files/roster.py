@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.cells import numbers, read_cells, whole_numbers
 from evenbreak.files.player_names import (
@@ -79,8 +79,7 @@ FARTHEST = 10_000
 """The largest rating or skill that can be simulated, in points."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class RosterFile:
     """What a list of rated players says.

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.arrays import Floats, own_arrays, short_repr
+from evenbreak.arrays import Floats, array_values
 from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers
 from evenbreak.files.player_names import clean_name
@@ -27,8 +27,7 @@ MORE = {
 }
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True)
 class TeamList:
     """The players of one team.

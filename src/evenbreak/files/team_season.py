@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers, whole_numbers
 from evenbreak.files.player_names import clean_name, same_name
@@ -31,8 +31,7 @@ TEAM = {"team": ("name", "team name")}
 POINTS = {"points": ("head start", "bonus", "deduction", "adjustment")}
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True)
 class TeamMatches:
     """The matches in a file.

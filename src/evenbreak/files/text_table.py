@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import own_arrays, short_repr
+from evenbreak.arrays import array_values
 from evenbreak.files.csv_rows import Rows
 from evenbreak.files.encoding import content_of
 from evenbreak.files.header import Header, Hint, quoted_list
@@ -47,8 +47,7 @@ class Texts(NamedTuple):
         return cls(list(numbers), codes)
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class TextTable:
     """The rows of a file that have the shape of its header.

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import seed_of
 from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
 from evenbreak.league.schedule import RandomPairing, Round
@@ -39,8 +39,7 @@ class _Match(NamedTuple):
     points: tuple[int, int]
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
     """A season that was played, with the true skills that are unknown in a real one.

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Bools, Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import floats, whole_numbers
 from evenbreak.errors import InputError
 
@@ -34,8 +34,7 @@ _COLUMNS: dict[str, tuple[bool, int, float]] = {
 """Whether a column holds whole numbers, and its least and largest value."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class LeaguePlayers:
     """The players of a league as read-only columns; `LeaguePlayers.of` fills in defaults.

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -34,8 +34,7 @@ _NEWCOMERS = (1, -1, 1, -1)
 """How many doublings of the odds each newcomer is better than the mean of the league."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Reestimated:
     """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.

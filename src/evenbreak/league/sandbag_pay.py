@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.error_chain import error_on, move_matrix
@@ -77,8 +77,7 @@ class DumpRow(NamedTuple):
     profit: float
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Sandbagging:
     """What matches lost on purpose bring, by their number.

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.systems.system import System
@@ -27,8 +27,7 @@ from evenbreak.league.sandbag_evidence import (
 from evenbreak.stats.summary import Distribution
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Watched:
     """The evidence against one player.

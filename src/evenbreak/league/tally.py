@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import InputError
 
 GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
@@ -27,8 +27,7 @@ FIFTHS = 5
 """Groups of players by true skill, the weakest first."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class Tally:
     """What replicas of a season came to; two tallies of one season are added with `+`.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Generic, overload
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import number_probability
 from evenbreak.errors import AccuracyError
 from evenbreak.games.rack import ChanceT
@@ -23,8 +23,7 @@ else:
     MeanT = TypeVar("MeanT", covariant=True)
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class MatchLength(Generic[ChanceT, MeanT]):
     """The distribution of the length of a match in racks, from its start score on.

@@ -7,7 +7,7 @@ from typing import Any, Generic, overload
 
 import numpy as np
 
-from evenbreak.arrays import Floats, own_arrays, short_repr
+from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import number_probability
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
@@ -21,8 +21,7 @@ from evenbreak.matches.parameters import at_score, first_breaker, in_shape
 _MOST_SETS = 10_000
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class FinalScores(Generic[ChanceT]):
     """The distribution of the final score of a match.

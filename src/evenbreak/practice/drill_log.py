@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Bools, Ints, own_arrays, short_repr
+from evenbreak.arrays import Bools, Ints, array_values
 from evenbreak.checks import whole, whole_numbers
 from evenbreak.errors import InputError
 
@@ -20,8 +20,7 @@ AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
 """What preceded an attempt; the middle index of `DrillLog.outcomes`."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class DrillLog:
     """The attempts of a progressive drill, in the order in which they were made.

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, own_arrays, short_repr
+from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import column, names, number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of
@@ -43,8 +43,7 @@ class Known(NamedTuple):
     pull: Floats
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False, init=False)
 class Beginning:
     """Ratings that players bring along.

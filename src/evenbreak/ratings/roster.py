@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
@@ -45,8 +45,7 @@ NOT_STATED = -1
 """The games or matches of a player, where the list does not say how many there were."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False, init=False)
 class Roster:
     """The players of a league with their ratings, as read-only columns in the list's order.

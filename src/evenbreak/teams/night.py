@@ -10,15 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, own_arrays, owned, short_repr
+from evenbreak.arrays import Floats, array_values, owned
 from evenbreak.checks import floats, number_probability, one_of
 from evenbreak.errors import InputError
 from evenbreak.teams.order import order_of
 from evenbreak.teams.squad import LineUps, Squad, line_ups
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False, init=False)
 class TeamNight:
     """A team night as a game of two captains.

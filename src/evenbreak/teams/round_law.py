@@ -17,7 +17,7 @@ import numpy as np
 from scipy.stats import binom
 from scipy.stats.qmc import MultivariateNormalQMC
 
-from evenbreak.arrays import Floats, own_arrays, short_repr
+from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.given_ratings import averaging_rule
@@ -43,8 +43,7 @@ class Outcome(NamedTuple):
         return abs(self.win - self.lose)
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True)
 class RoundLaw:
     """The law of our lead at the end of a round, in games.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.teams.matrix_games import matrix_game
 from evenbreak.teams.night import TeamNight
@@ -24,8 +24,7 @@ MOST_STEPS = 4e9
 _AT_A_TIME = 1 << 22
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class SolvedNight:
     """A team night with the value of each of its points.

@@ -6,12 +6,15 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from evenbreak import handicaps, teams
-from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.options import SAY_WHICH, Command, chart_option, with_options
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.files.roster import refuse_to_read
 from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 if TYPE_CHECKING:
     from evenbreak.files.team_list import TeamList
@@ -49,6 +52,22 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     if not scales:
         warnings += league_doubts(points, rated, "is it the right scale?")
     return points, warnings
+
+
+def race_options(command: Command) -> Command:
+    """Add the options that say what is raced to: --race, --race-to and --chart."""
+    length: Any = {"type": Whole(1, LONGEST_RACE), "metavar": "N"}
+    return with_options(
+        command,
+        chart_option("Races by this chart, instead of --race."),
+        click.option(
+            "--race-to",
+            **length,
+            help="Handicapped races, instead of --race: the stronger player needs N games, the "
+            "weaker as many as is fairest.",
+        ),
+        click.option("--race", **length, help="Even races to N games."),
+    )
 
 
 def race_of(race: int | None, race_to: int | None, chart: str | None, *, or_else: str = "") -> Any:

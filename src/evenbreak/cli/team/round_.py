@@ -9,12 +9,11 @@ import click
 from evenbreak import files, ratings, teams
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import OF_LIST, chart_option, scale_option
+from evenbreak.cli.kit.options import OF_LIST, scale_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.cli.team.lists import race_of, scale_of_teams
+from evenbreak.cli.team.lists import race_of, race_options, scale_of_teams
 from evenbreak.ratings.scale import Scale
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 EXAMPLES = """\b
 Examples:
@@ -28,17 +27,7 @@ Examples:
 @click.argument("ours", metavar="OURS.csv")
 @click.argument("theirs", metavar="THEIRS.csv")
 @click.option("--games", type=Whole(1, 100), metavar="K", help="Each match is K single games.")
-@click.option(
-    "--race", type=Whole(1, LONGEST_RACE), metavar="N", help="Or an even race to N games."
-)
-@click.option(
-    "--race-to",
-    type=Whole(1, LONGEST_RACE),
-    metavar="N",
-    help="Or a handicapped race: the stronger player needs N games, the weaker as many as is "
-    "fairest.",
-)
-@chart_option("Or a race by this chart.")
+@race_options
 @click.option(
     "--everybody",
     is_flag=True,

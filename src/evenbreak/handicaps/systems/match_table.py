@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gammaln, xlogy
 
-from evenbreak.arrays import Bools, Floats, Ints, Places, own_arrays, short_repr
+from evenbreak.arrays import Bools, Floats, Ints, Places, array_values
 from evenbreak.checks import complement, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -36,8 +36,7 @@ _DOUBLINGS = 2.0
 """How wide a table is by default: to where the odds of a game are 4 to 1."""
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class MatchTable:
     """All final scores of a system's matches, by rating difference; `match_table` makes it.

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Ints, own_arrays, short_repr
+from evenbreak.arrays import Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
@@ -53,8 +53,7 @@ class MatchChange(NamedTuple):
     ratings: tuple[float, float]
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class RatingChanges:
     """How a night changed the ratings of a list.

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.league.workers import in_order
@@ -39,8 +39,7 @@ class Watched(NamedTuple):
     matches: tuple[int, ...]
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class SeasonChances:
     """How a season may end.

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import column, floats, names, whole_numbers
 from evenbreak.errors import InputError
 from evenbreak.teams.season.rules import TableRules
@@ -17,8 +17,7 @@ from evenbreak.teams.season.rules import TableRules
 MOST_TEAMS = 200
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False, init=False)
 class TeamSeason:
     """A season under way.

@@ -12,7 +12,7 @@ from math import comb
 
 import numpy as np
 
-from evenbreak.arrays import Floats, Ints, own_arrays, short_repr
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
@@ -54,8 +54,7 @@ def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
     return np.array(lost + [(b, a) for a, b in reversed(lost)])
 
 
-@own_arrays
-@short_repr
+@array_values
 @dataclass(frozen=True, eq=False)
 class TeamStrengths:
     """How strong the teams are, as far as their matches show: a normal distribution.
