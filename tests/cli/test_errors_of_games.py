@@ -27,13 +27,16 @@ COMMANDS = (
 )
 
 
-def written(path: Path, column: str, values: tuple[float, ...]) -> dict[str, str]:
-    """Write a list with a column besides the ratings, and one of other names."""
+def written(path: Path, column: str, values: tuple[float | None, ...]) -> dict[str, str]:
+    """Write a list with a column besides the ratings, None for an empty cell, and another list."""
     found = {}
     for key, prefix in (("list", ""), ("list2", "Other ")):
         rows = zip(NAMES, RATINGS, values, strict=True)
-        lines = [f"{prefix}{name},{rating},{value!r}" for name, rating, value in rows]
-        file = path / f"{column}{key}.csv"
+        lines = [
+            f"{prefix}{name},{rating},{'' if value is None else value}"
+            for name, rating, value in rows
+        ]
+        file = path / f"{column}{key}{values.count(None)}.csv"
         file.write_text("\n".join([f"player,rating,{column}", *lines]))
         found[key] = str(file)
     return found
@@ -60,6 +63,21 @@ def test_games_mean_the_same_error_in_every_command(tmp_path: Path, command: str
     by_errors = run(f"{command} --json".format(**written(tmp_path, "standard_error", ERRORS)))
     assert len(numbers(by_games)) > 5
     assert numbers(by_games) == pytest.approx(numbers(by_errors), abs=1e-9)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_rating_without_a_number_of_games_is_none_that_rests_on_any_number(
+    tmp_path: Path, command: str
+) -> None:
+    silent = written(tmp_path, "games", (12, None, 400, 1))
+    by_none = run(f"{command} --json".format(**written(tmp_path, "games", GAMES)))
+    answer = run(f"{command} --json".format(**silent))
+    assert numbers(answer) == pytest.approx(numbers(by_none), abs=1e-12)
+    if "Cy Di" not in command:
+        said = CliRunner().invoke(program, [*command.format(**silent).split(), "--text", "-v"])
+        text = " ".join(said.output.split())
+        assert "(Bo" in text or "Bo:" in text, text
+        assert "as uncertain as that of a new player, ± 100" in text
 
 
 def test_games_mean_the_same_error_in_a_tournament_begun(tmp_path: Path) -> None:

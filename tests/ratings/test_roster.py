@@ -35,7 +35,13 @@ def test_only_new_players_get_what_starters_get_and_games_give_an_error():
     assert started.rating.tolist() == [80.0, 95.0, 90.0, 80.0, 70.0]
     assert started.standard_error[[0, 1, 3]].tolist() == [30.0, 30.0, 12.0]
     assert started.standard_error[2] == pytest.approx(30 / math.log(2) * 2 / math.sqrt(300))
-    assert np.isnan(started.standard_error[4])
+    assert started.standard_error[4] == 30.0  # no number of games is not any number of them
+
+
+def test_where_no_rating_has_games_those_that_have_none_stay_without_an_error():
+    roster = Roster(["Ann", "Bo", "Cy"], [95.0, 90.0, np.nan], games=[NOT_STATED, NOT_STATED, 0])
+    assert roster.with_starters(80.0, 30.0, "npl").standard_error.tolist()[2] == 30.0
+    assert np.isnan(roster.with_starters(80.0, 30.0, "npl").standard_error[:2]).all()
 
 
 @pytest.mark.parametrize("scale", ["npl", "fargo", "elo", 40])

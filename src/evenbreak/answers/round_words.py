@@ -14,6 +14,7 @@ from evenbreak.answers.round import EveningEnd, Round
 from evenbreak.answers.scale_words import game_chance, scale_words
 from evenbreak.answers.wording import clock, count_of, percent, race
 from evenbreak.matches.pace import Pace
+from evenbreak.ratings.roster import NOT_STATED
 
 KINDS = {"chart": "By the chart", "best": "With the fairest races"}
 
@@ -134,6 +135,11 @@ def about_players(tonight: Round) -> Iterator[Remark]:
             ~unrated & filled & (read.games == 0),
             "without games",
             "rating taken as right to ± {1:g}",
+        ),
+        (
+            ~unrated & filled & (read.games == NOT_STATED),
+            "without a number of games",
+            "rating taken to be as uncertain as that of a new player, ± {1:g}",
         ),
     ):
         for place in np.flatnonzero(which & here)[:1]:

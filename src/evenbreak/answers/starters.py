@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from evenbreak.answers.wording import count_of, some_of
-from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
 def starters_words(listed: Roster, filled: Roster) -> str:
@@ -36,16 +36,30 @@ def games_words(listed: Roster, filled: Roster) -> str:
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, 12])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
     'The errors of 2 ratings come from their games, such as ± 83 for Bo after 12.'
+    >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, NOT_STATED])
+    >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
+    'The error of 1 rating comes from its games: ± 17 for Ann after 300. The games of 1 rating (Bo)
+    are not stated: it is taken to be as uncertain as that of a new player, ± 100.'
     """
-    rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error) & (listed.games >= 0)
-    by_games = np.flatnonzero(rated)
-    if not by_games.size:
-        return ""
-    least = by_games[listed.games[by_games].argmin()]
-    name = listed.players[least]
-    error = filled.standard_error[filled.position(name)]
-    return (
-        f"The {'errors' if by_games.size > 1 else 'error'} of {count_of(by_games.size, 'rating')} "
-        f"{'come from their games, such as' if by_games.size > 1 else 'comes from its games:'} "
-        f"± {error:.{0 if error >= 10 else 1}f} for {name} after {listed.games[least]:,}."
-    )
+    rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error)
+    by_games = np.flatnonzero(rated & (listed.games != NOT_STATED))
+    said = []
+    if by_games.size:
+        least = by_games[listed.games[by_games].argmin()]
+        name = listed.players[least]
+        error = filled.standard_error[filled.position(name)]
+        said.append(
+            f"The {'errors' if by_games.size > 1 else 'error'} of "
+            f"{count_of(by_games.size, 'rating')} "
+            f"{'come from their games, such as' if by_games.size > 1 else 'comes from its games:'} "
+            f"± {error:.{0 if error >= 10 else 1}f} for {name} after {listed.games[least]:,}."
+        )
+    silent = [listed.players[k] for k in np.flatnonzero(rated & (listed.games == NOT_STATED))]
+    error = filled.standard_error[filled.position(silent[0])] if silent else np.nan
+    if not np.isnan(error):
+        said.append(
+            f"The games of {count_of(len(silent), 'rating')} ({some_of(silent)}) are not stated: "
+            f"{'they are' if silent[1:] else 'it is'} taken to be as uncertain as that of a new "
+            f"player, ± {error:.4g}."
+        )
+    return " ".join(said)

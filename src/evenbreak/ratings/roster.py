@@ -156,7 +156,9 @@ class Roster:
         standard_error
             for every player who has no rating or no games yet and no error stated: the
             prior's standard deviation, in points. Where games are stated and no error, the
-            error is that of so many games (`error_of_games`), and never more than this.
+            error is that of so many games (`error_of_games`), and never more than this. Where
+            the roster states the games of some ratings alone, each of the others may rest on
+            none, so its error is this one.
         scale
             of the ratings.
 
@@ -176,7 +178,10 @@ class Roster:
             raise InputError(f"standard_error is {standard_error!r}; give 0 or more points")
         unrated = np.isnan(self.rating)
         games = np.where(unrated, 0, self.games)
-        by_games = np.isnan(self.standard_error) & (games != NOT_STATED)
+        open_error = np.isnan(self.standard_error)
+        if (self.games[open_error & ~unrated] > 0).any():  # 0 alone only marks who is new
+            games = np.maximum(games, 0)
+        by_games = open_error & (games != NOT_STATED)
         return Roster(
             self.players,
             np.where(unrated, rating, self.rating),

@@ -63,8 +63,11 @@ def _named(
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
     from evenbreak.answers.chosen_players import find_players
     from evenbreak.answers.roster_matchups import cannot_be_compared
+    from evenbreak.answers.starters import games_words
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
+    from evenbreak.cli.kit.terminal import say
     from evenbreak.files.roster import read_roster
+    from evenbreak.ratings.roster import NOT_STATED, Roster
 
     if len(names) != 2:
         refuse(f"--from needs two players, and {len(names)} are named; quote a name with blanks")
@@ -89,6 +92,12 @@ def _named(
             f"no chain of opponents links {roster.players[a]!r} and {roster.players[b]!r}, so "
             "their ratings cannot be compared"
         )
+    pair = [
+        Roster(names, one.rating[places], one.standard_error[places], one.games[places])
+        for one in (file.roster, roster)
+    ]
+    if (pair[0].games == NOT_STATED).any() and (said := games_words(*pair)):
+        say(said)
     errors = [0.0 if math.isnan(error) else error for error in roster.standard_error.tolist()]
     players = TwoPlayers.rated(
         float(roster.rating[a]),
