@@ -18,7 +18,7 @@ from starlette.applications import Starlette
 
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.site import Site
-from web.phones import carried
+from web.phones import carried, seen_at
 
 
 class Got(NamedTuple):
@@ -76,7 +76,8 @@ class Browser:
 
     def send(self, path: str, **fields: object) -> Got:
         """Send a form of this browser."""
-        return self.ask("POST", path, {**self.hidden(), **fields})
+        seen = seen_at(self.room.site, path)
+        return self.ask("POST", path, {**self.hidden(), **seen, **fields})
 
     def hidden(self) -> dict[str, str]:
         """Return what every form of a page that is opened now carries unseen."""

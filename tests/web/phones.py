@@ -19,6 +19,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import NamedTuple
 
+from evenbreak.web.evening_view import match_view
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
@@ -90,7 +91,7 @@ class Phone:
 
     def send(self, path: str, **fields: object) -> Shown:
         """Send a form of this phone."""
-        return self.send_raw(path, {**self.hidden(), **fields})
+        return self.send_raw(path, {**self.hidden(), **seen_at(self.site, path), **fields})
 
     def send_raw(self, path: str, fields: Mapping[str, object], **headers: str) -> Shown:
         """Send just these fields."""
@@ -124,6 +125,19 @@ class Phone:
 def carried(site: Site, token: str) -> dict[str, str]:
     """Return the hidden fields of a form, as a page shows them now."""
     return {"csrf": token, "once": secrets.token_urlsafe(9), "begun": site.night.begun_at}
+
+
+def seen_at(site: Site, path: str) -> dict[str, str]:
+    """Return the score that the page of a match shows now, which its forms carry."""
+    found = re.fullmatch("/m/([^/]+)/score", path)
+    if not found or not site.night.exists:
+        return {}
+    state = site.night.state()
+    name = site.match_of(found[1], list(state.bracket.by_name)) if state.drawn else None
+    if name is None or name not in state.standing.to_play:
+        return {}
+    a, b = match_view(state, name).score or (0, 0)
+    return {"seen": f"{a}:{b}"}
 
 
 def _part(edge: str, named: str, content: bytes) -> bytes:

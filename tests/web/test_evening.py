@@ -29,8 +29,8 @@ from web.phones import Phone, running, two_phones
 Decide = Callable[[Evening], object]
 
 
-def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> None:
-    """Let both players of a match tap its games, and both enter the result."""
+def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> list[Phone]:
+    """Let both players of a match tap its games and enter the result; return their phones."""
     pair, token = hall.state.pair(match), hall.site.match_token(match)
     phones = two_phones(hall.site)
     asked = dict(zip(("player_a", "player_b"), pair, strict=True))
@@ -40,6 +40,7 @@ def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> None:
         assert phones[0].send(f"/m/{token}/score", a=a, b=b, **asked).status == 200
     for phone in phones:
         assert phone.send(f"/m/{token}/score", a=score[0], b=score[1], **asked).status == 200
+    return phones
 
 
 def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
@@ -99,13 +100,11 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
 
 
 def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -> None:
-    scored_by_phones(hall, "W1.1", (3, 1))
+    phone, _ = scored_by_phones(hall, "W1.1", (3, 1))
     assert "W1.1" in hall.state.counted
     hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
     assert "says:" not in hall.director.open("/desk").words
     token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
-    phone = Phone(hall.site)
-    phone.send(f"/m/{token}/me", me=0)
     assert "counts once" in phone.send(f"/m/{token}/score", a=3, b=1, **asked).words
     assert "W1.1" not in hall.state.counted
 

@@ -14,6 +14,7 @@ import pytest
 
 from evenbreak.web.site import Site
 from web.asked import Browser, Got, Room, copy_of, session
+from web.phones import seen_at
 
 EVERYBODY = "everybody"
 LINK = "who has the link"
@@ -33,7 +34,8 @@ MAY = {
         ],
         EVERYBODY,
     ),
-    **dict.fromkeys(["GET /m/{token}", "POST /m/{token}/me", "POST /m/{token}/score"], LINK),
+    **dict.fromkeys(["GET /m/{token}", "POST /m/{token}/me"], LINK),
+    "POST /m/{token}/score": "player, opponent, director",
     **dict.fromkeys(["POST /team/put", "POST /team/hand", "POST /team/result"], CAPTAINS),
     **dict.fromkeys(
         [
@@ -144,7 +146,8 @@ class Rooms:
             "/m/{token}/me": {"me": 0 if role == "player" else 1},
             "/m/{token}/release": {"me": 0},
             "/m/{token}/score": {"a": 1, "b": 0, "player_a": state.pair("W1.1")[0],
-                                 "player_b": state.pair("W1.1")[1]},
+                                 "player_b": state.pair("W1.1")[1],
+                                 **seen_at(self.site, f"/m/{self.match}/score")},
             "/team/put": by | {"pick": "0"},
             "/team/hand": by | {f"pick{k}": str(k - 1) for k in range(1, 4)},
             "/team/result": by | {"a": 5, "b": 3},

@@ -36,7 +36,7 @@ from evenbreak.web.forms import form_of
 from evenbreak.web.page import done, language, page, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import address_of, check_director, phone_of
+from evenbreak.web.sessions import address_of, check_director, is_director, phone_of
 from evenbreak.web.words import say
 
 _SEEN, _MOST_SEEN = "seen", 4
@@ -69,6 +69,8 @@ async def match(request: Request) -> Response:
         "me": me,
         "of_others": _is_of_others(request, shown["token"], one.players, bool(me)),
         "sides": sides,
+        "seen": _live_words(state, name),
+        "may_score": _may_score(request, sides),
     }
     return page(request, "match.html", live=True, **shown)
 
@@ -128,7 +130,11 @@ async def release(request: Request) -> Response:
 
 
 async def tap(request: Request) -> Response:
-    """Take the score of a match in play; a full score is proposed as the result."""
+    """Take the score of a match in play; a full score is proposed as the result.
+
+    A form counts from the score that its page showed: where somebody has scored since, it is
+    refused, so that a phone that was out of reach takes no game away.
+    """
     name, state = await _match(request)
     form = await form_of(request)
     site, to = site_of(request), f"/m/{request.path_params['token']}"
@@ -139,11 +145,15 @@ async def tap(request: Request) -> Response:
     if (form.text("player_a"), form.text("player_b")) != pair:
         raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
-    me = (await _sides(request, name, pair)).of(phone_of(request))
+    sides = await _sides(request, name, pair)
+    if not _may_score(request, sides):
+        raise RefusalError("refused_not_playing", status=403, match=name)
+    me, seen = sides.of(phone_of(request)), form.text("seen")
     if form.text("me") and not me:
         me = pair[form.whole("me", 0, 1)]
         await asyncio.to_thread(_claim, request, name, pair, me)
     if score[0] == needs[0] or score[1] == needs[1]:
+        _check_seen(await asyncio.to_thread(site.night.state), name, seen)
         said = await asyncio.to_thread(_propose, request, name, pair, score)
         return done(request, to, said)
     at, by = site.clock(), f"phone: {me or name}"
@@ -151,11 +161,33 @@ async def tap(request: Request) -> Response:
     def decide(now: Evening) -> list[Event]:
         found: Scored = moves.score(now, name, score)
         live = now.live.get(name)
-        return [] if live and live.what == found else [Event(at, found)]
+        if live and live.what == found:  # both players saw the same game
+            return []
+        _check_seen(now, name, seen)
+        return [Event(at, found)]
 
     key = form.key(request.url.path)
     await asyncio.to_thread(add_events, site.path, decide, by=by, form=key)
     return done(request, to)
+
+
+def _may_score(request: Request, sides: Sides) -> bool:
+    """Return whether a phone may score: where both sides have one, only those and the director."""
+    full = len(sides.claims) == 2
+    return not full or bool(sides.of(phone_of(request))) or is_director(request)
+
+
+def _check_seen(state: Evening, name: str, seen: str) -> None:
+    """Refuse a form that was made before the score that there is now."""
+    there = _live_words(state, name)
+    if seen != there:
+        raise RefusalError("refused_seen", status=409, match=name, score=there)
+
+
+def _live_words(state: Evening, name: str) -> str:
+    """Return the score of a match in play, such as 3:0."""
+    a, b = match_view(state, name).score or (0, 0)
+    return f"{a}:{b}"
 
 
 def _players(state: Evening, name: str) -> tuple[str, str]:
