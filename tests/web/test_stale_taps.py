@@ -1,4 +1,4 @@
-"""Phones that were out of reach: a tap counts from the score that its page showed, or not at all."""
+"""Phones that were out of reach: a tap counts from the score that its page showed."""
 
 import random
 import re
