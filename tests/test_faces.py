@@ -288,6 +288,14 @@ def faces(request):
     return faces_of(request.param)
 
 
+def test_a_column_has_numbers_of_one_kind(faces):
+    for part in [*faces.answer.parts, *faces.answer.details, faces.answer.csv]:
+        for at, name in enumerate(part.names if isinstance(part, Table) else ()):
+            values = [record[at] for record in part.records()]
+            kinds = {type(value) for value in values if value is not None}
+            assert not {int, float} <= kinds or str in kinds, (name, values)  # words: settings
+
+
 def test_every_face_has_the_same_sentences(faces):
     text, answer, page = faces.details, json.loads(faces.json), faces.page
     shown = Cells()

@@ -60,6 +60,7 @@ FRONTS = (
     "{k}.\u00a0",
     "{k} ",
 )
+TRAILS = ("", ",", ";", "\t", " ,", ";;", "\t\t", ", ")
 BULLETS = ("", "- ", "• ", "* ", "🎱 ", "  ", "– ")
 SLIPS = (
     "{n} {r} +/- 20",
@@ -112,13 +113,14 @@ def test_a_list_of_one_form_is_read_as_it_was_meant(tmp_path: Path, seed: int) -
     rng = np.random.default_rng(seed)
     size = int(rng.integers(3, 9))
     who, how = names(rng, size), ratings(rng, size)
-    front, bullet = rng.choice(FRONTS), rng.choice(BULLETS)
+    front, bullet, trail = (rng.choice(some) for some in (FRONTS, BULLETS, TRAILS))
     form = rng.choice([*NO_DOUBT, *BLANKS])
     unrated = rng.random(size) < 0.2 * (form in NO_DOUBT and "," not in form)
     lines = [
         bullet
         + front.format(k=k + 1)
         + (n if gone else form.format(n=n, r=shown(r, form == "{n}\t{r}")))
+        + trail
         for k, (n, r, gone) in enumerate(zip(who, how, unrated, strict=True))
     ]
     if any("," in name for name in who) and (unrated.any() or form == "{n},{r}"):
@@ -140,13 +142,16 @@ def test_a_line_of_a_mixed_list_is_read_right_or_doubted(tmp_path: Path, seed: i
     size = int(rng.integers(2, 7))
     who, how = names(rng, size), ratings(rng, size)
     forms = rng.choice([*NO_DOUBT, *BLANKS, "{n}", *SLIPS], size)
+    trails = rng.choice(TRAILS, size)
     fronts = rng.choice(FRONTS, size) if rng.random() < 0.5 else [rng.choice(FRONTS)] * size
     for k in range(size):
         if rng.random() < 0.15:
             who[k] = ODD[k]
     lines = [
-        front.format(k=k + 1) + form.format(n=n, r=shown(r, comma=False))
-        for k, (front, form, n, r) in enumerate(zip(fronts, forms, who, how, strict=True))
+        front.format(k=k + 1) + form.format(n=n, r=shown(r, comma=False)) + trail
+        for k, (front, form, n, r, trail) in enumerate(
+            zip(fronts, forms, who, how, trails, strict=True)
+        )
     ]
     file = read(tmp_path / "list.txt", "\n".join(lines))
     if file is None:
@@ -180,6 +185,8 @@ def test_a_slip_among_clear_lines_is_never_silent(tmp_path: Path, form: str) -> 
         ("Ann 92,5\nBo 71,5\n", ("Ann", "Bo"), [92.5, 71.5]),
         ("Player 1,612\nPlayer 2,540\n", ("Player 1", "Player 2"), [612, 540]),
         ("1\tAnn\t612\n2\tBo\t540\n", ("Ann", "Bo"), [612, 540]),
+        ("Ann Lee 612\n4\tBo Diaz\t455\t\n", ("Ann Lee", "Bo Diaz"), [612, 455]),
+        ("Ida Quist 512,\nAnn Lee 612\n", ("Ida Quist", "Ann Lee"), [512, 612]),
     ],
 )
 def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
@@ -218,6 +225,13 @@ def test_what_could_mean_something_else_is_said(tmp_path, text, said):
 )
 def test_what_could_mean_two_things_is_refused(tmp_path, text):
     assert read(tmp_path / "list.txt", text) is None
+
+
+def test_a_message_shows_a_tab_as_a_blank(tmp_path: Path) -> None:
+    path = tmp_path / "list.txt"
+    path.write_text("Ann Lee\tDowntown\t612\n", encoding="utf-8")
+    with pytest.raises(DataError, match="'Ann Lee Downtown' is not a name and a rating"):
+        read_entrants(path)
 
 
 @pytest.mark.parametrize("sign", ["x", ",", "\t", "9 ", "((", " -", "a 1"])

@@ -97,18 +97,18 @@ def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
         Column("points", "points", _points),
         Column("p_title", "title", share),
     ]
-    values: list[Any] = [season.teams, played, season.points, found.p_first(1)]
+    values: list[Any] = [season.teams, played.tolist(), _of_points(season.points)]
+    values.append(found.p_first(1).tolist())
     if up is not None and up > 1:
         columns.append(Column("p_up", f"first {up}", share))
-        values.append(found.p_first(up))
+        values.append(found.p_first(up).tolist())
     if down is not None:
         columns.append(Column("p_down", f"last {down}", share))
-        values.append(found.p_place[:, teams - down :].sum(axis=1))
+        values.append(found.p_place[:, teams - down :].sum(axis=1).tolist())
     columns.append(Column("place_mean", "place,\naverage", decimals(1)))
-    values.append(found.mean_place)
+    values.append(found.mean_place.tolist())
     order = sorted(range(teams), key=lambda k: (found.mean_place[k], -season.points[k]))
-    rows = [[_plain(column[k]) for column in values] for k in order]
-    return Table("teams", columns, rows)
+    return Table("teams", columns, [[column[k] for column in values] for k in order])
 
 
 def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table:
@@ -122,8 +122,9 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
     if down is not None:
         columns.append(Column("points_to_stay", "staying up", _or_safe))
         values.append(season.points_to_be_sure(teams - down))
+    shown = [season.teams, *map(_of_points, values)]
     rows = [
-        [season.teams[team], *(_plain(column[team]) for column in values)]
+        [column[team] for column in shown]
         for team in np.argsort(-season.points, kind="stable").tolist()
     ]
     return Table(
@@ -135,13 +136,10 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
     )
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, str):
-        return value
-    number = float(value)
-    if np.isnan(number):
-        return None
-    return int(number) if number.is_integer() and abs(number) > 1.0 else number
+def _of_points(points: Any) -> list[float | int | None]:
+    """Return points as numbers of one kind: whole ones if all are; None for NaN."""
+    kind = int if all(point.is_integer() for point in points[np.isfinite(points)]) else float
+    return [None if np.isnan(point) else kind(point) for point in points.tolist()]
 
 
 def _points(value: float) -> str:

@@ -17,9 +17,12 @@ LONGEST_QUOTE = 40
 def quoted(text: str) -> str:
     r"""Return text quoted for a message: short, on one line, harmless to a terminal.
 
+    A tab is shown as the blank that it looks like.
+
     >>> quoted("six\nhundred"), quoted("9" * 50)
     ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
     """
+    text = text.replace("\t", " ")
     return repr(text) if len(text) <= LONGEST_QUOTE else repr(text[:LONGEST_QUOTE]) + "..."
 
 

@@ -23,6 +23,8 @@ _MARKED = re.compile(
     re.IGNORECASE,
 )
 _PLAIN = re.compile(r"([0-9]+)\s+(?=[^\s0-9])")
+_COLUMN_IN_FRONT = re.compile(r"([0-9]+)\t(?=[^\t]*[^\s0-9][^\t]*(?:\t|$))")
+_TRAILING = re.compile(r"[\s,;|]+$")
 _APART = (
     re.compile(rf"(.*[^\s,;:(\[])[\s,;:]*[(\[]\s*({_ONE})\s*[)\]]"),  # Ann (560)
     re.compile(rf"(.*[^\s:=+/–—-])\s*(?:[:=–—]|\s-\s|-\s)\s*({_ONE})"),  # Ann: 560, Ann – 560
@@ -105,7 +107,12 @@ def typed_line(number: int, text: str, most: int, *, numbered: bool = False) -> 
     """
     rest = _AROUND.sub("", re.sub(r"[^\S\t]+", " ", text))
     front = None
-    found = _MARKED.match(rest) or (_PLAIN.match(rest) if numbered else None)
+    rest = _TRAILING.sub("", rest)  # an empty cell after the last that is filled
+    found = (
+        _MARKED.match(rest)
+        or _COLUMN_IN_FRONT.match(rest)
+        or (_PLAIN.match(rest) if numbered else None)
+    )
     if found:
         front, rest = int(next(filter(None, found.groups()))), rest[found.end() :]
     name, cells, joined = _apart(rest.strip(), most)

@@ -51,6 +51,19 @@ def test_one_file_may_have_the_whole_season(ask, tmp_path):
     assert one["teams"] == two["teams"]
 
 
+@pytest.mark.parametrize(("win", "whole"), [("2", True), ("1.5", False)])
+def test_a_column_is_whole_or_not_as_a_whole(run, tmp_path, win, whole):
+    path = tmp_path / "season.csv"
+    rows = ["1,Chalk,Rack,3,2", "1,Cues,Break,4,1", "2,Chalk,Cues,,", "2,Rack,Cues,2,3"]
+    path.write_text("\n".join(["round,home,away,home_score,away_score", *rows]) + "\n")
+    asked = ("--up", "1", "--down", "1", "--seasons", "1000", "--points", f"{win},1,0")
+    lines = run("season", str(path), *asked, "--csv").stdout.splitlines()
+    rows = [line.split(",") for line in lines[1:]]
+    assert sorted(row[1] for row in rows) == ["1", "1", "2", "2"]
+    assert {"." in row[2] for row in rows} == {not whole}
+    assert all("." in row[3] for row in rows)
+
+
 def test_a_season_with_half_a_score_or_none_is_refused(run, tmp_path):
     bad = tmp_path / "bad.csv"
     bad.write_text("home,away,home_score,away_score\nA,B,3,2\nB,A,3,\n")
