@@ -24,8 +24,11 @@ def test_the_least_even_race_is_the_furthest_from_a_half():
     frame = round_of().matchups.frame
     text = least_even(races_of(frame, "chart_"))
     worst = frame.iloc[frame["chart_unfairness"].argmax()]
-    assert worst.player_a in text
-    assert worst.player_b in text
+    # In the order of the table, whoever is the favorite.
+    needs = f"{worst.chart_race_a:g}:{worst.chart_race_b:g}"
+    assert f"{needs} for {worst.player_a} against {worst.player_b}: " in text
+    favorite = worst.player_a if worst.chart_p_win_a > 0.5 else worst.player_b
+    assert f": {favorite} wins" in text
     assert f"{50 + 100 * worst.chart_unfairness:.0f}%" in text
 
 

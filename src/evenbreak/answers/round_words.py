@@ -44,17 +44,16 @@ def least_even(paired: pd.DataFrame) -> str:
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
     >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
     >>> print(least_even(pd.DataFrame(pairs | races)))
-    The least even race is 6:4 for Di against Cy: Di wins 59% of the time.
+    The least even race is 4:6 for Cy against Di: Di wins 59% of the time.
     """
     offered = paired.dropna(subset=["race_a"])
     if not len(offered):
         return ""
     worst: Any = offered.iloc[int((offered["p_win_a"] - 0.5).abs().argmax())]
     a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
-    if p < 0.5:
-        a, b, needs, p = b, a, needs[::-1], 1.0 - p
+    winner, p = (a, p) if p >= 0.5 else (b, 1.0 - p)
     which = "The least even race is" if len(offered) > 1 else "The race is"
-    return f"{which} {race(needs)} for {a} against {b}: {a} wins {percent(p)} of the time."
+    return f"{which} {race(needs)} for {a} against {b}: {winner} wins {percent(p)} of the time."
 
 
 def evening_words(end: EveningEnd) -> str:
