@@ -14,7 +14,7 @@ from evenbreak.answers.tournament_matches import tournament_events_answer
 from evenbreak.files.entrants import read_entrants
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Entrant, Event, Plan, What
+from evenbreak.tournaments.evening.events import Entrant, Event, Plan, Scored, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.opening import opened
 
@@ -86,12 +86,17 @@ def racks_of(state: Evening, match: str, rng: np.random.Generator) -> list[int]:
     return racks
 
 
+def by(what: What) -> str:
+    """Return who enters it: the players their score, on a phone, and the director all else."""
+    return f"phone: {what.players[0]}" if isinstance(what, Scored) else "director's page"
+
+
 def score_of(racks: list[int]) -> tuple[int, int]:
     return racks.count(0), racks.count(1)
 
 
 if __name__ == "__main__":
-    events = [Event(time(minute), what) for minute, what in story_of_the_evening()]
+    events = [Event(time(minute), what, by(what)) for minute, what in story_of_the_evening()]
     text = "".join(to_csv(tournament_events_answer(events, "demo")))
     out = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "demo_evening.csv"
     out.write_text(text, encoding="utf-8")
