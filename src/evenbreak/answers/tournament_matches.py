@@ -62,7 +62,9 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
             ]
         )
     table = Table("matches", columns, rows)
-    said = f"{count_of(len(rows), 'match was', 'matches were')} played."
+    forfeits = sum(bool(row[-1]) for row in rows)
+    said = f"{count_of(len(rows) - forfeits, 'match was', 'matches were')} played"
+    said += f", {forfeits:,} forfeited." if forfeits else "."
     return Answer(event, [said, table], csv=table)
 
 
