@@ -3,12 +3,13 @@
 from itertools import pairwise
 
 import pytest
+from matplotlib.text import Text
 
 from evenbreak.answers.bracket_view import bracket_panels
 from evenbreak.sheets.bracket_drawing import bracket_figure, bracket_pdf
 from evenbreak.sheets.bracket_page import bracket_html
 from evenbreak.tournaments.brackets.seeding import seeded_lines
-from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
+from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result, Scored
 from evenbreak.tournaments.evening.fold import evening
 
 
@@ -48,6 +49,23 @@ def test_winners_lines_lead_to_where_winners_go() -> None:
                 assert "winner" in graph.edges[box.match, box.to]
                 later = next(one for one in panel.boxes if one.match == box.to)
                 assert later.column == box.column + 1
+
+
+@pytest.mark.parametrize("players", [("Player 1", "Player 4"), ("Player 4", "Player 1")])
+def test_a_match_in_play_shows_its_score_and_a_race_is_not_a_score(
+    players: tuple[str, str],
+) -> None:
+    events = list(drawn("single", 4).events)
+    events.append(Event("2025-03-01T19:40:00", Scored("W1.1", players, (3, 0))))
+    boxes = {box.match: box for panel in bracket_panels(evening(events)) for box in panel.boxes}
+    scores = {line.text: line.score for line in boxes["W1.1"].lines}
+    assert scores == dict(zip(players, ("3", "0"), strict=True))
+    assert [line.score for line in boxes["W1.2"].lines] == ["", ""]
+    assert [boxes[name].race for name in ("W1.1", "W1.2", "F")] == ["race to 5", "race to 5", ""]
+    written = bracket_figure(bracket_panels(evening(events)), ["Night"])
+    texts = [text.get_text() for text in written.findobj(Text)]
+    assert texts.count("race to 5") == 2
+    assert "5:5" not in texts
 
 
 def test_names_of_any_script_are_text_everywhere() -> None:

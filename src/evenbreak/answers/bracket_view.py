@@ -40,11 +40,9 @@ class Line:
     seed
         the seed; None where not known.
     score
-        games won, 'forfeit' or ''.
+        games won, also of a match in play; 'forfeit' or ''.
     won
         whether this player won the match.
-    needs
-        the games that the player needs; None where not known.
     """
 
     text: str
@@ -52,7 +50,6 @@ class Line:
     seed: int | None = None
     score: str = ""
     won: bool = False
-    needs: int | None = None
 
 
 @dataclass(frozen=True)
@@ -75,6 +72,8 @@ class Box:
         'over', 'playing', 'ready' or 'waits'.
     table
         the table on which it is played; None unless it is.
+    needs
+        the games that each player needs; None where it is over, or the players are not known.
     """
 
     match: str
@@ -84,6 +83,15 @@ class Box:
     to: str
     state: str
     table: int | None = None
+    needs: tuple[int, int] | None = None
+
+    @property
+    def race(self) -> str:
+        """What is raced to, such as 'race to 5', unlike a score; '' where it is not known."""
+        if self.needs is None:
+            return ""
+        one, other = self.needs
+        return f"race to {one}" if one == other else f"race {one}:{other}"
 
 
 @dataclass(frozen=True)
@@ -240,12 +248,14 @@ def _box(state: Evening, match: Match, column: int, height: float, to: str) -> B
     now, result = state.standing, state.counted.get(match.name)
     seats = now.seats[match.name]
     pair = [None if seat is None else state.order[seat] for seat in seats]
-    needs: tuple[int | None, int | None] = (None, None)
-    if None not in pair:
+    needs = None
+    if result is None and None not in pair:
         needs = state.needed(match.name, (str(pair[0]), str(pair[1])))
+    live = state.live.get(match.name)
+    games = dict(zip(live.what.players, live.what.score, strict=True)) if live else {}
     lines = []
     for k, (name, seat) in enumerate(zip(pair, seats, strict=True)):
-        score = ""
+        score = str(games[name]) if name in games else ""
         if result is not None and name is not None and not result.forfeit:
             score = str(result.games[name])
         elif result is not None and result.forfeit and name != result.winner:
@@ -257,7 +267,6 @@ def _box(state: Evening, match: Match, column: int, height: float, to: str) -> B
                 None if seat is None else seat + 1,
                 score,
                 result is not None and result.winner == name,
-                needs[k],
             )
         )
     table = state.on_tables.get(match.name)
@@ -268,7 +277,7 @@ def _box(state: Evening, match: Match, column: int, height: float, to: str) -> B
     else:
         standing = "ready" if match.name in now.to_play else "waits"
     number = None if table is None else table.call.table
-    return Box(match.name, column, height, (lines[0], lines[1]), to, standing, number)
+    return Box(match.name, column, height, (lines[0], lines[1]), to, standing, number, needs)
 
 
 def _from(slot: int | Source) -> str:

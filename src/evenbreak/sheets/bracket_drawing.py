@@ -170,13 +170,11 @@ def _box(page: Paper, box: Box, x: float, y: float, area: _Area) -> None:
     page.line((x, x + width), (y, y), lw=0.3)
     for k, line in enumerate(box.lines):
         _line(page, line, x, y + (k - 0.5) * half, area)
-    needs = [line.needs for line in box.lines]
-    race = "" if box.state == "over" or None in needs else f"{needs[0]}:{needs[1]}"
     size = 0.62 * _size(area)
-    if race:
-        page.text(x + width, y - half - 0.02, race, size=size, color="0.35", ha="right")
+    if box.race:
+        page.text(x + width, y - half - 0.02, box.race, size=size, color="0.35", ha="right")
     note = box.match if box.table is None else f"{box.match}  table {box.table}"
-    room = width - (width_of(race, size) + _EDGE if race else 0.0)
+    room = width - (width_of(box.race, size) + _EDGE if box.race else 0.0)
     note, size = fitted(note, size, room, bold=playing)
     page.text(x, y - half - 0.02, note, size=size, color="0.35", bold=playing)
 
