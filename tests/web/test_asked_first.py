@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.tournament_store import add_events, read_events
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event
 from web.conftest import Hall
 from web.phones import Phone, Shown
 
@@ -98,6 +100,18 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
     assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
     history = busy.director.open("/desk/history").text
     assert history.count("<s>The call of W2.2 to table 4</s> (taken back)") == TAPS
+    assert history.count("taken back: the call of W2.2 to table 4") == TAPS
+    busy.director.send("/language", language="de")
+    history = busy.director.open("/desk/history").text
+    assert len(re.findall(r"Eingabe \d+ zurückgenommen: [^<:]*W2.2[^<:]*Tisch 4", history)) == TAPS
+
+
+def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
+    called = moves.call(busy.state, "W1.5", None)
+    add_events(busy.site.path, lambda _: [Event(busy.site.clock(), called)])
+    rows = busy.director.open("/desk/history").text.split("<tr>")
+    assert next(row for row in rows if "W1.5" in row).count("<td>a terminal</td>") == 1
+    assert sum("a terminal" in row for row in rows) == 1  # the page began the tournament
 
 
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:

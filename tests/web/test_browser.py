@@ -76,6 +76,27 @@ def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hal
     page.context.close()
 
 
+BROKEN = """() => [...document.querySelectorAll(".log td")].flatMap((cell) => {
+    const walk = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT), broken = [];
+    while (walk.nextNode()) for (const word of walk.currentNode.data.matchAll(/[^\\s-]+/g)) {
+        const range = document.createRange();
+        range.setStart(walk.currentNode, word.index);
+        range.setEnd(walk.currentNode, word.index + word[0].length);
+        if (range.getClientRects().length > 1) broken.push(word[0]);
+    }
+    return broken;
+})"""
+"""The words of a list of entries that stand on two lines."""
+
+
+@pytest.mark.parametrize("width", [320, 390, 1024])
+def test_who_entered_what_breaks_no_word(browser: Any, event: Hall, width: int) -> None:
+    page = opened(browser, event.site, width=width)
+    page.goto(f"{event.site.address}/desk/history")
+    assert page.locator(".log td").count() > 8
+    assert page.evaluate(BROKEN) == []
+
+
 def test_a_bracket_of_groups_scrolls_in_its_own_frame(browser: Any, tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)

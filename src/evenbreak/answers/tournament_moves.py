@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from evenbreak.answers.tournament import slot_words, unrated_words
 from evenbreak.answers.tournament_chips import chip_changes, entered_words, rack_words
 from evenbreak.answers.tournament_night import waits_for
@@ -254,6 +256,20 @@ def event_words(what: What) -> str:
             return f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
         case _:
             return _entry_words(what)
+
+
+def history_words(events: Sequence[Event]) -> list[str]:
+    """Return what happened in each entry, in a few words; of an undo, what it took back.
+
+    >>> called = Event("2025-03-01T19:30:00", Called("W1.1", 3, ("Ann", "Bo")))
+    >>> history_words([called, Event("2025-03-01T19:31:00", Undone(1))])[1]
+    'entry 1 taken back: the call of W1.1 to table 3'
+    """
+    said = [event_words(one.what) for one in events]
+    for k, one in enumerate(events):
+        if isinstance(one.what, Undone) and one.what.entry is not None:
+            said[k] += f": {said[one.what.entry - 1]}"
+    return said
 
 
 def _entry_words(what: What) -> str:

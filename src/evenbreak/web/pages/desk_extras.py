@@ -12,7 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.answer import Answer
-from evenbreak.answers.tournament_moves import event_words
+from evenbreak.answers.tournament_moves import history_words
 from evenbreak.answers.tournament_under_way import time_under_way
 from evenbreak.files.match_phones import ENTERED, phone_entries
 from evenbreak.files.tournament_desk import back_up
@@ -72,7 +72,8 @@ async def history(request: Request) -> Response:
         raise RefusalError("refused_no_tournament", status=404)
     found = await asyncio.to_thread(read_events, path)
     rows: list[tuple[str, int | str, str, str]] = [
-        (one.at, k, event_words(one.what), one.by) for k, one in enumerate(found, 1)
+        (one.at, k, what, one.by)
+        for k, (one, what) in enumerate(zip(found, history_words(found), strict=True), 1)
     ]
     undos = {k for k, one in enumerate(found, 1) if isinstance(one.what, Undone)}
     gone = set(range(1, len(found) + 1)) - undos - set(evening(found).numbers)

@@ -156,7 +156,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         doubts.append(unrated_words(new, plan.starter, plan.starter_error))
     if not known:
         doubts += filter(None, [games_words(read, filled)])
-    return Event(site.clock(), opened(plan, rows)), [*warnings_of(file), *doubts]
+    return Event(site.clock(), opened(plan, rows), BY), [*warnings_of(file), *doubts]
 
 
 def _plan(form: Form, scale: Scale) -> Plan:
