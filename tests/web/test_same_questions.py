@@ -19,6 +19,7 @@ from evenbreak.cli.team.lineup import command as lineup
 from evenbreak.cli.tournament.new import command as new
 from evenbreak.files.tournament_store import read_tournament
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 from web.phones import Phone, running
 
 
@@ -116,7 +117,7 @@ def test_a_race_has_the_same_limits_on_the_page(director: Phone) -> None:
     assert ends[0].to_info_dict() == ends[1].to_info_dict()
     allowed = f"from {ends[0].min} to {ends[0].max}"  # type: ignore[attr-defined]
     page = director.open("/fair", a="612", b="540", scale="fargo", race=10**6)
-    assert allowed in page.words
+    assert f"from 1 to {LONGEST_RACE}" in page.words  # as tonight's races: guests ask it
     results = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n"
     asked = {"results": results, "scale": "fargo", "race": 10**6}
     assert allowed in director.send("/league", **asked).words

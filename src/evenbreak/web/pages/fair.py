@@ -13,11 +13,11 @@ from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
 from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
-from evenbreak.matches.formats import LONGEST
 from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of
 from evenbreak.ratings.unstated_scale import unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
+from evenbreak.tournaments.evening.opening import LONGEST_RACE
 from evenbreak.web.forms import CHOOSE_IT, Form
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
@@ -42,7 +42,8 @@ async def fair(request: Request) -> Response:
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
     stated = _scale(request, state, league)
-    length = Form(request.query_params).whole("race", 1, LONGEST, default=7)
+    # As long as tonight's: everybody may ask, and a race to 1,000 takes seconds to work out.
+    length = Form(request.query_params).whole("race", 1, LONGEST_RACE, default=7)
     shown: dict[str, Any] = {
         "asked": asked,
         "length": length,
