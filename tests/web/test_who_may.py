@@ -34,7 +34,7 @@ MAY = {
         ],
         EVERYBODY,
     ),
-    **dict.fromkeys(["GET /m/{token}", "POST /m/{token}/me"], LINK),
+    **dict.fromkeys(["GET /m/{token}", "GET /m/{token}/score", "POST /m/{token}/me"], LINK),
     "POST /m/{token}/score": "player, opponent, director",
     **dict.fromkeys(["POST /team/put", "POST /team/hand", "POST /team/result"], CAPTAINS),
     **dict.fromkeys(

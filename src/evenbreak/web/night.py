@@ -110,13 +110,14 @@ class Night:
 
     def state(self) -> Evening:
         """Return the state of the evening: the same object until something happens."""
-        mark = mark_of(self.path)
-        if self._read is None or self._read[0] != mark:
+        mark, read = mark_of(self.path), self._read
+        if read is None or read[0] != mark:
             events = read_events(self.path)
-            same = self._read is not None and self._read[1] == events
-            state = self._read[2] if self._read and same else tournament_of(self.path, events)
-            self._read = mark, events, state
-        return self._read[2]
+            same = read is not None and read[1] == events
+            state = read[2] if read and same else tournament_of(self.path, events)
+            # Another thread may keep what it read before; what is returned is what was read here.
+            read = self._read = mark, events, state
+        return read[2]
 
     @property
     def names(self) -> set[str]:

@@ -8,8 +8,9 @@ session of its own, but it comes from where the phone is.
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from scipy.special import betainc
 from starlette.requests import Request
@@ -27,28 +28,41 @@ from evenbreak.files.match_phones import (
     phone_entries,
     sides_between,
 )
-from evenbreak.files.tournament_store import add_events
+from evenbreak.files.tournament_store import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Event, Result, Scored
+from evenbreak.tournaments.evening.events import Event, Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import MatchView, match_view
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import done, language, page, site_of
+from evenbreak.web.page import done, language, page, reason, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import address_of, check_director, is_director, phone_of
 from evenbreak.web.words import say
 
 _SEEN, _MOST_SEEN = "seen", 4
+_MOVED_ON = "refused_seen"
+
+Check: TypeAlias = Callable[[Evening], None]
+"""Refuses a form by the state that there is when it is entered."""
 
 
 async def match(request: Request) -> Response:
     """Show a match to its players."""
-    name, state = await _match(request)
+    return await _shown(request, *await _match(request))
+
+
+async def _shown(
+    request: Request, name: str, state: Evening, why: RefusalError | None = None
+) -> Response:
+    """Return the page of a match as it is now, and why a tap was refused."""
     shown: dict[str, Any] = {"name": name, "token": request.path_params["token"]}
+    shown["why"] = reason(request, why) if why else ""
+    shown["status"] = why.status if why else 200
     if name not in state.standing.to_play:
         result = state.counted.get(name)
-        mine = (await _sides(request, name, result.players)).of(phone_of(request)) if result else ""
+        sides = await asyncio.to_thread(_sides, request, name, result.players) if result else None
+        mine = sides.of(phone_of(request)) if sides else ""
         known = await site_of(request).night.outlook()
         views = player_views(state, known)
         whose = [mine] if mine else list(result.players) if result else []
@@ -60,8 +74,7 @@ async def match(request: Request) -> Response:
     seats = [state.order.index(player) for player in one.players]
     skill = state.ratings[seats[0]] - state.ratings[seats[1]]
     p_game = float(state.scale.win_probability(skill))
-    entries = await asyncio.to_thread(phone_entries, site_of(request).path, name)
-    sides = sides_between(entries, one.players)
+    sides = await asyncio.to_thread(_sides, request, name, one.players)
     me = sides.of(phone_of(request))
     shown |= {
         "one": one,
@@ -108,7 +121,8 @@ async def be(request: Request) -> Response:
     form = await form_of(request)
     _count_tap(request, name)
     pair = _players(state, name)
-    await asyncio.to_thread(_claim, request, name, pair, pair[form.whole("me", 0, 1)])
+    me = pair[form.whole("me", 0, 1)]
+    await asyncio.to_thread(_claim, request, name, pair, me, lambda _: None)
     return done(request, f"/m/{request.path_params['token']}")
 
 
@@ -145,43 +159,56 @@ async def tap(request: Request) -> Response:
     if (form.text("player_a"), form.text("player_b")) != pair:
         raise RefusalError("refused_other_players", status=409, match=name)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
-    sides = await _sides(request, name, pair)
-    if not _may_score(request, sides):
+    seen = form.text("seen")
+
+    def check(now: Evening) -> None:
+        _check_tap(request, now, name, pair, seen)
+
+    def work() -> str:
+        me = _sides(request, name, pair).of(phone_of(request))
+        if form.text("me") and not me:
+            me = pair[form.whole("me", 0, 1)]
+            _claim(request, name, pair, me, check)
+        if score[0] == needs[0] or score[1] == needs[1]:
+            return _propose(request, name, pair, score, check)
+
+        def decide(now: Evening) -> list[Event]:
+            check(now)
+            as_it_is = "{}:{}".format(*score) == seen
+            return [] if as_it_is else [Event(site.clock(), moves.score(now, name, score))]
+
+        key = form.key(request.url.path)
+        add_events(site.path, decide, by=f"phone: {me or name}", form=key)
+        return ""
+
+    try:
+        said = await asyncio.to_thread(work)
+    except RefusalError as error:
+        if error.key != _MOVED_ON:
+            raise
+        return await _shown(request, *await _match(request), error)
+    return done(request, to, *filter(None, [said]))
+
+
+def _check_tap(request: Request, now: Evening, name: str, pair: tuple[str, str], seen: str) -> None:
+    """Refuse a form that was made before the score that there is now, or that may not score.
+
+    It is asked while nobody else can enter anything.
+    """
+    if name not in now.standing.to_play:
+        raise RefusalError("refused_over", status=409, match=name)
+    if now.pair(name) != pair:
+        raise RefusalError("refused_other_players", status=409, match=name)
+    if not _may_score(request, _sides(request, name, pair)):
         raise RefusalError("refused_not_playing", status=403, match=name)
-    me, seen = sides.of(phone_of(request)), form.text("seen")
-    if form.text("me") and not me:
-        me = pair[form.whole("me", 0, 1)]
-        await asyncio.to_thread(_claim, request, name, pair, me)
-    if score[0] == needs[0] or score[1] == needs[1]:
-        _check_seen(await asyncio.to_thread(site.night.state), name, seen)
-        said = await asyncio.to_thread(_propose, request, name, pair, score)
-        return done(request, to, said)
-    at, by = site.clock(), f"phone: {me or name}"
-
-    def decide(now: Evening) -> list[Event]:
-        found: Scored = moves.score(now, name, score)
-        live = now.live.get(name)
-        if live and live.what == found:  # both players saw the same game
-            return []
-        _check_seen(now, name, seen)
-        return [Event(at, found)]
-
-    key = form.key(request.url.path)
-    await asyncio.to_thread(add_events, site.path, decide, by=by, form=key)
-    return done(request, to)
+    if seen != (there := _live_words(now, name)):
+        raise RefusalError(_MOVED_ON, status=409, match=name, score=there)
 
 
 def _may_score(request: Request, sides: Sides) -> bool:
     """Return whether a phone may score: where both sides have one, only those and the director."""
     full = len(sides.claims) == 2
     return not full or bool(sides.of(phone_of(request))) or is_director(request)
-
-
-def _check_seen(state: Evening, name: str, seen: str) -> None:
-    """Refuse a form that was made before the score that there is now."""
-    there = _live_words(state, name)
-    if seen != there:
-        raise RefusalError("refused_seen", status=409, match=name, score=there)
 
 
 def _live_words(state: Evening, name: str) -> str:
@@ -204,11 +231,12 @@ def _count_tap(request: Request, name: str) -> None:
     taps.count(name)
 
 
-def _claim(request: Request, name: str, pair: tuple[str, str], player: str) -> None:
+def _claim(request: Request, name: str, pair: tuple[str, str], player: str, check: Check) -> None:
     """Keep that this phone is a player's, unless another one is."""
     site, phone = site_of(request), phone_of(request)
 
     def decide(sides: Sides) -> Entry | None:
+        check(read_tournament(site.path))
         holder = sides.claims.get(player)
         if holder is None:
             at = site.clock()
@@ -220,7 +248,9 @@ def _claim(request: Request, name: str, pair: tuple[str, str], player: str) -> N
     enter(site.path, name, pair, decide)
 
 
-def _propose(request: Request, name: str, pair: tuple[str, str], score: tuple[int, int]) -> str:
+def _propose(
+    request: Request, name: str, pair: tuple[str, str], score: tuple[int, int], check: Check
+) -> str:
     """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
     site, code = site_of(request), language(request)
     phone, address = phone_of(request), address_of(request)
@@ -228,6 +258,7 @@ def _propose(request: Request, name: str, pair: tuple[str, str], score: tuple[in
     games = dict(zip(pair, score, strict=True))
 
     def decide(sides: Sides) -> Entry | None:
+        check(read_tournament(site.path))
         me = sides.of(phone)
         if not me:
             return None
@@ -259,9 +290,8 @@ def _propose(request: Request, name: str, pair: tuple[str, str], score: tuple[in
     return say(code, "result_entered", match=name)
 
 
-async def _sides(request: Request, name: str, pair: tuple[str, str]) -> Sides:
-    entries = await asyncio.to_thread(phone_entries, site_of(request).path, name)
-    return sides_between(entries, pair)
+def _sides(request: Request, name: str, pair: tuple[str, str]) -> Sides:
+    return sides_between(phone_entries(site_of(request).path, name), pair)
 
 
 def _entered(state: Evening, name: str, games: dict[str, int]) -> bool:
@@ -302,5 +332,6 @@ ROUTES = [
     Route("/m/{token}", match, methods=["GET"]),
     Route("/m/{token}/me", be, methods=["POST"]),
     Route("/m/{token}/release", release, methods=["POST"]),
+    Route("/m/{token}/score", match, methods=["GET"]),  # the page of a tap that was refused
     Route("/m/{token}/score", tap, methods=["POST"]),
 ]
