@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, eye_array
 from scipy.sparse.linalg import splu
 
 import oracle
-from evenbreak.chains import dissection, front_elimination
+from evenbreak.chains import dense_elimination, dissection
 from evenbreak.chains.dissection import dissect, neighbours
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.front_elimination import FrontElimination
@@ -51,7 +51,7 @@ def test_equal_to_plain_elimination(monkeypatch, kind, small):
     if small:
         monkeypatch.setattr(dissection, "_LEAF", 8)
         for name, value in [("_ONE_BY_ONE", 3), ("_TERMS", 5), ("_FEW", 2), ("_SMALL", 200)]:
-            monkeypatch.setattr(front_elimination, name, value)
+            monkeypatch.setattr(dense_elimination, name, value)
     rng = np.random.default_rng(5)
     T = of_kind(kind, rng)
     n = T.shape[0]
@@ -71,7 +71,7 @@ def test_equal_to_plain_elimination(monkeypatch, kind, small):
 def test_right_in_every_entry_however_stiff(monkeypatch, decades):
     """Against fractions; 16 decades leave nothing of an answer that comes from subtraction."""
     monkeypatch.setattr(dissection, "_LEAF", 6)
-    monkeypatch.setattr(front_elimination, "_ONE_BY_ONE", 4)
+    monkeypatch.setattr(dense_elimination, "_ONE_BY_ONE", 4)
     T = grid(6, np.random.default_rng(decades), decades)
     leak = np.zeros(36)
     leak[7] = 10.0**-decades
@@ -93,7 +93,7 @@ def test_large_blocks_are_multiplied_and_solved_whole(monkeypatch):
     leak = rng.random(220) / 100
     b = rng.random((220, 9))
     strips = factored(T, leak)
-    monkeypatch.setattr(front_elimination, "_LARGE", 1)
+    monkeypatch.setattr(dense_elimination, "_LARGE", 1)
     whole = factored(T, leak)
     assert whole.visits(b) == pytest.approx(strips.visits(b), rel=1e-14)
     assert whole.values(b) == pytest.approx(strips.values(b), rel=1e-14)

@@ -11,9 +11,9 @@ import oracle
 from evenbreak.chains import (
     Chain,
     TransientPart,
+    dense_elimination,
     dissection,
     factorisation,
-    front_elimination,
     stochastic_limit,
     transient,
 )
@@ -47,7 +47,7 @@ def use(monkeypatch, plain, small, narrow):
     monkeypatch.setattr(factorisation, "_NARROW", narrow)
     # Fronts and blocks so small that a dozen states fill several.
     monkeypatch.setattr(dissection, "_LEAF", 3)
-    monkeypatch.setattr(front_elimination, "_ONE_BY_ONE", 2)
+    monkeypatch.setattr(dense_elimination, "_ONE_BY_ONE", 2)
 
 
 def random_chain(draw, decades):

@@ -6,7 +6,8 @@ end, and b the arcs out of c,
     (I - T) x = b,   law = (1, x) / (1 + sum x):
 
 x is the expected number of visits to the others between two visits to c. The solve is free of
-subtraction (see `transient`).
+subtraction (see `transient`). Where the whole chain is one small or dense class, c is the state
+that is eliminated last: with L U = I - T of the whole class, the law is the last column of U^-1.
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 """
@@ -16,21 +17,26 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg.blas import dtrsv
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
-from evenbreak.chains.dense_law import dense_law, is_small
+from evenbreak.chains.dense_elimination import factored
 from evenbreak.chains.line_elimination import line_order
-from evenbreak.chains.transient import TransientPart
+from evenbreak.chains.transient import TransientPart, where_doubtful
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Arcs
     from evenbreak.chains.chain import Chain
+
+
+_SMALL, _MOST_ENTRIES = 64, 40_000_000
+"""A dense array is best for so few states, or if a quarter of its entries are arcs."""
 
 
 def stationary_laws(chain: Chain) -> NDArray[np.float64]:
@@ -65,7 +71,7 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     are proportional to the law.
     """
     structure = chain.structure
-    if structure.count == 1 and classes[0] and is_small(chain.arcs):
+    if structure.count == 1 and classes[0] and is_dense(chain.arcs):
         whole = dense_law(chain.arcs)
         if whole is not None:
             return whole, None
@@ -93,6 +99,36 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     total = sums(structure.label[inside], law[inside], structure.count)
     law[inside] /= total[structure.label[inside]]
     return law, residual
+
+
+def is_dense(arcs: Arcs) -> bool:
+    """Whether the states are so few, or the arcs so many, that a dense array is best."""
+    entries = arcs.size**2
+    return arcs.size <= _SMALL or entries <= min(4 * len(arcs.chances), _MOST_ENTRIES)
+
+
+def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
+    """Return the law of the one class that the arcs make, or None if floats may be too short.
+
+    >>> from evenbreak.chains.arcs import arcs_of
+    >>> dense_law(arcs_of(csc_array([[0.5, 0.25], [0.5, 0.75]])))
+    array([0.33333333, 0.66666667])
+    """
+    n = arcs.size
+    A = np.zeros((n + 1, n), order="F")
+    A[arcs.targets, arcs.sources] = -arcs.chances
+    law = np.zeros(n)
+    law[-1] = 1.0
+    with np.errstate(all="ignore"):
+        block = factored(A)
+        law = dtrsv(block, law, diag=1, overwrite_x=1)
+        pivots = block.diagonal().copy()
+        pivots[-1] = 1.0  # the last state is not left
+        if where_doubtful(law[:, None], 1.0 / pivots).any():
+            return None
+        law /= law.max()
+    law /= law.sum()
+    return law
 
 
 def _law_of(arcs: Arcs) -> NDArray[np.float64]:
