@@ -17,8 +17,10 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any, NamedTuple, TypeVar
 
+from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
+from evenbreak.matches.ahead_chances import ahead_chances
 from evenbreak.matches.parameters import first_breaker, unit_of
 from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
 
@@ -135,6 +137,10 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
         return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
     start = (*match.fold(*score), breaker)
     units = unit_outcomes(match, lengths=lengths)
+    if isinstance(match, Ahead) and not lengths:
+        closed = _in_closed_form(match, start, units)
+        if closed is not None:
+            return closed
     arcs = score_arcs(match, start, {breaker: unit.by_result for breaker, unit in units.items()})
     chain = ScoreChain(
         {
@@ -150,6 +156,24 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
             _with_length(chain, arcs, reach, start) if lengths else Outcome(reach[start], 0.0, 0.0)
         )
     return Outcomes(by_result, chain.solve({NEVER: 1.0})[start])
+
+
+def _in_closed_form(match: Ahead, start: _State, units: dict[int, Outcomes]) -> Outcomes | None:
+    """Return the chances in an n-ahead match; None if its units do not allow for a closed form."""
+    a, b, breaker = start
+    racks, after = {}, {}
+    for first, unit in units.items():
+        never = unit.never if isinstance(unit.never, float) else unit.never.any()
+        if never or sorted(winner for winner, _ in unit.by_result) != [1, 2]:
+            return None
+        by_winner = sorted((result, outcome.chance) for result, outcome in unit.by_result.items())
+        ((_, then_1), chance_1), ((_, then_2), chance_2) = by_winner
+        racks[first], after[first] = (chance_1, chance_2), (then_1, then_2)
+    found = ahead_chances(match.m - a + b, match.n + a - b, breaker, racks, after)
+    if found is None:
+        return None
+    chances, never = found
+    return Outcomes({result: Outcome(p, 0.0, 0.0) for result, p in chances.items()}, never)
 
 
 _State = tuple[int, int, int]
