@@ -17,6 +17,7 @@ Bools = NDArray[np.bool_]
 
 Class = TypeVar("Class", bound=type)
 _LONGEST = 60
+_PLAIN = frozenset((type(None), bool, int, float, str))
 
 
 def own_arrays(cls: Class) -> Class:
@@ -41,14 +42,15 @@ def own_arrays(cls: Class) -> Class:
     ValueError: assignment destination is read-only
     """
     init: Any = vars(cls)["__init__"]
+    names = [field.name for field in fields(cls)]
 
     @wraps(init)
     def owning(self: Any, *args: Any, **options: Any) -> None:
         init(self, *args, **options)
-        for field in fields(self):
-            value = getattr(self, field.name)
+        for name in names:
+            value = getattr(self, name)
             if (own := owned(value)) is not value:
-                object.__setattr__(self, field.name, own)
+                object.__setattr__(self, name, own)
 
     setattr(cls, "__init__", owning)  # noqa: B010  mypy refuses to assign a method
     for remembered in vars(cls).values():
@@ -67,6 +69,8 @@ def _owning(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 def owned(value: Any) -> Any:
     """Return arrays, or a tuple, list or mapping of them, as read-only copies; else the value."""
+    if type(value) in _PLAIN:
+        return value
     if isinstance(value, np.ndarray):
         return value if _is_frozen(value) else _frozen(np.array(value))
     if hasattr(value, "has_canonical_format"):  # a compressed sparse matrix
@@ -78,7 +82,7 @@ def owned(value: Any) -> Any:
         for part in (copy.data, copy.indices, copy.indptr):
             _frozen(part)
         return copy
-    if isinstance(value, tuple | list) and _holds(value):
+    if isinstance(value, (tuple, list)) and _holds(value):
         own = {id(one): owned(one) for one in value}
         parts = [own[id(one)] for one in value]  # what is one array stays one
         return value._make(parts) if hasattr(value, "_make") else type(value)(parts)

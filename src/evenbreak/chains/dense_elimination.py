@@ -22,7 +22,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.linalg.blas import dgemm, dtrsm, dtrsv
+from scipy.linalg.blas import ddot, dgemm, dtrsm, dtrsv
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -76,7 +76,8 @@ def factored(B: Matrix) -> Matrix:
     Parameters
     ----------
     B
-        shape (n + 1, n), in Fortran order; the diagonal does not count. Used up.
+        shape (n + 1, n), in Fortran order; the diagonal does not count. Used up. Without the last
+        row, nothing leaves it.
     """
     size = B.shape[1]
     if size <= _ONE_BY_ONE:
@@ -85,7 +86,7 @@ def factored(B: Matrix) -> Matrix:
     (block, onward, back), rest = split(B, half)
     factors = np.empty((size, size), order="F")
     factors[:half, :half] = block
-    factors[half:, :half] = onward[:, :-1].T
+    factors[half:, :half] = onward[:, : size - half].T
     factors[:half, half:] = back
     factors[half:, half:] = factored(rest)
     return factors
@@ -98,13 +99,15 @@ def _factored_one_by_one(B: Matrix) -> Matrix:
     solve with it moves the arcs out of a state on through all states before it.
     """
     height, size = B.shape
-    factors = np.zeros((height, height), order="F")
-    factors.T.reshape(-1)[:: height + 1] = 1.0
-    columns = zip(B.T, factors.T, _LATER[:size, :height], strict=False)
-    for k, (arcs, factor, later) in enumerate(columns):
-        moved_on = dtrsv(factors, arcs, lower=1, overwrite_x=1)
-        moved_on[k] = moved_on.dot(later)
-        factor[:] = moved_on
+    columns = np.zeros((height, height))
+    columns.ravel()[:: height + 1] = 1.0
+    factors = columns.T
+    numbered = enumerate(zip(B.T, columns, _LATER[:size, :height], strict=False))
+    for k, (arcs, column, later) in numbered:
+        # Lower, overwriting; to pass these by name would take longer than the solve.
+        moved_on = dtrsv(factors, arcs, 1, 0, 1, 0, 0, 1)
+        moved_on[k] = ddot(moved_on, later)
+        np.copyto(column, moved_on)
     return np.asfortranarray(factors[:size, :size])
 
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg.blas import dtrsv
+from scipy.linalg.blas import dasum, dtrsv
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import sums
@@ -26,7 +26,7 @@ from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
 from evenbreak.chains.dense_elimination import factored
 from evenbreak.chains.line_elimination import line_order
-from evenbreak.chains.transient import TransientPart, where_doubtful
+from evenbreak.chains.transient import TransientPart
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 _SMALL, _MOST_ENTRIES = 64, 40_000_000
 """A dense array is best for so few states, or if a quarter of its entries are arcs."""
+_FAR = 1e290
+"""Numbers so far apart are left to the general way, which knows what underflow costs."""
 
 
 def stationary_laws(chain: Chain) -> NDArray[np.float64]:
@@ -115,18 +117,16 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     array([0.33333333, 0.66666667])
     """
     n = arcs.size
-    A = np.zeros((n + 1, n), order="F")
+    A = np.zeros((n, n), order="F")
     A[arcs.targets, arcs.sources] = -arcs.chances
-    law = np.zeros(n)
+    block = factored(A)
+    law: NDArray[np.float64] = np.zeros(n)
     law[-1] = 1.0
-    with np.errstate(all="ignore"):
-        block = factored(A)
-        law = dtrsv(block, law, diag=1, overwrite_x=1)
-        pivots = block.diagonal().copy()
-        pivots[-1] = 1.0  # the last state is not left
-        if where_doubtful(law[:, None], 1.0 / pivots).any():
-            return None
-        law /= law.max()
+    law = dtrsv(block, law, 1, 0, 0, 0, 1, 1)  # with ones on the diagonal, overwriting
+    block[-1, -1] = 1.0  # the last state is not left
+    total = dasum(law)
+    if not (total < _FAR and (law * block.diagonal()).min() * _FAR > n * total):
+        return None
     law /= law.sum()
     return law
 
