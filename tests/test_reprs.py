@@ -9,11 +9,22 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from evenbreak import games
 from evenbreak.chains import chain_of, spectrum, stochastic_limit
-from evenbreak.games import Drill, Race, Rack
+from evenbreak.games import CATALOGUE, Drill, Race, Rack, winner_breaks
 from evenbreak.matches import final_scores, match_length
 
-ROOMS = ("answers", "chains", "files", "handicaps", "league", "matches", "practice", "ratings")
+ROOMS = (
+    "answers",
+    "chains",
+    "files",
+    "games",
+    "handicaps",
+    "league",
+    "matches",
+    "practice",
+    "ratings",
+)
 ARRAYS = re.compile(r"Floats|Ints|Bools|NDArray|DataFrame|csc_array|MeanT|ChanceT")
 
 
@@ -33,7 +44,7 @@ CLASSES = dict(classes())
 
 @pytest.mark.parametrize("name", CLASSES)
 def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
-    assert not hasattr(vars(CLASSES[name])["__repr__"], "__wrapped__")
+    assert not hasattr(CLASSES[name].__repr__, "__wrapped__")
 
 
 @pytest.mark.parametrize(
@@ -44,7 +55,11 @@ def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
         final_scores(Race(50, 50, Rack(0.6))),
         spectrum(chain_of(Drill.progressive(0.8, levels=40))),
         chain_of(Race(7, 7, Rack(0.6))),
+        chain_of(Race(7, 7, Rack(0.6))).states,
         chain_of(Race(7, 7, Rack(0.6))).structure,
+        chain_of(Race(7, 7, Rack(0.6))).arcs,
+        chain_of(Race(7, 7, Rack(0.6))).transient,
+        Race(7, 7, Rack(np.linspace(0, 1, 99), 0.5), breaks=winner_breaks),
         stochastic_limit(chain_of(Race(7, 7, Rack(0.6)))),
     ],
     ids=lambda value: type(value).__name__,
@@ -52,3 +67,10 @@ def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
 def test_reprs_are_short(value: object) -> None:
     assert len(repr(value)) < 600
     assert "array(" not in repr(value)
+    assert " at 0x" not in repr(value)
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_a_game_is_written_so_that_python_reads_it_back(name: str) -> None:
+    named = {public: getattr(games, public) for public in games.__all__}
+    assert eval(repr(CATALOGUE[name]), named) == CATALOGUE[name]  # noqa: S307

@@ -221,17 +221,31 @@ def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> n
     >>> diagram.edges["S2", "L"]["probability"]
     0.25
     """
+    arcs = arcs_of(game, start=start, max_states=max_states)
+    graph = graph_of_arcs(arcs, game.start if start is None else start)
+    for state, node in graph.nodes.items():
+        node["winner"] = game.winner(state) if node["kind"] == "terminal" else None
+    return graph
+
+
+def graph_of_arcs(arcs: ArcArrays, start: Any) -> nx.DiGraph[Any]:
+    """Return the diagram of some arcs, as `graph_of` makes it, without winners.
+
+    >>> import numpy as np
+    >>> graph_of_arcs(ArcArrays("SW", *map(np.array, ([0], [1], [1.0]))), "S").nodes(data="kind")
+    NodeDataView({'S': 'start', 'W': 'terminal'}, data='kind')
+    """
     import networkx as nx
     import numpy as np
 
-    arcs = arcs_of(game, start=start, max_states=max_states)
     states = list(arcs.states)
     graph: nx.DiGraph[Any] = nx.DiGraph()
-    graph.add_nodes_from(states, kind="transient", winner=None)
+    graph.add_nodes_from(states, kind="transient")
+    if start is not None:
+        graph.nodes[start]["kind"] = "start"
     arc_counts = np.bincount(arcs.sources, minlength=len(states))
-    graph.nodes[game.start if start is None else start]["kind"] = "start"
     for i in np.flatnonzero(arc_counts == 0).tolist():
-        graph.nodes[states[i]].update(kind="terminal", winner=game.winner(states[i]))
+        graph.nodes[states[i]]["kind"] = "terminal"
     # One call for all arcs, without a list of triples, is three times as fast.
     graph.add_weighted_edges_from(
         zip(

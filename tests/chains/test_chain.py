@@ -1,11 +1,14 @@
 """The chain: its states, and what a start may be."""
 
+import networkx as nx
 import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
 from evenbreak.chains import Chain, chain_of
 from evenbreak.errors import ChainError, InputError
+from evenbreak.game import Game, graph_of
+from evenbreak.games import CATALOGUE
 
 
 @pytest.fixture
@@ -102,3 +105,50 @@ def test_a_seed_that_is_none_is_refused_by_its_name():
         with pytest.raises(InputError, match="rng"):
             chain.simulate(3, rng)
     assert (chain.simulate(3, 1) == chain.simulate(3, np.random.default_rng(1))).all()
+
+
+# Towards other libraries ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("game", CATALOGUE.values(), ids=CATALOGUE.keys())
+def test_the_graph_of_a_chain_is_that_of_its_game_and_reads_back(game: Game):
+    chain = chain_of(game)
+    graph = chain.to_networkx()
+    read = chain_of(graph)
+    assert (list(read.states), read.start) == (list(chain.states), chain.start)
+    assert (read.matrix != chain.matrix).nnz == 0
+    diagram = graph_of(game)
+    for node in diagram.nodes.values():
+        del node["winner"]
+    if not any(loop[0] == loop[1] for loop in diagram.edges):  # a loop is what is left over
+        assert nx.utils.graphs_equal(graph, diagram)
+
+
+def test_the_graph_of_a_chain_without_a_start_marks_none(chain):
+    free = Chain(chain.states, chain.matrix)
+    assert dict(free.to_networkx().nodes(data="kind")) == {
+        "a": "transient",
+        "b": "terminal",
+        "c": "terminal",
+    }
+    ended = Chain(chain.states, chain.matrix, "b")
+    assert ended.to_networkx().nodes["b"]["kind"] == "terminal"
+
+
+def test_a_chain_is_an_array(chain):
+    matrix = np.asarray(chain)
+    assert matrix.tolist() == chain.matrix.toarray().tolist()
+    matrix[0, 0] = 9.0
+    assert np.asarray(chain)[0, 0] == 0.5, "the array is the caller's own"
+    assert np.asarray(chain, dtype=np.float32).dtype == np.float32
+    assert np.linalg.matrix_power(chain, 2).shape == (3, 3)
+    with pytest.raises(ValueError, match="copy=False"):
+        np.array(chain, copy=False)
+
+
+def test_a_dense_matrix_that_fits_nowhere_is_refused():
+    large = Chain(range(20_000), csc_array((np.ones(20_000), np.arange(20_000), range(20_001))))
+    with pytest.raises(ChainError, match=r"20,000 states would take 3 GB; use .* chain\.matrix"):
+        np.asarray(large)
+    with pytest.raises(ChainError, match=r"chain\.matrix"):
+        large.to_frame()

@@ -214,11 +214,40 @@ def test_the_start_of_a_graph() -> None:
         chain_of(graph)
 
 
-@pytest.mark.parametrize("attributes", [{}, {"probability": "half"}, {"probability": None}])
-def test_an_arc_without_a_probability(attributes: dict[str, object]) -> None:
+@pytest.mark.parametrize(
+    ("attributes", "words"),
+    [
+        ({}, "has no probability; give each arc a number"),
+        ({"probability": "half"}, "has probability 'half'; give each arc a number"),
+        ({"probability": None}, "has probability None; give each arc a number"),
+        ({"p": 1.0}, "carries 'p' and has no probability; name what holds it, as in weight='p'"),
+        ({"weight": "much"}, "has weight 'much'; give each arc a number"),
+    ],
+)
+def test_an_arc_without_a_probability(attributes: dict[str, object], words: str) -> None:
     graph = nx.DiGraph()
     graph.add_edge("A", "B", **attributes)
-    with pytest.raises(ChainError, match="'A' -> 'B' has probability"):
+    with pytest.raises(ChainError, match=f"'A' -> 'B' {words}"):
+        chain_of(graph)
+
+
+def test_weights_of_networkx_are_read_where_no_arc_has_a_probability() -> None:
+    lengths = nx.DiGraph()
+    lengths.add_weighted_edges_from([("A", "B", 2.0), ("A", "A", 6.0), ("B", "A", 1.0)])
+    chain = chain_of(nx.stochastic_graph(lengths))
+    assert chain.matrix.toarray().tolist() == [[0.75, 1.0], [0.25, 0.0]]
+    with pytest.raises(ChainError, match=r"only a weight, and .* 'A' -> 'B' has .* 2.0;.* weight="):
+        chain_of(lengths)
+    for _, _, arc in lengths.edges(data=True):
+        arc["p"] = 1.0 if arc["weight"] == 1.0 else arc["weight"] / 8.0
+    assert (
+        chain_of(lengths, weight="p").matrix.toarray().tolist() == chain.matrix.toarray().tolist()
+    )
+
+
+def test_weights_do_not_stand_in_for_some_probabilities() -> None:
+    graph = nx.DiGraph([("A", "B", {"probability": 1.0, "weight": 3.0}), ("B", "A", {"weight": 1})])
+    with pytest.raises(ChainError, match="'B' -> 'A' carries 'weight' and has no probability"):
         chain_of(graph)
 
 

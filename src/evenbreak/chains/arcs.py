@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from scipy.sparse import csc_array, csgraph, csr_array
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import array_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,7 +26,7 @@ _FEW_TERMS = 4
 """So few values are added up one after the other."""
 
 
-@own_arrays
+@array_values
 @dataclass(frozen=True, eq=False)
 class Arcs:
     """Arcs between different states, in the order of their sources.

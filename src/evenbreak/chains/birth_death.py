@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import array_values
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.scaled import prefix_products, shares
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
 
 
-@own_arrays
+@array_values
 @dataclass(frozen=True, eq=False)
 class BirthDeath:
     """A chain whose states stand in a line.

@@ -23,16 +23,21 @@ from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import generator_of, whole
 from evenbreak.errors import ChainError
+from evenbreak.game import ArcArrays, graph_of_arcs
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    import networkx as nx
     import pandas as pd
-    from numpy.typing import NDArray
+    from numpy.typing import DTypeLike, NDArray
 
     from evenbreak.chains.arcs import Places
 
 _SUM_TOLERANCE = 1e-9
+_MOST_BYTES = 2e9
+"""Of a dense matrix."""
+
 _ROUNDING = 1e-15
 """Arcs that miss a sum of 1 by no more than this are left as they are."""
 
@@ -118,7 +123,52 @@ class Chain:
         import pandas as pd
 
         left, entered = labels(self.states, "from"), labels(self.states, "to")
-        return pd.DataFrame(self.matrix.toarray(), index=entered, columns=left)
+        return pd.DataFrame(np.asarray(self), index=entered, columns=left)
+
+    def __array__(self, dtype: DTypeLike = None, copy: bool | None = None) -> NDArray[Any]:
+        """Return the matrix as a new dense array, column-stochastic; for `np.asarray(chain)`.
+
+        Raises
+        ------
+        ChainError
+            if the array would take more than 2 GB.
+        ValueError
+            if `copy` is False: nothing dense is kept that could be shared.
+
+        >>> from evenbreak.chains import chain_of
+        >>> np.asarray(chain_of([("S", "W", 0.25), ("S", "S", 0.75)]))
+        array([[0.75, 0.  ],
+               [0.25, 1.  ]])
+        """
+        if copy is False:
+            raise ValueError("a chain has no dense matrix to share; leave copy=False out")
+        n = len(self)
+        if 8 * n * n > _MOST_BYTES:
+            raise ChainError(
+                f"the dense matrix of {n:,} states would take {8e-9 * n * n:,.0f} GB; use the "
+                "sparse one, chain.matrix"
+            )
+        return self.matrix.toarray().astype(np.float64 if dtype is None else dtype, copy=False)
+
+    def to_networkx(self) -> nx.DiGraph[Any]:
+        """Return the chain as a directed graph, which `chain_of` reads back.
+
+        As in `graph_of`, arcs carry `probability` and nodes `kind`: 'start', 'terminal' if the
+        state absorbs, which then has no arcs, or else 'transient'. Chances are floats, also
+        where `given` has fractions.
+
+        >>> from evenbreak.chains import chain_of
+        >>> graph = chain_of([("S", "W", 0.25), ("S", "S", 0.75)], start="S").to_networkx()
+        >>> list(graph.edges(data="probability"))
+        [('S', 'S', 0.75), ('S', 'W', 0.25)]
+        >>> dict(graph.nodes(data="kind"))
+        {'S': 'start', 'W': 'terminal'}
+        """
+        arcs = self.matrix.tocoo()
+        kept = (arcs.data > 0.0) & (self.arcs.outflow[arcs.col] > 0.0)
+        return graph_of_arcs(
+            ArcArrays(self.states, arcs.col[kept], arcs.row[kept], arcs.data[kept]), self.start
+        )
 
     @cached_property
     def position(self) -> dict[Hashable, int]:

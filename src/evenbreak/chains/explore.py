@@ -82,7 +82,9 @@ def chain_of(
         holds the chances into its state, as in `Chain`. It may be left out if the matrix is
         stochastic one way only, or symmetric.
     weight
-        the attribute of a graph's arcs that holds their probability; None is 'probability'.
+        the attribute of a graph's arcs that holds their probability. None: 'probability', or
+        networkx's own 'weight' where no arc has a probability. Weights that are something else,
+        such as lengths or counts, do not sum to 1 and are refused.
 
     Raises
     ------
@@ -109,8 +111,7 @@ def chain_of(
         return chain_of_matrix(source, rows, start)
     _only_for(rows, "rows", "a matrix")
     if hasattr(source, "adjacency"):
-        arcs, own_start = _arcs_of_graph(source, "probability" if weight is None else weight)
-        return chain_from_arrays(*arcs, start=own_start if start is None else start)
+        return _chain_of_graph(source, weight, start)
     _only_for(weight, "weight", "a graph")
     if isinstance(source, Game):
         arcs = arcs_of(source, start=start)
@@ -271,7 +272,7 @@ def _column_stochastic(
     return matrix
 
 
-def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]:
+def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> Chain:
     if not graph.is_directed() or graph.is_multigraph():
         raise ChainError(
             f"the graph is a {type(graph).__name__}; give a networkx.DiGraph, "
@@ -279,32 +280,47 @@ def _arcs_of_graph(graph: Any, weight: str) -> tuple[ArcArrays, Hashable | None]
         )
     position = {state: k for k, state in enumerate(graph)}
     rows = [row for _, row in graph.adjacency()]
-    counts = np.fromiter(map(len, rows), dtype=np.int64, count=len(rows))
-    total = int(counts.sum())
-    targets = np.fromiter(
-        map(position.__getitem__, chained.from_iterable(rows)), dtype=np.int64, count=total
-    )
+    arcs = [arc for row in rows for arc in row.values()]
+    name = weight or "probability"
+    if weight is None and any("weight" in arc for arc in arcs):
+        name = "probability" if any("probability" in arc for arc in arcs) else "weight"
     try:
-        chances = np.array([_number(arc[weight]) for row in rows for arc in row.values()])
+        chances = np.array([_number(arc[name]) for arc in arcs])
     except (KeyError, TypeError, ValueError, ZeroDivisionError):
-        raise _without_probability(graph, weight) from None
+        raise _without_probability(graph, name) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
         raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'; leave one")
-    arcs = ArcArrays(list(position), np.repeat(np.arange(len(rows)), counts), targets, chances)
-    return arcs, starts[0] if starts else None
+    counts = np.fromiter(map(len, rows), dtype=np.int64, count=len(rows))
+    ends = map(position.__getitem__, chained.from_iterable(rows))
+    targets = np.fromiter(ends, dtype=np.int64, count=len(arcs))
+    sources = np.repeat(np.arange(len(rows)), counts)
+    begin = start if start is not None or not starts else starts[0]
+    try:
+        return chain_from_arrays(list(position), sources, targets, chances, start=begin)
+    except ChainError as error:
+        if weight is None and name == "weight":
+            raise ChainError(
+                f"the arcs carry no probability, only a weight, and {error}; name the attribute "
+                "that holds it, as in weight='p', or scale with networkx.stochastic_graph"
+            ) from None
+        raise
 
 
-def _without_probability(graph: Any, weight: str) -> ChainError:
-    for source, target, chance in graph.edges(data=weight):
+def _without_probability(graph: Any, name: str) -> ChainError:
+    """Return what is wrong with the first arc that has no number of this name."""
+    for source, target, arc in graph.edges(data=True):
+        where, remedy = f"the arc {source!r} -> {target!r}", "give each arc a number from 0 to 1"
+        if name not in arc:
+            if arc:
+                where += f" carries {', '.join(map(repr, arc))} and"
+                remedy = f"name what holds it, as in weight={next(iter(arc))!r}"
+            return ChainError(f"{where} has no {name}; {remedy}")
         try:
-            _number(chance)
+            _number(arc[name])
         except (TypeError, ValueError, ZeroDivisionError):
-            return ChainError(
-                f"the arc {source!r} -> {target!r} has {weight} {chance!r}; "
-                "give each arc a number from 0 to 1"
-            )
-    return ChainError(f"the arcs carry no {weight}; give each arc a number from 0 to 1")
+            break
+    return ChainError(f"{where} has {name} {arc[name]!r}; {remedy}")
 
 
 def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:

@@ -58,6 +58,9 @@ class TransientPart:
         self._arcs, self._leak = arcs.among(states)
         self._outflow = arcs.outflow[states]
 
+    def __repr__(self) -> str:
+        return f"<TransientPart of {len(self.states)} states, {len(self._arcs.chances)} arcs>"
+
     @cached_property
     def _factor(self) -> _InPlainPython | Factorisation:
         if len(self.states) <= _FEW_STATES and len(self._arcs.chances) <= _FEW_ARCS:

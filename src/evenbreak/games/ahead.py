@@ -8,7 +8,7 @@ from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import ChanceT
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Ahead(Match[ChanceT]):
     """First to lead by the games needed: m for player 1, n for player 2 (P5.27, Fig. 5.10).
 

@@ -15,7 +15,7 @@ from evenbreak.checks import one_of, whole
 from evenbreak.errors import GameError, InputError
 from evenbreak.game import Game
 from evenbreak.games.breaks import BreakFormat, checked_format
-from evenbreak.games.rack import ChanceT, Rack
+from evenbreak.games.rack import ChanceT, Rack, game_repr
 
 Score: TypeAlias = tuple[int, int]
 
@@ -56,6 +56,9 @@ class Match(ABC, Generic[ChanceT]):
     breaks: BreakFormat | None = None
     first_breaker: int = 1
     score: Score = (0, 0)
+
+    def __repr__(self) -> str:
+        return game_repr(self)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "m", whole(self.m, "m", at_least=1))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from evenbreak.game import ArcArrays
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Race(Match[ChanceT]):
     """First to the games needed: m for player 1, n for player 2 (P5.5, P5.6).
 

@@ -51,6 +51,15 @@ class ScoreStates(Sequence[tuple[int, ...]]):
         columns = [column[cell] for column in self._cells]
         return columns if late is None else [*columns, late + 1]
 
+    def __repr__(self) -> str:
+        """Return how many there are, and the first of them.
+
+        >>> ScoreStates(*np.divmod(np.arange(9), 3), np.arange(9), with_breaker=False)
+        <9 states: (0, 0), (0, 1), (0, 2), ...>
+        """
+        shown = ", ".join(map(repr, self[:3])) + ", ..." * (len(self) > 3)
+        return f"<{len(self):,} state{'s' * (len(self) != 1)}: {shown}>"
+
     def __len__(self) -> int:
         return self._place.size
 

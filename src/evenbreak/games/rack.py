@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
@@ -68,6 +68,9 @@ class Rack(Generic[ChanceT]):
     q1: Any = field(default=None, repr=False)
     q2: Any = field(default=None, repr=False)
     given: tuple[Any, Any] = field(init=False, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        return game_repr(self)
 
     def __post_init__(self) -> None:
         given = (p if isinstance(p, Fraction) else None for p in (self.p1, self.p2))
@@ -159,3 +162,20 @@ class Rack(Generic[ChanceT]):
             if value is not None and not isinstance(value, float | ManyAsOne):
                 raise InputError(f"{name} is an array; give one number, or loop over them")
         return cast("Rack[float]", self)
+
+
+def game_repr(game: Any) -> str:
+    """Return how a game is written: break formats by their names, arrays by their sizes.
+
+    >>> from evenbreak.games import Race, winner_breaks
+    >>> Race(9, 5, Rack(0.6, 0.5), breaks=winner_breaks)
+    Race(m=9, n=5, rack=Rack(p1=0.6, p2=0.5), breaks=winner_breaks, first_breaker=1, ...)
+    """
+
+    def shown(value: Any) -> str:
+        if shape := getattr(value, "shape", ()):
+            return f"<{' x '.join(map(str, shape))} values>"
+        return str(getattr(value, "__name__", repr(value)))
+
+    parts = (f"{f.name}={shown(getattr(game, f.name))}" for f in fields(game) if f.repr)
+    return f"{type(game).__name__}({', '.join(parts)})"

@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, checked_format
-from evenbreak.games.rack import Rack
+from evenbreak.games.rack import Rack, game_repr
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,9 @@ class Series:
     _: KW_ONLY
     breaks: BreakFormat
     first_breaker: int = 1
+
+    def __repr__(self) -> str:
+        return game_repr(self)
 
     def __post_init__(self) -> None:
         if not isinstance(self.rack, Rack):
