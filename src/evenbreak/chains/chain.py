@@ -125,7 +125,7 @@ class Chain:
         left, entered = labels(self.states, "from"), labels(self.states, "to")
         return pd.DataFrame(np.asarray(self), index=entered, columns=left)
 
-    def __array__(self, dtype: DTypeLike = None, copy: bool | None = None) -> NDArray[Any]:
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         """Return the matrix as a new dense array, column-stochastic; for `np.asarray(chain)`.
 
         Raises
