@@ -104,7 +104,7 @@ def test_a_dict_of_dicts() -> None:
 def test_the_weight_of_a_graph() -> None:
     graph = nx.DiGraph([("a", "b", {"chance": 0.25}), ("a", "c", {"chance": 0.75})])
     assert chain_of(graph, weight="chance").matrix[1, 0] == 0.25
-    with pytest.raises(ChainError, match="has probability None"):
+    with pytest.raises(ChainError, match="and has no probability; name what holds it"):
         chain_of(graph)
     with pytest.raises(ChainError, match="has p None"):
         chain_of(graph, weight="p")

@@ -10,14 +10,15 @@ import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csc_array, issparse
+from scipy.sparse import csc_array
 
 from evenbreak.arrays import own_arrays
-from evenbreak.chains.arcs import Arcs, arcs_of, sums
+from evenbreak.chains.arcs import Arcs, arcs_of
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of, line_of
+from evenbreak.chains.matrices import adding_up, csc_of
 from evenbreak.chains.paths import random_paths
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.transient import TransientPart
@@ -34,12 +35,8 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Places
 
-_SUM_TOLERANCE = 1e-9
 _MOST_BYTES = 2e9
 """Of a dense matrix."""
-
-_ROUNDING = 1e-15
-"""Arcs that miss a sum of 1 by no more than this are left as they are."""
 
 
 @own_arrays
@@ -91,13 +88,9 @@ class Chain:
             raise ChainError("a state is listed twice among the states; give each of them once")
         if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
             raise ChainError("the matrix has entries outside 0 to 1; give probabilities")
-        columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
-        total = sums(columns, matrix.data, n)
-        missed = np.abs(total - 1.0)
-        if not (missed <= _ROUNDING).all():
-            check_sums(self.states, total)
-            matrix = _completed(matrix, columns, missed > _ROUNDING)
-        object.__setattr__(self, "matrix", matrix)
+        if self.start is not None and self.start not in self.states:
+            raise ChainError(f"start is {self.start!r}, which is not a state of the chain")
+        object.__setattr__(self, "matrix", adding_up(matrix, self.states))
         object.__setattr__(self, "given", dict(self.given))
 
     def __len__(self) -> int:
@@ -374,70 +367,3 @@ def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
 
     index: pd.Index[Any] = pd.Index(list(states), name=name, tupleize_cols=False)
     return index
-
-
-def csc_of(matrix: Any) -> csc_array:
-    """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
-
-    Raises
-    ------
-    ChainError
-        if it is neither a sparse matrix nor a two-dimensional array of numbers.
-
-    >>> from scipy.sparse import coo_array
-    >>> csc_of(coo_array(([0.25, 0.25], ([0, 0], [1, 1])))).toarray()
-    array([[0.  , 0.5]])
-    """
-    if type(matrix) is csc_array and matrix.dtype == np.float64 and matrix.has_canonical_format:
-        return matrix
-    try:
-        given: Any = matrix if issparse(matrix) else np.asarray(matrix)
-        if given.ndim != 2 or given.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
-            raise TypeError
-        found: csc_array[np.float64] = csc_array(given.astype(np.float64))
-    except (TypeError, ValueError, AttributeError):
-        raise ChainError(
-            f"the matrix is {type(matrix).__name__} {matrix!r:.60}; give a sparse matrix or a "
-            "two-dimensional array of numbers"
-        ) from None
-    found.sum_duplicates()
-    return found
-
-
-def _completed(matrix: csc_array, columns: Places, wrong: NDArray[np.bool_]) -> csc_array:
-    """Return the matrix with the arcs of the `wrong` states summing to 1.
-
-    A self-loop becomes what the other arcs leave over; without one the arcs are scaled.
-    """
-    n = len(wrong)
-    loops = (matrix.indices == columns) & (matrix.data > 0.0)
-    others = sums(columns, np.where(loops, 0.0, matrix.data), n)
-    looped = np.zeros(n, dtype=bool)
-    looped[columns[loops]] = True
-    scale = np.where(wrong & ~looped, others, 1.0)
-    data = matrix.data / scale[columns]
-    kept = loops & wrong[columns]
-    data[kept] = np.maximum(1.0 - others[columns[kept]], 0.0)
-    completed = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
-    completed.has_canonical_format = True
-    return completed
-
-
-def sums_to_1(matrix: csc_array, *, axis: Literal[0, 1]) -> bool:
-    """Whether all columns (axis 0) or all rows (axis 1) of a square matrix sum to 1 within 1e-9."""
-    n = matrix.shape[0]
-    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
-    total = sums(columns if axis == 0 else matrix.indices, matrix.data, n)
-    return bool((np.abs(total - 1.0) <= _SUM_TOLERANCE).all())
-
-
-def check_sums(states: Sequence[Hashable], sums: NDArray[np.float64]) -> None:
-    """Raise a ChainError unless the arcs out of each state sum to 1 within 1e-9."""
-    wrong = np.flatnonzero(~(np.abs(sums - 1.0) <= _SUM_TOLERANCE))
-    if wrong.size:
-        first = wrong[0]
-        more = f" (and so for {wrong.size - 1} more)" if wrong.size > 1 else ""
-        raise ChainError(
-            f"the arcs out of state {states[first]!r} sum to {sums[first]:.12g}{more}; "
-            "give probabilities that sum to 1 within 1e-9, a self-loop included"
-        )

@@ -21,9 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.chains.arcs import sums
-from evenbreak.chains.chain import Chain, check_present, check_sums
-from evenbreak.chains.matrices import chain_of_matrix, is_matrix
+from evenbreak.chains.chain import Chain, check_present
+from evenbreak.chains.matrices import is_matrix, read_matrix
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
 
@@ -108,7 +107,7 @@ def chain_of(
     """
     if is_matrix(source):
         _only_for(weight, "weight", "a graph")
-        return chain_of_matrix(source, rows, start)
+        return Chain(*read_matrix(source, rows), start)
     _only_for(rows, "rows", "a matrix")
     if hasattr(source, "adjacency"):
         return _chain_of_graph(source, weight, start)
@@ -166,8 +165,6 @@ def chain_from_arrays(
     chances, fractions = _fractions(probabilities)
     j, i, p = _checked_arrays(states, sources, targets, chances)
     given = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
-    if start is not None and start not in states:
-        raise ChainError(f"start is {start!r}, which is not a state of the chain")
     n = len(states)
     key = j * n + i
     if not (key[1:] > key[:-1]).all():
@@ -177,11 +174,6 @@ def chain_from_arrays(
             raise _listed_twice(states, key)
         j, i, p = j[table.data], i[table.data], p[table.data]
     listed = np.bincount(j, minlength=n)
-    check_sums(states, np.where(listed > 0, sums(j, p, n), 1.0))
-    loops = (i == j) & (p > 0.0)
-    if loops.any():
-        others = sums(j, np.where(loops, 0.0, p), n)
-        p = np.where(loops, np.maximum(1.0 - others[j], 0.0), p)
     made = p > 0.0
     if not made.all():
         j, i, p = j[made], i[made], p[made]

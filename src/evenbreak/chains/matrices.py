@@ -1,4 +1,4 @@
-"""Chains from square matrices: numpy and scipy sparse arrays, DataFrames, lists of lists.
+"""Square matrices: numpy and scipy sparse arrays, DataFrames, lists of lists, and their columns.
 
 Half of the literature puts the state that a step leaves in the row of a matrix and half in the
 column. A matrix whose rows and columns all sum to 1 reads either way, and the two chains differ.
@@ -11,16 +11,18 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
-from scipy.sparse import issparse
+from scipy.sparse import csc_array, issparse
 
-from evenbreak.chains.chain import Chain, csc_of, sums_to_1
+from evenbreak.chains.arcs import sums
 from evenbreak.checks import one_of
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Hashable, Sequence
 
-    from scipy.sparse import csc_array
+_SUM_TOLERANCE = 1e-9
+_ROUNDING = 1e-15
+"""Columns that miss a sum of 1 by no more than this are left as they are."""
 
 Rows: TypeAlias = Literal["from", "to"]
 """What the row of a matrix says: the state that a step leaves, or the one it enters."""
@@ -32,8 +34,8 @@ def is_matrix(source: object) -> bool:
     return known or _is_nested(source)
 
 
-def chain_of_matrix(source: Any, rows: Rows | None, start: Hashable | None) -> Chain:
-    """Return the chain of a square matrix; its states are the labels, or 0, 1, 2, ...
+def read_matrix(source: Any, rows: Rows | None) -> tuple[list[Hashable], csc_array]:
+    """Return the states of a square matrix, its labels or 0, 1, 2, ..., and the M that is meant.
 
     Raises
     ------
@@ -42,9 +44,10 @@ def chain_of_matrix(source: Any, rows: Rows | None, start: Hashable | None) -> C
         readings are possible and `rows` does not say which is meant.
 
     >>> import numpy as np
-    >>> chain_of_matrix(np.array([[0.9, 0.1], [0.5, 0.5]]), None, 0).matrix.toarray()
-    array([[0.9, 0.5],
-           [0.1, 0.5]])
+    >>> states, matrix = read_matrix(np.array([[0.9, 0.1], [0.5, 0.5]]), None)
+    >>> states, matrix.toarray()
+    ([0, 1], array([[0.9, 0.5],
+           [0.1, 0.5]]))
     """
     if rows is not None:
         one_of(rows, "rows", ("from", "to"))
@@ -57,11 +60,9 @@ def chain_of_matrix(source: Any, rows: Rows | None, start: Hashable | None) -> C
         )
     if states is None:
         states = list(range(n))
-    if start is not None and start not in states:
-        raise ChainError(f"start is {start!r}, which is not a state of the chain")
     if (rows or _only_reading(matrix)) == "from":
         matrix = csc_of(matrix.T)
-    return Chain(states, matrix, start)
+    return states, matrix
 
 
 def _only_reading(matrix: csc_array) -> Rows:
@@ -116,3 +117,81 @@ def _labelled(frame: Any) -> tuple[list[Hashable], csc_array]:
     place = {state: k for k, state in enumerate(columns)}
     numbers = frame.to_numpy()[:, [place[state] for state in states]]
     return states, csc_of(numbers)
+
+
+def csc_of(matrix: Any) -> csc_array:
+    """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
+
+    Raises
+    ------
+    ChainError
+        if it is neither a sparse matrix nor a two-dimensional array of numbers.
+
+    >>> from scipy.sparse import coo_array
+    >>> csc_of(coo_array(([0.25, 0.25], ([0, 0], [1, 1])))).toarray()
+    array([[0.  , 0.5]])
+    """
+    if type(matrix) is csc_array and matrix.dtype == np.float64 and matrix.has_canonical_format:
+        return matrix
+    try:
+        given: Any = matrix if issparse(matrix) else np.asarray(matrix)
+        if given.ndim != 2 or given.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
+            raise TypeError
+        found: csc_array[np.float64] = csc_array(given.astype(np.float64))
+    except (TypeError, ValueError, AttributeError):
+        raise ChainError(
+            f"the matrix is {type(matrix).__name__} {matrix!r:.60}; give a sparse matrix or a "
+            "two-dimensional array of numbers"
+        ) from None
+    found.sum_duplicates()
+    return found
+
+
+def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
+    """Return the matrix with columns that sum to 1 to about one rounding.
+
+    Where one does not, its self-loop becomes what the other arcs leave over; without one the arcs
+    are scaled.
+
+    Raises
+    ------
+    ChainError
+        if one misses 1 by more than 1e-9; the message names the state and its sum.
+
+    >>> adding_up(csc_array([[0.3, 0.0], [0.7 + 1e-10, 1.0]]), "AB").toarray()
+    array([[0.3, 0. ],
+           [0.7, 1. ]])
+    """
+    n = len(states)
+    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    total = sums(columns, matrix.data, n)
+    missed = np.abs(total - 1.0)
+    wrong = ~(missed <= _ROUNDING)
+    if not wrong.any():
+        return matrix
+    if (far := np.flatnonzero(~(missed <= _SUM_TOLERANCE))).size:
+        more = f" (and so for {far.size - 1} more)" if far.size > 1 else ""
+        raise ChainError(
+            f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}; "
+            "give probabilities that sum to 1 within 1e-9, a self-loop included"
+        )
+    loops = (matrix.indices == columns) & (matrix.data > 0.0)
+    others = sums(columns, np.where(loops, 0.0, matrix.data), n)
+    looped = np.zeros(n, dtype=bool)
+    looped[columns[loops]] = True
+    scale = np.where(wrong & ~looped, others, 1.0)
+    data = matrix.data / scale[columns]
+    kept = loops & wrong[columns]
+    data[kept] = np.maximum(1.0 - others[columns[kept]], 0.0)
+    completed = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    completed.has_canonical_format = True
+    completed.eliminate_zeros()
+    return completed
+
+
+def sums_to_1(matrix: csc_array, *, axis: Literal[0, 1]) -> bool:
+    """Whether all columns (axis 0) or all rows (axis 1) of a square matrix sum to 1 within 1e-9."""
+    n = matrix.shape[0]
+    columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    total = sums(columns if axis == 0 else matrix.indices, matrix.data, n)
+    return bool((np.abs(total - 1.0) <= _SUM_TOLERANCE).all())
