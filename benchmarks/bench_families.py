@@ -69,18 +69,20 @@ def test_300_games_beside_a_loop(beside: Beside) -> None:
     )
 
 
-def test_8192_chains_of_30_dense_states(beside: Beside) -> None:
-    count, n = 8192, 30
-    tables = DRAW.random((count, n, n)) + 0.1
-    tables /= tables.sum(axis=2, keepdims=True)
+def table_limits(tables: np.ndarray) -> Callable[[], Any]:
+    """Return a call for the stationary laws (k, n) of tables, of which the arcs are listed."""
+    count, n = tables.shape[:2]
     sources, targets = (places.ravel().tolist() for places in np.indices((n, n)))
     structure = chain_of(tables[0], rows="from").structure
     chances = list(np.ascontiguousarray(tables.reshape(count, -1).T))
+    return lambda: family_limits(structure, sources, targets, chances, count)[0].T
 
-    def ours() -> Any:
-        return family_limits(structure, sources, targets, chances, count)[0]
 
-    off = np.abs(ours().T / batched_solve(tables) - 1.0).max()
+def test_8192_chains_of_30_dense_states(beside: Beside) -> None:
+    tables = DRAW.random((8192, 30, 30)) + 0.1
+    tables /= tables.sum(axis=2, keepdims=True)
+    ours = table_limits(tables)
+    off = np.abs(ours() / batched_solve(tables) - 1.0).max()
     beside(
         "8,192 chains of 30 dense states, elimination / numpy.linalg.solve",
         ours,

@@ -1,320 +1,228 @@
-"""Chains of every size, beside the packages that answer the same question about them.
+"""Chains of every kind and size, beside the packages or the bare code that answer the same.
 
-python -m pip install -e . pytest "quantecon==0.11.*" "stormpy==2.0.*" "PyDTMC==8.7.*"
-OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PYTHONPATH=benchmarks python benchmarks/peers_of_chains.py
+python -m pip install -e . pytest "quantecon==0.11.*" "stormpy==2.0.*" python-flint evalica
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PYTHONPATH=benchmarks
+python benchmarks/peers_of_chains.py [--limit SECONDS] [NAME ...]
 
-A cell is the median processor time of a call in milliseconds, then the largest relative error
-of the numbers it returns. All packages are called in turns. A package that is not installed has
-an empty column, and the last lines say which are missing. To ask some of the questions only, add
-their names to the command: dense, line, race, classes, fractions.
+A time is the median processor time of a call in milliseconds, with one BLAS thread; ours and the
+peers are called in turns, and each row has a process of its own. The last column and the brackets
+hold the largest relative error of the numbers returned. The ratio is ours to the first peer.
+NAME chooses rows (`--help` lists them). A row says so if a call takes longer than the limit, and
+the last lines say which goals are missed and which packages are not installed.
 """
 
 from __future__ import annotations
 
+import argparse
+import math
+import multiprocessing
 import statistics
-import sys
 import time
 import warnings
+from collections import defaultdict
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from fractions import Fraction
-from importlib import import_module
-from importlib.metadata import version
+from contextlib import closing
+from importlib.metadata import PackageNotFoundError, version
+from multiprocessing.connection import Connection
 from typing import Any
 
 import numpy as np
-from bench_chains import bare_stationary, blocks_chain, fresh, grid_chain, random_chain, walk
-from scipy.linalg import solve_banded
+from rows_of_chains import CHAIN_ROWS, OURS, Question
+from rows_of_matches import MATCH_ROWS
 
-from evenbreak.chains import Chain, chain_of, limit_matrix, steps_to_absorption, stochastic_limit
-from evenbreak.games import Race, Rack, winner_breaks
-from evenbreak.matches import match_length, win_probability
-
-OURS, BARE, QUANTECON, STORM, PYDTMC = "evenbreak", "bare scipy", "QuantEcon", "Storm", "PyDTMC"
-PACKAGES = {QUANTECON: "quantecon", STORM: "stormpy", PYDTMC: "pydtmc"}
+ROWS = CHAIN_ROWS | MATCH_ROWS
+PACKAGES = ("numpy", "scipy", "networkx", "quantecon", "stormpy", "python-flint", "evalica")
+MOST_TURNS, PATIENCE, SLOW = 51, 2.0, 5.0  # what takes longer than SLOW seconds is called once
+MEMORY = 8 << 30
 
 
-@dataclass
-class Question:
-    """A row: what is asked, who answers it (name: call), and the right numbers if known."""
-
-    name: str
-    answers: dict[str, Callable[[], Any]]
-    exact: Any = None
-    rounds: int = 21
-    slow: tuple[str, ...] = field(default=())  # these are called once
+# One row, in a process of its own --------------------------------------------------------
 
 
-def installed() -> set[str]:
-    found = set()
-    for name, module in PACKAGES.items():
-        try:
-            import_module(module)
-        except ImportError:
-            continue
-        found.add(name)
-    return found
+def clock() -> float:
+    """Return the processor time of this process and of those that it has waited for."""
+    try:
+        from resource import RUSAGE_CHILDREN, getrusage
+    except ImportError:  # not on Windows
+        return time.process_time()
+    children = getrusage(RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
 
 
-# Storm ---------------------------------------------------------------------------------
+def seconds(call: Callable[[], Any], calls: int) -> float:
+    begin = clock()
+    for _ in range(calls):
+        result = call()
+    taken = clock() - begin
+    del result
+    return taken / calls
 
 
-def storm_model(chain: Chain, labels: dict[str, Any], value: type = float) -> Any:
-    """Return the chain as a model of Storm; a state labelled 'end' ends the count of steps."""
-    from stormpy import Rational, datastructures, models
-
-    number = (lambda p: Rational(str(Fraction(repr(p))))) if value is not float else float
-    rows, n = chain.matrix.tocsr().T.tocsr().tocoo(), len(chain)
-    builder = datastructures.SparseMatrixBuilder[value](n, n, rows.nnz)
-    chances = [number(p) for p in rows.data.tolist()]
-    builder.add_next_values(rows.row.tolist(), rows.col.tolist(), chances)
-    labeling = models.StateLabeling(n)
-    for label, states in {"init": [0], **labels}.items():
-        labeling.add_label(label)
-        for state in states:
-            labeling.add_label_to_state(label, int(state))
-    reward = models.SparseRewardModel[value](optional_state_reward_vector=[number(1.0)] * n)
-    parts = models.SparseModelComponents[value](
-        transition_matrix=builder.build(), state_labeling=labeling, reward_models={"steps": reward}
-    )
-    return models.SparseDtmc[value](parts)
-
-
-def storm_environment(*, exact: bool = False) -> Any:
-    import stormpy
-    from stormpy import environments
-
-    if exact:
-        return environments.exact()
-    environment = stormpy.Environment()
-    kind = environments.EquationSolverType.EIGEN
-    environment.solver().set_linear_equation_solver_type(kind)
-    return environment
+def findings(row: Question) -> Iterator[tuple[str, str, Any]]:
+    """Call everybody once, then in turns: (what is found, whose, the number)."""
+    often = {}
+    for name, answer in {**row.peers, **row.ours}.items():
+        begin = clock()
+        found = answer()
+        first = clock() - begin
+        yield "first", name, first
+        yield "error", name, error(row, found)
+        if first < SLOW:
+            begin = clock()
+            answer()  # the first call pays for what is loaded or compiled
+            often[name] = answer, max(1, math.ceil(2e-3 / max(clock() - begin, 1e-7)))
+    begin = time.perf_counter()
+    for turn in range(MOST_TURNS):
+        if turn >= 3 and time.perf_counter() - begin > PATIENCE:
+            break
+        for name, (answer, calls) in often.items():
+            yield "time", name, seconds(answer, calls)
 
 
-def storm_values(model: Any, asked: str, *, exact: bool = False) -> Callable[[], Any]:
-    """Return a call of Storm for the value of a property from every state."""
-    import stormpy
-
-    environment, formula = storm_environment(exact=exact), stormpy.parse_properties(asked)[0]
-    return lambda: stormpy.model_checking(model, formula, environment=environment)
-
-
-def storm_law(model: Any, *, exact: bool = False) -> Callable[[], Any]:
-    """Return a call of Storm for the long-run law."""
-    import stormpy
-
-    environment = storm_environment(exact=exact)
-    return lambda: stormpy.analysis.compute_steady_state_distribution(
-        model, environment=environment
-    )
+def error(row: Question, found: Any) -> float | None:
+    if row.error is not None:
+        return row.error(found)
+    if row.exact is None:
+        return None
+    right = np.asarray(row.exact)
+    got = np.asarray(getattr(found, "probability", found))
+    normal = np.abs(right) >= np.finfo(float).tiny
+    return float(np.max(np.abs(got.reshape(right.shape)[normal] / right[normal] - 1)))
 
 
-# Questions -----------------------------------------------------------------------------
+def send_findings(name: str, place: int, pipe: Connection) -> None:
+    warnings.simplefilter("ignore")
+    try:
+        from resource import RLIMIT_AS, setrlimit
 
-
-def wide_law(P: np.ndarray) -> np.ndarray:
-    """Return the law by elimination in long doubles."""
-    A = P.astype(np.longdouble)
-    n = len(A)
-    for k in range(n - 1, 0, -1):
-        A[:k, k] /= A[k, :k].sum()
-        A[:k, :k] += np.outer(A[:k, k], A[k, :k])
-    law = np.ones(n, dtype=np.longdouble)
-    for k in range(1, n):
-        law[k] = law[:k] @ A[:k, k]
-    return law / law.sum()
-
-
-def dense(here: set[str]) -> Iterator[Question]:
-    for n in (5, 30, 100):
-        P = np.random.default_rng(1).random((n, n))
-        P /= P.sum(axis=1, keepdims=True)
-        chain = chain_of(P, rows="from")
-        stochastic_limit(chain, 0)  # a built chain knows its classes
-        built: dict[str, Callable[[], Any]] = {OURS: lambda c=chain: stochastic_limit(c, 0)}
-        array: dict[str, Callable[[], Any]] = {
-            OURS: lambda P=P: stochastic_limit(chain_of(P, rows="from"), 0)
-        }
-        if QUANTECON in here:
-            from quantecon import MarkovChain as Discrete
-            from quantecon.markov import gth_solve
-
-            built[QUANTECON] = lambda P=P: gth_solve(P)
-            array[QUANTECON] = lambda P=P: Discrete(P).stationary_distributions[0]
-        if STORM in here:
-            built[STORM] = storm_law(storm_model(chain, {}))
-            array[STORM] = lambda P=P: storm_law(storm_model(chain_of(P, rows="from"), {}))()
-        if PYDTMC in here:
-            from pydtmc import MarkovChain
-
-            array[PYDTMC] = lambda P=P: MarkovChain(P).steady_states[0]
-        exact = wide_law(P)
-        yield Question(f"law of {n} dense states, built", built, exact, 101)
-        yield Question(f"law of {n} dense states, from the array", array, exact, 41)
-
-
-def line(here: set[str]) -> Iterator[Question]:
-    n, p = 10_001, 0.5001
-    up, down = np.full(n, p), np.full(n, 1.0 - p)
-    up[[0, -1]] = down[[0, -1]] = 0.0
-    chain = walk(up, down)
-    band = np.zeros((3, n - 2))
-    band[0, 1:], band[1], band[2, :-1] = -p, 1.0, -(1.0 - p)
-    arrive = np.zeros((n - 2, 2))
-    arrive[0, 0], arrive[-1, 1] = 1.0 - p, p
-    answers: dict[str, Callable[[], Any]] = {
-        OURS: lambda: limit_matrix(fresh(chain)),
-        BARE: lambda: solve_banded((1, 1), band, arrive)[:, 1],
-    }
-    if STORM in here:
-        model = storm_model(chain, {"top": [n - 1]})
-        answers[STORM] = storm_values(model, 'P=? [F "top"]')
-    r = (np.longdouble(1) - np.longdouble(p)) / np.longdouble(p)
-    stake = np.arange(n)
-    exact = -np.expm1(stake * np.log(r)) / -np.expm1((n - 1) * np.log(r))
-    yield Question("line of 10,001 states, ends from all states", answers, exact, 41)
-
-
-def race(here: set[str]) -> Iterator[Question]:
-    match = Race(50, 50, Rack(0.6, 0.55), breaks=winner_breaks)
-    chain = chain_of(match)
-    won = np.array([match.winner(state) == 1 for state in chain.states])
-    over = [k for k, state in enumerate(chain.states) if match.winner(state)]
-
-    def chance_from_all() -> np.ndarray:
-        built = chain_of(match)
-        part = built.transient
-        return part.values((built.arcs.matrix().T @ won)[part.states])
-
-    chance: dict[str, Callable[[], Any]] = {OURS: chance_from_all}
-    mean: dict[str, Callable[[], Any]] = {OURS: lambda: steps_to_absorption(chain_of(match)).mean}
-    if STORM in here:
-        model = storm_model(chain, {"won": np.flatnonzero(won), "over": over})
-        chance[STORM] = storm_values(model, 'P=? [F "won"]')
-        mean[STORM] = storm_values(model, 'R{"steps"}=? [F "over"]')
-    in_fractions = Race(50, 50, Rack(Fraction(0.6), Fraction(0.55)), breaks=winner_breaks)
-    exact = float(win_probability(in_fractions, exact=True))
-    length = match_length(match)
-    yield Question("race 50:50, chance to win from all states", chance, exact, 41)
-    yield Question("race 50:50, mean length", mean, length.mean, 41)
-    yield Question(
-        "race 50:50, distribution of the length",
-        {OURS: lambda: steps_to_absorption(chain_of(match)).distribution()[0]},
-        np.append(np.zeros(length.games[0]), length.probability),
-        41,
-    )
-
-
-def classes(here: set[str]) -> Iterator[Question]:
-    for name, make in (
-        ("70 x 70 grid", grid_chain),
-        ("50 blocks of 100", blocks_chain),
-        ("5,000 random states", random_chain),
-    ):
-        chain, heights = make()
-        exact = 2.0 ** -(heights - heights.min())
-        answers: dict[str, Callable[[], Any]] = {
-            OURS: lambda c=chain: stochastic_limit(fresh(c), 0),
-            BARE: lambda c=chain: bare_stationary(c.matrix),
-        }
-        if QUANTECON in here:
-            from quantecon.markov import gth_solve
-
-            answers[QUANTECON] = lambda c=chain: gth_solve(c.matrix.toarray().T)
-        if STORM in here:
-            answers[STORM] = storm_law(storm_model(chain, {}))
-        slow = (QUANTECON, *((BARE, STORM, OURS) if name.startswith("5,000") else ()))
-        yield Question(f"law of {name}", answers, exact / exact.sum(), 5, slow)
-
-
-def fractions(here: set[str]) -> Iterator[Question]:
-    n, up, down = 201, Fraction(9, 20), Fraction(1, 2)
-    rows = {
-        i: {k: p for k, p in ((i - 1, down), (i + 1, up)) if 0 <= k < n} | {i: Fraction(1, 20)}
-        for i in range(n)
-    }
-    rows[0][0], rows[n - 1][n - 1] = 1 - up, 1 - down
-    ladder = chain_of(rows)
-    match = Race(50, 50, Rack(0.6))
-    chain = chain_of(match)
-    law: dict[str, Callable[[], Any]] = {OURS: lambda: stochastic_limit(ladder, 0, exact=True)}
-    chance: dict[str, Callable[[], Any]] = {OURS: lambda: win_probability(match, exact=True)}
-    if STORM in here:
-        from stormpy import Rational
-
-        law[STORM] = storm_law(storm_model(ladder, {}, Rational), exact=True)
-        won = [k for k, state in enumerate(chain.states) if match.winner(state) == 1]
-        model = storm_model(chain, {"won": won}, Rational)
-        chance[STORM] = storm_values(model, 'P=? [F "won"]', exact=True)
-    yield Question("ladder of 201 states, in fractions", law, None, 5, (STORM,))
-    yield Question("race 50:50, in fractions", chance, None, 5, (STORM,))
+        setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
+    except ImportError:
+        pass
+    try:
+        row = ROWS[name][place]()
+        pipe.send(("row", "", (row.work, row.goal, list(row.ours), list(row.peers))))
+        for finding in findings(row):
+            pipe.send(finding)
+    except Exception as problem:
+        pipe.send(("failed", "", f"{type(problem).__name__}: {problem}"))
+    pipe.send(("end", "", None))
 
 
 # The table -----------------------------------------------------------------------------
 
 
-def numbers(found: Any, exact: np.ndarray) -> np.ndarray:
-    """Return the numbers of an answer that stand beside `exact`."""
-    if hasattr(found, "get_value_vector"):
-        found = found.get_value_vector()
-    elif hasattr(found, "tocsr") and getattr(found, "ndim", 0) == 2:
-        found = found.tocsr()[[found.shape[0] - 1], :].toarray()[0]
-    array = np.asarray(found, dtype=np.float64).ravel()
-    if array.size == exact.size - 2:  # a banded solve leaves out the two ends
-        array = np.concatenate(([0.0], array, [1.0]))
-    return array[:1] if exact.size == 1 else array
+class Row:
+    """What is known of a row, by its process or by the clock."""
 
+    def __init__(self, name: str, place: int, limit: float) -> None:
+        self.goal: Any = None
+        self.work, self.ours, self.peers, self.failed = f"{name} {place + 1}", [OURS], [], ""
+        self.first: dict[str, float] = {}
+        self.error: dict[str, float | None] = {}
+        self.times: dict[str, list[float]] = defaultdict(list)
+        ours, theirs = multiprocessing.Pipe(duplex=False)
+        process = multiprocessing.Process(target=send_findings, args=(name, place, theirs))
+        process.start()
+        with closing(ours):
+            self.listen(ours, process, limit)
+            process.kill()
+            process.join()
 
-def error(found: Any, exact: Any) -> str:
-    if exact is None:
-        return ""
-    right = np.atleast_1d(exact).astype(np.longdouble)
-    got = numbers(found, right)
-    if len(got) != len(right):
-        return " (other numbers)"
-    normal = right >= np.finfo(float).tiny
-    worst = float(np.max(np.abs(got[normal] / right[normal] - 1.0)))
-    return f" ({worst:.0e})"
+    def listen(self, pipe: Connection, process: Any, limit: float) -> None:
+        """Note what comes through the pipe, until nothing has for longer than the limit."""
+        heard = time.monotonic()
+        while not self.failed:
+            if pipe.poll(0.1):
+                kind, name, value = pipe.recv()
+                heard = time.monotonic()
+                if kind == "end":
+                    return
+                self.note(kind, name, value)
+            elif time.monotonic() > heard + limit:
+                self.failed = f"no answer in {limit:g} s"
+            elif not process.is_alive():
+                self.failed = "its process ended without an answer"
 
+    def note(self, kind: str, name: str, value: Any) -> None:
+        if kind == "row":
+            self.work, self.goal, self.ours, self.peers = value
+        elif kind == "failed":
+            self.failed = value
+        elif kind == "time":
+            self.times[name].append(value)
+        else:
+            getattr(self, kind)[name] = value
 
-def row(asked: Question) -> dict[str, str]:
-    found, times = {}, {}
-    for name, answer in asked.answers.items():  # the first call pays for what is loaded or compiled
-        begin = time.process_time()
-        found[name] = answer()
-        times[name] = [time.process_time() - begin]
-    repeated = [name for name in asked.answers if name not in asked.slow]
-    for name in repeated:
-        times[name].clear()
-    for _ in range(asked.rounds):
-        for name in repeated:
-            begin = time.process_time()
-            result = asked.answers[name]()
-            times[name].append(time.process_time() - begin)
-            del result
-    return {
-        name: f"{1e3 * statistics.median(times[name]):.3g}{error(found[name], asked.exact)}"
-        for name in asked.answers
-    }
+    def taken(self, name: str) -> float | None:
+        times = self.times[name] or [self.first[name]] if name in self.first else []
+        return statistics.median(times) if times else None
+
+    @property
+    def measure(self) -> float | None:
+        """What the goal speaks of: a ratio, seconds, or the exponent of growth."""
+        ours = [taken for name in self.ours if (taken := self.taken(name)) is not None]
+        if self.goal is None or not ours:
+            return None
+        if self.goal.kind == "exponent":
+            sizes = [float(name.replace(",", "")) for name in self.ours][: len(ours)]
+            return float(np.polyfit(np.log(sizes), np.log(ours), 1)[0]) if sizes[1:] else None
+        if self.goal.kind == "seconds":
+            return ours[0]
+        peer = self.taken(self.peers[0]) if self.peers else None
+        return ours[0] / peer if peer else None
+
+    @property
+    def missed(self) -> bool:
+        measure = self.measure
+        return bool(self.failed) or (measure is not None and measure > self.goal.at_most)
+
+    def cell(self, name: str, *, bare: bool = False) -> str:
+        taken = self.taken(name)
+        if taken is None:
+            return ""
+        worst = self.error.get(name)
+        shown = f"{1e3 * taken:,.3g}" if taken < 1 else f"{1e3 * taken:,.0f}"
+        return shown if bare or worst is None else f"{shown} ({worst:.0e})"
+
+    def __str__(self) -> str:
+        ours = " / ".join(cell for name in self.ours if (cell := self.cell(name, bare=True)))
+        peers = "; ".join(f"{name} {cell}" for name in self.peers if (cell := self.cell(name)))
+        errors = [worst for name in self.ours if (worst := self.error.get(name)) is not None]
+        measure, goal = self.measure, self.goal
+        cells = (
+            self.work,
+            " / ".join(part for part in (ours, self.failed) if part),
+            peers,
+            "" if measure is None else goal.shown(measure),
+            "" if goal is None else str(goal),
+            f"{max(errors):.0e}" if errors else "",
+        )
+        return "| " + " | ".join(cells) + " |"
 
 
 def main() -> None:
-    warnings.simplefilter("ignore")
-    here, chosen = installed(), sys.argv[1:]
-    columns = [OURS, BARE, QUANTECON, STORM, PYDTMC]
-    print("| question |", " | ".join(columns), "|")
-    print("|---" * (len(columns) + 1) + "|")
-    for group in (dense, line, race, classes, fractions):
-        if chosen and group.__name__ not in chosen:
-            continue
-        for asked in group(here):
-            cells = row(asked)
-            shown = [cells.get(name, "") for name in columns]
-            print(f"| {asked.name} |", " | ".join(shown), "|", flush=True)
-    print(", ".join(f"{PACKAGES[name]} {version(PACKAGES[name])}" for name in sorted(here)))
-    for name in sorted(PACKAGES.keys() - here):
-        print(f"{PACKAGES[name]} is not installed")
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--limit", type=float, default=60.0, help="seconds a call may take")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(ROWS))
+    chosen = parser.parse_args()
+    if unknown := set(chosen.names) - ROWS.keys():
+        parser.error(f"no row {', '.join(sorted(unknown))}; there are {', '.join(ROWS)}")
+    print("| work | ours, ms | best peer or floor, ms | ratio | goal | worst error |")
+    print("|---|---|---|---|---|---|")
+    missed = []
+    for name in chosen.names or ROWS:
+        for place in range(len(ROWS[name])):
+            row = Row(name, place, chosen.limit)
+            print(row, flush=True)
+            missed += [row.work] if row.missed else []
+    here, away = [], []
+    for package in PACKAGES:
+        try:
+            here.append(f"{package} {version(package)}")
+        except PackageNotFoundError:
+            away.append(package)
+    print(f"goals missed: {'; '.join(missed) or 'none'}")
+    print(", ".join(here), *(f"{package} is not installed" for package in away), sep="\n")
 
 
 if __name__ == "__main__":
