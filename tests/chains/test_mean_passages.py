@@ -1,11 +1,12 @@
 """Mean passage times between all states, against fractions and against one target at a time."""
 
+import random
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from scipy.sparse import diags_array
 
 import oracle
 from evenbreak.chains import (
@@ -14,10 +15,15 @@ from evenbreak.chains import (
     first_passage,
     kemeny_constant,
     mean_first_passages,
+    mean_passages,
     stationary_laws,
 )
-from evenbreak.errors import ChainError
+from evenbreak.errors import AccuracyError, ChainError
 from evenbreak.games import OneBall, Race, Rack
+from tries import tries
+
+TRIES = tries("mean passages", 60)
+LARGEST_FLOAT = Fraction(np.finfo(float).max)
 
 OZ = Chain(
     ["rain", "nice", "snow"], np.array([[0.5, 0.5, 0.25], [0.25, 0, 0.25], [0.25, 0.5, 0.5]])
@@ -31,38 +37,119 @@ def test_the_land_of_oz() -> None:
     assert kemeny_constant(OZ) == pytest.approx(32 / 15, rel=1e-15)
 
 
-@st.composite
-def weights(draw: st.DrawFn) -> list[list[int]]:
-    """Columns of whole numbers that sum to 16."""
-    n = draw(st.integers(1, 5))
-    cuts = st.lists(st.integers(0, 16), min_size=n - 1, max_size=n - 1)
-    return [np.diff([0, *sorted(draw(cuts)), 16]).tolist() for _ in range(n)]
+def drawn_arcs(draw: random.Random, most: int) -> list[tuple[int, int, float]]:
+    """Return the arcs of a chain: any graph, short steps, a ring, a line or rare changes."""
+    n, stiffness = draw.randint(1, most), draw.choice([0.5, 3, 12, 60, 200])
+    kind = draw.choice(["any", "any", "near", "ring", "line", "blocks"])
+    arcs = []
+    for j in range(n):
+        near = range(max(0, j - 2), min(n, j + 3))
+        targets = {
+            "any": {*draw.choices(range(n), k=draw.randint(1, 3))},
+            "near": {*draw.choices(near, k=draw.randint(1, 3))},
+            "ring": {(j + 1) % n, (j + draw.choice([1, -2])) % n},
+            "line": {max(0, j - 1), min(n - 1, j + 1)} if draw.random() < 0.9 else {j},
+            "blocks": {*(k for k in range(n) if k // 3 == j // 3), draw.randrange(n)},
+        }[kind]
+        rare = 10.0 ** -draw.choice([0, 100, 200]) if kind == "blocks" else 1.0
+        weights = {
+            i: 10.0 ** -draw.uniform(0, stiffness) * (1.0 if i // 3 == j // 3 else rare)
+            for i in sorted(targets)
+        }
+        total = sum(weights.values())
+        arcs += [(j, i, weight / total) for i, weight in weights.items()]
+    return arcs
 
 
-def exact_mean(columns: list[list[int]], target: int) -> list[Fraction]:
-    n = len(columns)
-    others = [j for j in range(n) if j != target]
-    rows = [[Fraction(int(i == j)) - Fraction(columns[j][i], 16) for i in others] for j in others]
-    means = oracle.solve(rows, [Fraction(1)] * (n - 1)) if others else []
-    found = dict(zip(others, means, strict=True))
-    return [found.get(j, Fraction(0)) for j in range(n)]
+def exact_means(columns: oracle.Columns, target: int) -> list[Fraction | None]:
+    """Return the mean from each state, None where the target may never be reached."""
+    cut = [arcs if j != target else {} for j, arcs in enumerate(columns)]
+    reached = [oracle.reach(cut, j) for j in range(len(cut))]
+    hopeless = {j for j, states in enumerate(reached) if target not in states}
+    certain = [j for j, states in enumerate(reached) if j != target and not states & hopeless]
+    rows = [
+        [sum(cut[j].values()) if i == j else -cut[j].get(i, Fraction(0)) for i in certain]
+        for j in certain
+    ]
+    means = oracle.solve(rows, [Fraction(1)] * len(rows)) if rows else []
+    found = {target: Fraction(0), **dict(zip(certain, means, strict=True))}
+    return [found.get(j) for j in range(len(columns))]
 
 
-@settings(max_examples=80, deadline=None)
-@given(weights())
-def test_against_fractions(columns: list[list[int]]) -> None:
-    chain = chain_of(np.array(columns) / 16, rows="from")
-    means = mean_first_passages(chain)
-    for i in range(len(chain)):
-        for j in range(len(chain)):
-            one = first_passage(chain, j, i).mean
-            assert means[i, j] == pytest.approx(np.inf if one is None else one, rel=1e-14)
-        if np.isfinite(means[i]).all():
-            assert oracle.worst_relative_error(means[i], exact_mean(columns, i)) <= 1e-14
-    if chain.structure.closed.sum() == 1:
-        law, inside = stationary_laws(chain), chain.structure.recurrent
-        from_each = law[inside] @ means[np.ix_(inside, inside)]
-        assert kemeny_constant(chain) == pytest.approx(from_each, rel=1e-13)
+@pytest.mark.parametrize("few", [1, 2, 3, 16])
+def test_random_chains_against_fractions(few: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rare steps, blocks that hardly mix, periods, several ends; halved down to `few` states."""
+    monkeypatch.setattr(mean_passages, "_FEW", few)
+    worst, overflows = 0.0, 0
+    for seed in range(TRIES):
+        chain = chain_of(drawn_arcs(random.Random(seed), most=9))
+        columns = oracle.columns_of(chain)
+        exact = [exact_means(columns, target) for target in range(len(chain))]
+        if max(mean for means in exact for mean in means if mean is not None) > LARGEST_FLOAT:
+            overflows += 1
+            with pytest.raises(AccuracyError, match="larger than any float"):
+                mean_first_passages(chain)
+            continue
+        found = mean_first_passages(chain)
+        for target, means in enumerate(exact):
+            finite = [j for j, mean in enumerate(means) if mean is not None]
+            assert np.flatnonzero(np.isfinite(found[target])).tolist() == finite, seed
+            sure = [mean for mean in means if mean is not None]
+            worst = max(worst, oracle.worst_relative_error(found[target, finite], sure))
+        if chain.structure.closed.sum() == 1:
+            law = stationary_laws(chain)
+            inside = np.flatnonzero(law)
+            from_each = law[inside] @ found[np.ix_(inside, inside)]
+            assert kemeny_constant(chain) == pytest.approx(from_each, rel=1e-14), seed
+    assert worst <= 2e-15
+    assert overflows < TRIES / 10
+
+
+def test_one_target_at_a_time_gives_the_same() -> None:
+    for seed in range(TRIES // 4):
+        draw = random.Random(seed)
+        chain = chain_of(drawn_arcs(draw, most=90))
+        try:
+            means = mean_first_passages(chain)
+        except AccuracyError:
+            continue
+        for target in draw.sample(range(len(chain)), min(3, len(chain))):
+            for start in draw.sample(range(len(chain)), min(3, len(chain))):
+                one = first_passage(chain, chain.states[start], chain.states[target]).mean
+                expected = np.inf if one is None else one
+                assert means[target, start] == pytest.approx(expected, rel=3e-15), seed
+
+
+def test_no_target_needs_a_solve_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mean_passages, "_means_to", lambda *_: pytest.fail("one solve a target"))
+    rare = [(0, 1, 1e-200), (0, 0, 1.0), *((k, (k + 1) % 60, 1.0) for k in range(1, 60))]
+    assert mean_first_passages(chain_of(rare))[59, 0] == pytest.approx(1e200, rel=1e-14)
+
+
+def test_from_states_that_all_roads_pass() -> None:
+    """From 'a' to the door, and on to the end that the door chooses."""
+    arcs = [("a", "b", 0.5), ("a", "door", 0.5), ("b", "a", 1.0), ("door", "won", 0.5)]
+    chain = chain_of([*arcs, ("door", "a", 0.25), ("door", "lost", 0.25)])
+    means = dict(zip(chain.states, mean_first_passages(chain), strict=True))
+    never = np.inf
+    assert means["door"].tolist() == [3.0, 4.0, 0.0, never, never]
+    assert means["a"].tolist() == [0.0, 1.0, never, never, never]
+    assert means["won"].tolist() == [never, never, never, 0.0, never]
+
+
+@pytest.mark.parametrize("n", [100, 700])
+def test_a_long_line_of_states_alike(n: int) -> None:
+    """Up from k takes u_k = (1 + q u_k-1) / p steps, in numbers of the platform's own digits."""
+    p, q = 0.4625, 0.4875
+    arcs = diags_array([np.full(n - 1, p), np.full(n - 1, q)], offsets=[-1, 1])
+    means = mean_first_passages(chain_of(oracle.with_loops(arcs.tocsc()), rows="to"))
+    with localcontext(prec=60):
+        up = Decimal(1) / Decimal(p)
+        total = up
+        for _ in range(n - 2):
+            up = (1 + Decimal(q) * up) / Decimal(p)
+            total += up
+    assert means[n - 1, 0] == pytest.approx(float(total), rel=5e-15)
 
 
 def test_kemeny_constant_by_eigenvalues() -> None:
@@ -88,8 +175,8 @@ def test_states_that_may_never_be_reached() -> None:
 def test_refusals() -> None:
     with pytest.raises(ChainError, match="2 closed classes"):
         kemeny_constant(chain_of(OneBall(0.5, 0.5)))
-    large = chain_of([(k, (k + 1) % 2001, 1.0) for k in range(2001)])
-    with pytest.raises(ChainError, match="2001 states"):
+    large = chain_of([(k, (k + 1) % 4001, 1.0) for k in range(4001)])
+    with pytest.raises(ChainError, match="4001 states"):
         mean_first_passages(large)
-    with pytest.raises(ChainError, match="2001 states"):
+    with pytest.raises(ChainError, match="4001 states"):
         kemeny_constant(large)
