@@ -1,16 +1,20 @@
-"""The answers of a chain in fractions, by elimination of states.
+"""The answers of a chain in fractions, class by class.
 
 A chance given as a `Fraction` or as text is taken as it is, and a float as the decimal that it
 prints: 0.6 is 3/5. A state whose self-loop is listed stays with what its other arcs leave over;
 the arcs of every other state must sum to exactly 1.
+
+The states of a sparse class are eliminated; in a dense one the fractions would grow with every
+step, so it is solved modulo a prime (see `lifting`).
 
 Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -18,15 +22,20 @@ import numpy as np
 from evenbreak.chains.arcs import reachable
 from evenbreak.chains.decimal_elimination import rows_of
 from evenbreak.chains.elimination import Elimination
-from evenbreak.errors import ChainError
+from evenbreak.chains.lifting import Lifting, whole_numbers
+from evenbreak.chains.structure import structure_of
+from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 Rows = list[dict[int, Fraction]]
 _NOTHING = Fraction(0)
+_FILL = 32
+"""A class is eliminated in fractions if that makes no more than so many arcs a state."""
 
 
 class ExactPassage(NamedTuple):
@@ -58,8 +67,9 @@ def exact_limit(chain: Chain, start: Any) -> dict[Any, Fraction]:
     limit = [_NOTHING] * len(chain)
     for label, mass in enumerate(_masses(chain, rows, start)):
         if mass:
-            members = structure.members(label).tolist()
-            for state, share in zip(members, _law(rows, members), strict=True):
+            members = structure.members(label)
+            law = _law(chain, rows, members)
+            for state, share in zip(members.tolist(), law, strict=True):
                 limit[state] = mass * share
     return dict(zip(chain.states, limit, strict=True))
 
@@ -78,19 +88,17 @@ def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPas
     rows, v = exact_rows(chain), exact_start(chain, start)
     arcs = chain.arcs
     hopeful = reachable(len(chain), arcs.targets, arcs.sources, ends) & ~ends
-    states = np.flatnonzero(hopeful).tolist()
-    factor = _factor(rows, states)
-    hope = factor.values(
-        [sum((p for i, p in rows[j].items() if ends[i]), _NOTHING) for j in states]
+    part = _Part(chain, rows, np.flatnonzero(hopeful))
+    hope = part.values(
+        {j: sum((p for i, p in rows[j].items() if ends[i]), _NOTHING) for j in part.states}
     )
-    steps = factor.values(hope)
-    squares = factor.values(steps)
-    begun = [v.get(j, _NOTHING) for j in states]
-    reached = sum((x for j, x in v.items() if ends[j]), _NOTHING) + _dot(begun, hope)
+    steps = part.values(hope)
+    squares = part.values(steps)
+    reached = sum((x for j, x in v.items() if ends[j]), _NOTHING) + _dot(v, hope)
     mean = variance = None
     if reached:
-        mean = _dot(begun, steps) / reached
-        variance = 2 * _dot(begun, squares) / reached - mean - mean**2
+        mean = _dot(v, steps) / reached
+        variance = 2 * _dot(v, squares) / reached - mean - mean**2
     return ExactPassage(reached, 1 - reached, mean, variance)
 
 
@@ -118,7 +126,8 @@ def exact_rows(chain: Chain) -> Rows:
     ]
     loops = (chain.matrix.diagonal() > 0.0).tolist()
     for state, row, loop in zip(chain.states, rows, loops, strict=True):
-        total = sum(row.values(), _NOTHING)
+        numerators, whole = whole_numbers(row.values())
+        total = Fraction(sum(numerators), whole)
         if total > 1 or (total < 1 and not loop):
             raise ChainError(
                 f"the arcs out of state {state!r} sum to {_shown(total)}, not to exactly 1; for an "
@@ -146,39 +155,94 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
 def _masses(chain: Chain, rows: Rows, start: Any) -> list[Fraction]:
     """Return the probability of ending in each class."""
     structure, v = chain.structure, exact_start(chain, start)
-    label, recurrent = structure.label.tolist(), structure.recurrent
+    label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
     masses = [_NOTHING] * structure.count
     for state, chance in v.items():
         if recurrent[state]:
             masses[label[state]] += chance
-    states = np.flatnonzero(~recurrent).tolist()
-    visits = _factor(rows, states).visits([v.get(state, _NOTHING) for state in states])
-    for state, visit in zip(states, visits, strict=True):
-        if visit:
-            for i, chance in rows[state].items():
-                if recurrent[i]:
-                    masses[label[i]] += visit * chance
+    part = _Part(chain, rows, np.flatnonzero(~structure.recurrent))
+    for state, visit in part.visits(v).items():
+        for i, chance in rows[state].items():
+            if recurrent[i]:
+                masses[label[i]] += visit * chance
     return masses
 
 
-def _law(rows: Rows, members: Sequence[int]) -> list[Fraction]:
+def _law(chain: Chain, rows: Rows, members: Places) -> list[Fraction]:
     """Return the law of a closed class: the visits between two visits to its first state."""
-    first, *rest = members
-    visits = _factor(rows, rest).visits([rows[first].get(i, _NOTHING) for i in rest])
-    total = 1 + sum(visits, _NOTHING)
-    return [1 / total, *(visit / total for visit in visits)]
+    first, rest = members[0], members[1:]
+    visits = _Part(chain, rows, rest).visits(rows[first])
+    total = 1 + sum(visits.values(), _NOTHING)
+    return [1 / total, *(visits[state] / total for state in rest.tolist())]
 
 
-def _factor(rows: Rows, states: Sequence[int]) -> Elimination:
-    """Return I - T factored, with T the arcs among the states."""
-    place = {state: k for k, state in enumerate(states)}
-    inner = [{place[i]: p for i, p in rows[j].items() if i in place} for j in states]
-    leaks = [sum((p for i, p in rows[j].items() if i not in place), _NOTHING) for j in states]
-    return Elimination(inner, leaks)
+class _Part:
+    """I - T factored, with T the arcs of a chain among some of its states.
+
+    Parameters
+    ----------
+    chain, rows
+        the chain, and its arcs as fractions.
+    states
+        positions of the states, increasing.
+    """
+
+    def __init__(self, chain: Chain, rows: Rows, states: Places) -> None:
+        self._rows, self.states = rows, states.tolist()
+        structure = structure_of(chain.arcs.among(states)[0])
+        in_order = states[structure.order].tolist()
+        self._classes = [in_order[a:b] for a, b in pairwise(structure.offsets.tolist())]
+        self._class = dict(zip(self.states, structure.label.tolist(), strict=True))
+        self._factors: dict[int, Elimination | Lifting] = {}
+
+    def visits(self, b: Mapping[int, Fraction]) -> dict[int, Fraction]:
+        """Return (I - T)^-1 b by state, for b by state; what lies elsewhere does not count."""
+        flow = {state: b.get(state, _NOTHING) for state in self.states}
+        for number, members in enumerate(self._classes):
+            entering = [flow[state] for state in members]
+            if not any(entering):
+                continue
+            visits = self._factor(number).visits(entering)
+            for state, visit in zip(members, visits, strict=True):
+                flow[state] = visit
+                for i, chance in self._rows[state].items():
+                    if self._class.get(i, number) != number:
+                        flow[i] += visit * chance
+        return flow
+
+    def values(self, r: Mapping[int, Fraction]) -> dict[int, Fraction]:
+        """Return (I - T)^-T r by state, for r by state."""
+        values: dict[int, Fraction] = {}
+        for number, members in reversed(list(enumerate(self._classes))):
+            right = [
+                r[j] + sum((p * values[i] for i, p in self._rows[j].items() if i in values), 0)
+                for j in members
+            ]
+            values.update(zip(members, self._factor(number).values(right), strict=True))
+        return values
+
+    def _factor(self, number: int) -> Elimination | Lifting:
+        """Return I - T within a class, factored when first used."""
+        if number not in self._factors:
+            members = self._classes[number]
+            place = {state: k for k, state in enumerate(members)}
+            rows = [self._rows[j] for j in members]
+            inner = [{place[i]: p for i, p in row.items() if i in place} for row in rows]
+            leaks = [sum((p for i, p in row.items() if i not in place), _NOTHING) for row in rows]
+            self._factors[number] = _factor(inner, leaks)
+        return self._factors[number]
 
 
-def _dot(x: Sequence[Fraction], y: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(x, y, strict=True) if a), _NOTHING)
+def _factor(arcs: Rows, leaks: list[Fraction]) -> Elimination | Lifting:
+    copies = [row.copy() for row in arcs]
+    try:
+        return Elimination(copies, leaks, _FILL * len(arcs))
+    except AccuracyError:
+        return Lifting(arcs, leaks)
+
+
+def _dot(v: Mapping[int, Fraction], values: Mapping[int, Fraction]) -> Fraction:
+    return sum((x * values[j] for j, x in v.items() if j in values), _NOTHING)
 
 
 def _shown(total: Any) -> str:
