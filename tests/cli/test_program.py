@@ -23,11 +23,13 @@ def run_program(*words, **options):
     )
 
 
-def loaded_by(*words):
+def loaded_by(*words, **options):
     code = f"import sys\nsys.argv = {['evenbreak', *words]!r}\nfrom evenbreak.cli import main\n"
     code += "try: main()\nexcept SystemExit: pass\n"
     code += "print('LOADED', *sorted(sys.modules), file=sys.stderr)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, **options
+    )
     return set(done.stderr.rpartition("LOADED")[2].split())
 
 
@@ -46,6 +48,27 @@ def test_help_imports_no_command():
         "evenbreak.cli.kit.groups",
         "evenbreak.cli.program",
     }
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "needed"),
+    [
+        ("arcs.csv", ARCS, set()),
+        ("matrix.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n", set()),
+        (
+            "graph.json",
+            '{"directed": true, "nodes": [{"id": "S"}],'
+            ' "edges": [{"source": "S", "target": "S", "probability": 1}]}',
+            {"networkx"},
+        ),
+    ],
+    ids=["arcs", "matrix", "graph"],
+)
+def test_a_chain_loads_what_its_form_needs(file, content, needed, tmp_path):
+    (tmp_path / file).write_text(content)
+    loaded = loaded_by("chain", file, "--steps", "2", cwd=tmp_path)
+    assert "evenbreak.chains.limits" in loaded
+    assert loaded & {"pandas", "networkx", "matplotlib", "jinja2", "rich"} == needed
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.cells import numbers
 from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import TextTable, read_table
+from evenbreak.files.text_table import Texts, TextTable, read_table
 
 COLUMNS = {
     "source": ("from", "state", "source state"),
@@ -82,11 +82,9 @@ def _refuse_empty(table: TextTable, column: str) -> None:
 
 def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
     """Return the states as the file first names them, and the position of each arc's two."""
-    import pandas as pd
-
-    ends = np.array([table.cells("source"), table.cells("target")], dtype=object).T.ravel()
-    places, states = pd.factorize(ends)
-    return states.tolist(), places[::2], places[1::2]
+    arcs = zip(table.cells("source"), table.cells("target"), strict=True)
+    states, places = Texts.of([name for arc in arcs for name in arc])
+    return states, places[::2], places[1::2]
 
 
 def _refuse_twice(
