@@ -33,7 +33,7 @@ OZ = Chain(
 def test_the_land_of_oz() -> None:
     """Kemeny and Snell 1960, section 4.4; there the diagonal has the times of return."""
     exact = [[0, 8 / 3, 10 / 3], [4, 0, 4], [10 / 3, 8 / 3, 0]]
-    assert mean_first_passages(OZ) == pytest.approx(np.array(exact), rel=1e-15)
+    assert np.asarray(mean_first_passages(OZ)) == pytest.approx(np.array(exact), rel=1e-15)
     assert kemeny_constant(OZ) == pytest.approx(32 / 15, rel=1e-15)
 
 
@@ -90,7 +90,7 @@ def test_random_chains_against_fractions(few: int, monkeypatch: pytest.MonkeyPat
             with pytest.raises(AccuracyError, match="larger than any float"):
                 mean_first_passages(chain)
             continue
-        found = mean_first_passages(chain)
+        found = np.asarray(mean_first_passages(chain))
         for target, means in enumerate(exact):
             finite = [j for j, mean in enumerate(means) if mean is not None]
             assert np.flatnonzero(np.isfinite(found[target])).tolist() == finite, seed
@@ -110,7 +110,7 @@ def test_one_target_at_a_time_gives_the_same() -> None:
         draw = random.Random(seed)
         chain = chain_of(drawn_arcs(draw, most=90))
         try:
-            means = mean_first_passages(chain)
+            means = np.asarray(mean_first_passages(chain))
         except AccuracyError:
             continue
         for target in draw.sample(range(len(chain)), min(3, len(chain))):
@@ -123,18 +123,17 @@ def test_one_target_at_a_time_gives_the_same() -> None:
 def test_no_target_needs_a_solve_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mean_passages, "_means_to", lambda *_: pytest.fail("one solve a target"))
     rare = [(0, 1, 1e-200), (0, 0, 1.0), *((k, (k + 1) % 60, 1.0) for k in range(1, 60))]
-    assert mean_first_passages(chain_of(rare))[59, 0] == pytest.approx(1e200, rel=1e-14)
+    assert mean_first_passages(chain_of(rare)).loc[59, 0] == pytest.approx(1e200, rel=1e-14)
 
 
 def test_from_states_that_all_roads_pass() -> None:
     """From 'a' to the door, and on to the end that the door chooses."""
     arcs = [("a", "b", 0.5), ("a", "door", 0.5), ("b", "a", 1.0), ("door", "won", 0.5)]
     chain = chain_of([*arcs, ("door", "a", 0.25), ("door", "lost", 0.25)])
-    means = dict(zip(chain.states, mean_first_passages(chain), strict=True))
-    never = np.inf
-    assert means["door"].tolist() == [3.0, 4.0, 0.0, never, never]
-    assert means["a"].tolist() == [0.0, 1.0, never, never, never]
-    assert means["won"].tolist() == [never, never, never, 0.0, never]
+    means, never = mean_first_passages(chain), np.inf
+    assert means.loc["door"].tolist() == [3.0, 4.0, 0.0, never, never]
+    assert means.loc["a"].tolist() == [0.0, 1.0, never, never, never]
+    assert means.loc["won"].tolist() == [never, never, never, 0.0, never]
 
 
 @pytest.mark.parametrize("n", [100, 700])
@@ -149,7 +148,7 @@ def test_a_long_line_of_states_alike(n: int) -> None:
         for _ in range(n - 2):
             up = (1 + Decimal(q) * up) / Decimal(p)
             total += up
-    assert means[n - 1, 0] == pytest.approx(float(total), rel=5e-15)
+    assert means.loc[n - 1, 0] == pytest.approx(float(total), rel=5e-15)
 
 
 def test_kemeny_constant_by_eigenvalues() -> None:
@@ -162,14 +161,22 @@ def test_kemeny_constant_by_eigenvalues() -> None:
 
 def test_rare_steps_lose_no_digits() -> None:
     chain = chain_of([("a", "a", 1.0), ("a", "b", 1e-200), ("b", "b", 1.0), ("b", "a", 3e-200)])
-    assert mean_first_passages(chain)[1, 0] == pytest.approx(1e200, rel=1e-15)
+    assert mean_first_passages(chain).loc["b", "a"] == pytest.approx(1e200, rel=1e-15)
     assert kemeny_constant(chain) == pytest.approx(0.25e200, rel=1e-15)
 
 
 def test_states_that_may_never_be_reached() -> None:
     means = mean_first_passages(chain_of(Race(2, 2, Rack(0.5))))
-    assert (means.diagonal() == 0.0).all()
-    assert np.isinf(means[~np.eye(len(means), dtype=bool)]).sum() > 0
+    never = np.full(means.shape, np.inf)
+    np.fill_diagonal(never, 0.0)
+    assert (means == never).all(axis=None)
+
+
+def test_means_have_the_labels_of_the_matrix() -> None:
+    assert mean_first_passages(OZ).index.equals(OZ.to_frame().index)
+    assert mean_first_passages(OZ).columns.equals(OZ.to_frame().columns)
+    scores = chain_of([((0, 1), (1, 0), 1.0), ((1, 0), (0, 1), 1.0)])
+    assert mean_first_passages(scores)[(0, 1)].loc[[(1, 0)]].tolist() == [1.0]
 
 
 def test_refusals() -> None:

@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
+    import pandas as pd
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
@@ -30,17 +31,17 @@ if TYPE_CHECKING:
 @overload
 def absorption(
     chain: Chain, start: Any = None, *, exact: Literal[False] = False
-) -> NDArray[np.float64]: ...
+) -> pd.Series[float]: ...
 
 
 @overload
-def absorption(chain: Chain, start: Any = None, *, exact: bool) -> NDArray[Any]: ...
+def absorption(chain: Chain, start: Any = None, *, exact: bool) -> pd.Series[Any]: ...
 
 
-def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArray[Any]:
-    """Return the probability of ending in each class, given the start; shape (classes,).
+def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Series[Any]:
+    """Return the probability of ending in each closed class, given the start, as a Series.
 
-    Classes are numbered as in `chain.structure`; those that are not closed have 0. Each
+    A class of one state has that state as its label, a larger one the tuple of its states. Each
     entry is right to about machine precision, unless play passes through a transient class
     too large for elimination (see `factorisation`). Then it is certified to a relative
     error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
@@ -57,24 +58,29 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> NDArr
 
     >>> from evenbreak.chains import chain_of
     >>> chain = chain_of([("play", "won", 0.25), ("play", "lost", 0.5), ("play", "play", 0.25)])
-    >>> absorption(chain, "play")[chain.structure.label].round(3).tolist()
-    [0.0, 0.333, 0.667]
-    >>> absorption(chain, "play", exact=True)[1:].tolist()
-    [Fraction(1, 3), Fraction(2, 3)]
+    >>> absorption(chain, "play").round(3)
+    class
+    won     0.333
+    lost    0.667
+    Name: probability, dtype: float64
+    >>> absorption(chain, "play", exact=True)["won"]
+    Fraction(1, 3)
     """
+    import pandas as pd
+
     check_chain(chain)
-    if exact:
-        return exact_absorption(chain, start)
     structure = chain.structure
-    v = chain.density(start)
-    arrivals = _arrivals(chain, v)
-    # Along a very long path rounding adds up in one direction; the sum shows how much.
-    arrivals *= v.sum() / arrivals.sum()
-    return sums(structure.label, arrivals, structure.count)
+    masses = exact_absorption(chain, start) if exact else masses_of(chain, start)
+    closed = np.flatnonzero(structure.closed).tolist()
+    names = []
+    for label in closed:
+        states = tuple(chain.states[i] for i in structure.members(label).tolist())
+        names.append(states if len(states) > 1 else states[0])
+    return pd.Series(masses[closed], index=labels(names, "class"), name="probability")
 
 
-def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
-    """Return the expected number of steps begun in each state, given the start; shape (n,).
+def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
+    """Return the expected number of steps begun in each state, given the start, as a Series.
 
     Transient states have a finite number. Recurrent states have inf if they can be reached,
     otherwise 0. The accuracy is that of `absorption`, with the residual in
@@ -87,9 +93,28 @@ def expected_visits(chain: Chain, start: Any = None) -> NDArray[np.float64]:
 
     >>> from evenbreak.chains import chain_of
     >>> expected_visits(chain_of([("miss", "miss", 0.75), ("miss", "in", 0.25)]), "miss")
-    array([ 4., inf])
+    state
+    miss    4.0
+    in      inf
+    Name: visits, dtype: float64
     """
+    import pandas as pd
+
     check_chain(chain)
+    return pd.Series(visits_from(chain, start), index=labels(chain.states, "state"), name="visits")
+
+
+def masses_of(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+    """Return the probability of ending in each class, 0 if it is not closed; shape (classes,)."""
+    v = chain.density(start)
+    arrivals = _arrivals(chain, v)
+    # Along a very long path rounding adds up in one direction; the sum shows how much.
+    arrivals *= v.sum() / arrivals.sum()
+    return sums(chain.structure.label, arrivals, chain.structure.count)
+
+
+def visits_from(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+    """Return the `expected_visits` to each state as an array."""
     v = chain.density(start)
     states = chain.transient.states
     visits = np.zeros(len(chain))

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 import numpy as np
 
 from evenbreak.arrays import own_arrays
-from evenbreak.chains.absorption import absorption, closed_classes_reached, ends_of
+from evenbreak.chains.absorption import closed_classes_reached, ends_of, masses_of
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
@@ -242,7 +242,7 @@ def stochastic_limit(
             chain.density(start)  # refuses what is no start
         law, residual = laws_of(chain, structure.closed)
         return Limit(chain, law, int(structure.periods[0]), residual)
-    mass = absorption(chain, start)
+    mass = masses_of(chain, start)
     law, residual = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
     period = _period_reached(chain, start)

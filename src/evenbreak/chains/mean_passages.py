@@ -47,13 +47,14 @@ import numpy as np
 from scipy.sparse import csgraph, csr_array
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.dense_elimination import factored, less, solved
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
+    import pandas as pd
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
@@ -69,11 +70,12 @@ _FEW = 16
 """So few states are eliminated one by one, for all targets at once."""
 
 
-def mean_first_passages(chain: Chain) -> Matrix:
+def mean_first_passages(chain: Chain) -> pd.DataFrame:
     """Return the mean number of steps until each state is first visited, from each state.
 
-    Entry [i, j] is the mean to state i from state j; shape (n, n). It is 0 for i = j, and inf
-    where i may never be reached. For one target or the distribution see `first_passage`.
+    As in `Chain.to_frame`, there is a column for each state to start from, and a row for each
+    state to be visited. The mean is 0 from a state to itself, and inf where the state may never be
+    reached. For one target or the distribution see `first_passage`.
 
     Raises
     ------
@@ -84,10 +86,14 @@ def mean_first_passages(chain: Chain) -> Matrix:
 
     >>> from evenbreak.chains import chain_of
     >>> mean_first_passages(chain_of([(1, 0, 0.25), (1, 2, 0.75), (2, 1, 1.0)]))
-    array([[ 0., inf,  1.],
-           [ 7.,  0.,  8.],
-           [inf, inf,  0.]])
+    from    1    0    2
+    to
+    1     0.0  inf  1.0
+    0     7.0  0.0  8.0
+    2     inf  inf  0.0
     """
+    import pandas as pd
+
     check_chain(chain)
     n = len(chain)
     if n > MOST_STATES:
@@ -114,7 +120,7 @@ def mean_first_passages(chain: Chain) -> Matrix:
             states, asked = transient[group], dominated[np.ix_(group, group)].T
             within = _means_among(chain, states, root=int(transient[root]))
             means[np.ix_(states, states)] = np.where(asked, within, np.inf)
-    return means
+    return pd.DataFrame(means, labels(chain.states, "to"), labels(chain.states, "from"))
 
 
 def kemeny_constant(chain: Chain) -> float:

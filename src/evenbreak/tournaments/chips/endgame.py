@@ -133,7 +133,7 @@ def last_players(
     >>> last_players([2, 1, 1], np.full((3, 3), 0.5)).title
     array([0.625, 0.125, 0.25 ])
     """
-    from evenbreak.chains.absorption import expected_visits
+    from evenbreak.chains.absorption import visits_from
     from evenbreak.chains.explore import chain_of
 
     counts = tuple(whole(count, "chips", at_least=1) for count in chips)
@@ -147,7 +147,7 @@ def last_players(
         )
     game = LastPlayers(counts, order, tuple(map(tuple, table.tolist())))
     chain = chain_of(game)
-    visits = expected_visits(chain)
+    visits = visits_from(chain)
     law = np.zeros((len(counts), len(counts)))
     racks_mean = 0.0
     states = cast(Sequence[State], chain.states)
