@@ -6,8 +6,11 @@ from fractions import Fraction
 import networkx as nx
 import pytest
 
+from evenbreak.chains import chain_of
 from evenbreak.chains.symbolic import symbolic_limit
-from evenbreak.errors import ChainError
+from evenbreak.errors import ChainError, GameError
+from evenbreak.games import OneBall
+from evenbreak.matches import win_probability
 
 sympy = pytest.importorskip("sympy", reason="the extra 'symbolic' is not installed")
 p, p1, p2 = sympy.symbols("p p1 p2", positive=True)
@@ -124,6 +127,20 @@ def test_a_game_with_symbols():
             return {"S1": {"W": p1, "S2": q1}, "S2": {"L": p2, "S1": q2}}.get(state, {})
 
     assert same(symbolic_limit(Duel())["W"], p1 / (1 - q1 * q2))
+
+
+def test_a_one_ball_game_with_symbols():
+    limit = symbolic_limit(OneBall(p1, p2))
+    assert same(limit["W"], p1 / (1 - q1 * q2))
+    third = symbolic_limit(OneBall(Fraction(1, 3), p2))
+    assert same(third["W"], limit["W"].subs(p1, sympy.Rational(1, 3)))
+
+
+def test_numbers_are_asked_for_where_a_game_has_symbols():
+    with pytest.raises(GameError, match="probability p1; give a number from 0 to 1"):
+        chain_of(OneBall(p1, p2))
+    with pytest.raises(GameError, match="probability p1; give a number from 0 to 1"):
+        win_probability(OneBall(p1, p2))
 
 
 def test_the_start_node_of_a_diagram():

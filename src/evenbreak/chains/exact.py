@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
-Rows = list[dict[int, Fraction]]
-_NOTHING = Fraction(0)
+Rows = list[dict[int, Any]]
 _FILL = 32
 """A class is eliminated in fractions if that makes no more than so many arcs a state."""
 
@@ -63,20 +62,38 @@ def exact_limit(chain: Chain, start: Any) -> dict[Any, Fraction]:
     ...                      start="sun"), None)
     {'rain': Fraction(3, 4), 'sun': Fraction(1, 4)}
     """
-    rows, structure = exact_rows(chain), chain.structure
-    limit = [_NOTHING] * len(chain)
-    for label, mass in enumerate(_masses(chain, rows, start)):
+    limit = limit_in(chain, exact_rows(chain), exact_start(chain, start), _FILL)
+    return dict(zip(chain.states, map(Fraction, limit), strict=True))
+
+
+def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> list[Any]:
+    """Return the stochastic limit of each state, in any kind of exact numbers.
+
+    Parameters
+    ----------
+    graph
+        a chain with the same arcs, whatever their chances.
+    rows
+        the arcs between different states, by source.
+    v
+        the start density, by position.
+    fill
+        see `_FILL`; math.inf for numbers that are not fractions.
+    """
+    limit: list[Any] = [0] * len(graph)
+    for label, mass in enumerate(_masses(graph, rows, v, fill)):
         if mass:
-            members = structure.members(label)
-            law = _law(chain, rows, members)
+            members = graph.structure.members(label)
+            law = _law(graph, rows, members, fill)
             for state, share in zip(members.tolist(), law, strict=True):
                 limit[state] = mass * share
-    return dict(zip(chain.states, limit, strict=True))
+    return limit
 
 
 def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
     """Return the probability of ending in each class, given the start."""
-    return np.array(_masses(chain, exact_rows(chain), start), dtype=object)
+    masses = _masses(chain, exact_rows(chain), exact_start(chain, start), _FILL)
+    return np.array([Fraction(mass) for mass in masses], dtype=object)
 
 
 def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPassage:
@@ -88,13 +105,11 @@ def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPas
     rows, v = exact_rows(chain), exact_start(chain, start)
     arcs = chain.arcs
     hopeful = reachable(len(chain), arcs.targets, arcs.sources, ends) & ~ends
-    part = _Part(chain, rows, np.flatnonzero(hopeful))
-    hope = part.values(
-        {j: sum((p for i, p in rows[j].items() if ends[i]), _NOTHING) for j in part.states}
-    )
+    part = _Part(chain, rows, np.flatnonzero(hopeful), _FILL)
+    hope = part.values({j: sum(p for i, p in rows[j].items() if ends[i]) for j in part.states})
     steps = part.values(hope)
     squares = part.values(steps)
-    reached = sum((x for j, x in v.items() if ends[j]), _NOTHING) + _dot(v, hope)
+    reached = sum((x for j, x in v.items() if ends[j]), _dot(v, hope))
     mean = variance = None
     if reached:
         mean = _dot(v, steps) / reached
@@ -152,15 +167,15 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     return density
 
 
-def _masses(chain: Chain, rows: Rows, start: Any) -> list[Fraction]:
+def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> list[Any]:
     """Return the probability of ending in each class."""
-    structure, v = chain.structure, exact_start(chain, start)
+    structure = graph.structure
     label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
-    masses = [_NOTHING] * structure.count
+    masses: list[Any] = [0] * structure.count
     for state, chance in v.items():
         if recurrent[state]:
             masses[label[state]] += chance
-    part = _Part(chain, rows, np.flatnonzero(~structure.recurrent))
+    part = _Part(graph, rows, np.flatnonzero(~structure.recurrent), fill)
     for state, visit in part.visits(v).items():
         for i, chance in rows[state].items():
             if recurrent[i]:
@@ -168,11 +183,13 @@ def _masses(chain: Chain, rows: Rows, start: Any) -> list[Fraction]:
     return masses
 
 
-def _law(chain: Chain, rows: Rows, members: Places) -> list[Fraction]:
+def _law(graph: Chain, rows: Rows, members: Places, fill: float) -> list[Any]:
     """Return the law of a closed class: the visits between two visits to its first state."""
     first, rest = members[0], members[1:]
-    visits = _Part(chain, rows, rest).visits(rows[first])
-    total = 1 + sum(visits.values(), _NOTHING)
+    if not len(rest):
+        return [1]
+    visits = _Part(graph, rows, rest, fill).visits(rows[first])
+    total = sum(visits.values(), 1)
     return [1 / total, *(visits[state] / total for state in rest.tolist())]
 
 
@@ -181,23 +198,23 @@ class _Part:
 
     Parameters
     ----------
-    chain, rows
-        the chain, and its arcs as fractions.
+    graph, rows, fill
+        as in `limit_in`.
     states
         positions of the states, increasing.
     """
 
-    def __init__(self, chain: Chain, rows: Rows, states: Places) -> None:
-        self._rows, self.states = rows, states.tolist()
-        structure = structure_of(chain.arcs.among(states)[0])
+    def __init__(self, graph: Chain, rows: Rows, states: Places, fill: float) -> None:
+        self._rows, self._fill, self.states = rows, fill, states.tolist()
+        structure = structure_of(graph.arcs.among(states)[0])
         in_order = states[structure.order].tolist()
         self._classes = [in_order[a:b] for a, b in pairwise(structure.offsets.tolist())]
         self._class = dict(zip(self.states, structure.label.tolist(), strict=True))
         self._factors: dict[int, Elimination | Lifting] = {}
 
-    def visits(self, b: Mapping[int, Fraction]) -> dict[int, Fraction]:
+    def visits(self, b: Mapping[int, Any]) -> dict[int, Any]:
         """Return (I - T)^-1 b by state, for b by state; what lies elsewhere does not count."""
-        flow = {state: b.get(state, _NOTHING) for state in self.states}
+        flow = {state: b.get(state, 0) for state in self.states}
         for number, members in enumerate(self._classes):
             entering = [flow[state] for state in members]
             if not any(entering):
@@ -210,12 +227,12 @@ class _Part:
                         flow[i] += visit * chance
         return flow
 
-    def values(self, r: Mapping[int, Fraction]) -> dict[int, Fraction]:
+    def values(self, r: Mapping[int, Any]) -> dict[int, Any]:
         """Return (I - T)^-T r by state, for r by state."""
-        values: dict[int, Fraction] = {}
+        values: dict[int, Any] = {}
         for number, members in reversed(list(enumerate(self._classes))):
             right = [
-                r[j] + sum((p * values[i] for i, p in self._rows[j].items() if i in values), 0)
+                sum((p * values[i] for i, p in self._rows[j].items() if i in values), r[j])
                 for j in members
             ]
             values.update(zip(members, self._factor(number).values(right), strict=True))
@@ -228,21 +245,17 @@ class _Part:
             place = {state: k for k, state in enumerate(members)}
             rows = [self._rows[j] for j in members]
             inner = [{place[i]: p for i, p in row.items() if i in place} for row in rows]
-            leaks = [sum((p for i, p in row.items() if i not in place), _NOTHING) for row in rows]
-            self._factors[number] = _factor(inner, leaks)
+            leaks = [sum((p for i, p in row.items() if i not in place), 0) for row in rows]
+            try:
+                copies = [row.copy() for row in inner]
+                self._factors[number] = Elimination(copies, leaks, self._fill * len(members))
+            except AccuracyError:
+                self._factors[number] = Lifting(inner, leaks)
         return self._factors[number]
 
 
-def _factor(arcs: Rows, leaks: list[Fraction]) -> Elimination | Lifting:
-    copies = [row.copy() for row in arcs]
-    try:
-        return Elimination(copies, leaks, _FILL * len(arcs))
-    except AccuracyError:
-        return Lifting(arcs, leaks)
-
-
 def _dot(v: Mapping[int, Fraction], values: Mapping[int, Fraction]) -> Fraction:
-    return sum((x * values[j] for j, x in v.items() if j in values), _NOTHING)
+    return sum((x * values[j] for j, x in v.items() if j in values), Fraction(0))
 
 
 def _shown(total: Any) -> str:

@@ -11,6 +11,7 @@ from .complement import complement as complement
 from .kinds import kind_of as kind_of
 from .kinds import kind_or_usual as kind_or_usual
 from .numbers import ManyAsOne as ManyAsOne
+from .numbers import exact_probability as exact_probability
 from .numbers import generator_of as generator_of
 from .numbers import increasing as increasing
 from .numbers import number as number

@@ -19,12 +19,12 @@ def complement(p: Any) -> Any:
     """Return 1 - p, for a p of at most 15 decimals as the decimal: .1 for .9.
 
     So the chance of losing keeps its digits where it is small. Other values give 1 - p in floats,
-    a `Fraction` one.
+    a `Fraction` or a formula of sympy one.
 
     >>> complement(0.9), 1.0 - 0.9
     (0.1, 0.09999999999999998)
     """
-    if isinstance(p, Fraction):
+    if isinstance(p, Fraction) or hasattr(p, "free_symbols"):
         return 1 - p
     left = 1.0 - p
     if isinstance(left, float):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -94,6 +95,21 @@ def number_probability(value: Any, name: str) -> float:
         problem = "; give one" if many else ", not a probability; give a"
         raise InputError(f"{name} is {value!r}{problem} number from 0 to 1")
     return found  # type: ignore[no-any-return]
+
+
+def exact_probability(value: Any, name: str) -> Any:
+    """Return one probability as exact answers need it: a `Fraction` or a formula as it is.
+
+    A formula is an expression of sympy in some symbols, whose values nobody knows yet.
+
+    >>> from fractions import Fraction
+    >>> exact_probability(Fraction(1, 3), "p1"), exact_probability(1, "p1")
+    (Fraction(1, 3), 1.0)
+    """
+    if getattr(value, "free_symbols", None):
+        return value
+    found = number_probability(value, name)
+    return value if isinstance(value, Fraction) else found
 
 
 def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from fractions import Fraction
 
-from evenbreak.checks import complement, number_probabilities, number_probability
+from evenbreak.checks import complement, exact_probability, number_probabilities, number_probability
 
 
 @dataclass(frozen=True)
@@ -16,7 +15,8 @@ class OneBall:
     Parameters
     ----------
     p1, p2
-        P(player 1, 2 makes the ball | that player shoots); a `Fraction` is kept, for exact answers.
+        P(player 1, 2 makes the ball | that player shoots); a `Fraction` is kept, for exact answers,
+        and an expression of sympy for `evenbreak.chains.symbolic_limit`.
 
     Raises
     ------
@@ -32,9 +32,7 @@ class OneBall:
 
     def __post_init__(self) -> None:
         for name in ("p1", "p2"):
-            given = getattr(self, name)
-            p = number_probability(given, name)
-            object.__setattr__(self, name, given if isinstance(given, Fraction) else p)
+            object.__setattr__(self, name, exact_probability(getattr(self, name), name))
 
     @property
     def start(self) -> str:

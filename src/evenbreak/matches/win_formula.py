@@ -68,7 +68,10 @@ def win_formula(played: Match | OneBall | MatchFormat | str, *, player: int = 1)
     """
     one_of(player, "player", (1, 2))
     if isinstance(played, OneBall):
-        return symbolic_limit(_one_ball_arcs(), "S1")["W" if player == 1 else "L"]
+        import sympy
+
+        game = OneBall(*sympy.symbols("p1 p2"))
+        return symbolic_limit(game)["W" if player == 1 else "L"]
     if isinstance(played, str):
         played = match_format(played)
     if isinstance(played, MatchFormat):
@@ -153,10 +156,3 @@ def _quotient(match: Match, player: int) -> Any:
 
 def _symbols_of(match: Match) -> str:
     return "p1 p2" if match.break_matters else "p"
-
-
-def _one_ball_arcs() -> list[tuple[str, str, Any]]:
-    import sympy
-
-    p1, p2 = sympy.symbols("p1 p2")
-    return [("S1", "W", p1), ("S1", "S2", 1 - p1), ("S2", "L", p2), ("S2", "S1", 1 - p2)]
