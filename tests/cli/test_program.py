@@ -183,6 +183,37 @@ def test_an_interrupt_that_something_swallows_ends_the_run(tmp_path, happens):
     assert time.monotonic() - begun < 4.5
 
 
+IN_C = """
+import sys
+import numpy as np
+def invoke(_):
+    print("begins", flush=True)
+    np.linalg.eigvals(np.random.default_rng(1).random((2500, 2500)))
+    print("went on")
+from evenbreak import cli
+from evenbreak.cli.program import program
+program.invoke = invoke
+sys.argv[1:] = ["odds"]
+cli.main()
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+def test_an_interrupt_ends_a_long_call_into_c_at_once():
+    """Python itself would raise nothing before LAPACK returns, many seconds later."""
+    running = subprocess.Popen(
+        [sys.executable, "-c", IN_C], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert running.stdout is not None
+    running.stdout.readline()
+    time.sleep(0.5)
+    begun = time.monotonic()
+    running.send_signal(signal.SIGINT)
+    out, err = running.communicate(timeout=60)
+    assert (running.returncode, out, err) == (130, "", "Interrupted.\n")
+    assert time.monotonic() - begun < 2.0
+
+
 def test_python_m_runs_no_code_of_the_working_folder(tmp_path):
     for name in ("click", "pickle", "numpy", "difflib"):
         (tmp_path / f"{name}.py").write_text("print('run')\n", encoding="utf-8")

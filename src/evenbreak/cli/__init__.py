@@ -10,9 +10,7 @@ import gc
 import os
 import sys
 
-from evenbreak.cli.interrupts import listen, stop_listening
-
-INTERRUPTED = 130
+from evenbreak.cli.interrupts import INTERRUPTED, listen, stop_listening
 
 _code: object = 0
 

@@ -2,9 +2,16 @@
 
 import io
 import sys
+import time
 
+import click
+from click.testing import CliRunner
+
+from evenbreak.answers.answer import Answer
 from evenbreak.cli.kit import progress as module
-from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.progress import Progress, Working
+from evenbreak.cli.kit.terminal import say
 
 
 class Screen(io.StringIO):
@@ -55,3 +62,41 @@ def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
 def test_long_work_prints_one_plain_line_into_a_file(monkeypatch):
     monkeypatch.setattr(module, "PATIENCE_IN_A_FILE", 0.0)
     assert counted(monkeypatch, io.StringIO(), 0.0) == "1 charts designed so far ...\n"
+
+
+def waited(monkeypatch, stderr, work):
+    monkeypatch.setattr(sys, "stderr", stderr)
+    monkeypatch.setattr(sys, "argv", ["evenbreak", "chain", "arcs.csv"])
+    monkeypatch.setattr(module, "SILENCE", 0.01)
+    with Working():
+        work()
+    return stderr.getvalue().split("\r")
+
+
+def test_a_command_that_takes_long_says_so_on_a_terminal_and_erases_the_line(monkeypatch):
+    screen = Screen()
+
+    def work():
+        while not screen.getvalue():
+            time.sleep(0.01)
+        say("Wrote a.csv")
+
+    _, line, blank, message, *_ = waited(monkeypatch, screen, work)
+    assert line == "Working, 0 s so far; Ctrl-C stops it ..."
+    assert blank == " " * len(line)
+    assert message.startswith("Wrote a.csv\n")
+
+
+def test_work_that_ends_soon_counts_by_itself_or_has_no_terminal_says_no_more(monkeypatch):
+    assert waited(monkeypatch, Screen(), lambda: None) == [""]
+    assert waited(monkeypatch, io.StringIO(), lambda: time.sleep(0.05)) == [""]
+    with Progress("steps"):
+        assert waited(monkeypatch, Screen(), lambda: time.sleep(0.05)) == [""]
+
+
+def test_every_answer_is_waited_for(monkeypatch):
+    seen = []
+    monkeypatch.setattr(Working, "__enter__", lambda working: seen.append(working))
+    command = click.command("slow")(faces()(lambda: Answer("Done", [])))
+    assert CliRunner().invoke(command).exit_code == 0
+    assert len(seen) == 1

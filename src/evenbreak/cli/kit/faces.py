@@ -9,6 +9,7 @@ import click
 
 from evenbreak.answers.answer import Answer
 from evenbreak.cli.interrupts import raise_if_interrupted
+from evenbreak.cli.kit.progress import Working
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 Function = Callable[..., "Answer"]
@@ -38,7 +39,8 @@ def faces(
             chosen = face or ("text" if always_text or to_terminal() else "csv")
             if ask_face:
                 options["face"] = chosen
-            answer = function(**options)
+            with Working():
+                answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
                 from evenbreak.sheets.answer_page import answer_page

@@ -10,11 +10,12 @@ from collections.abc import Iterator
 
 import click
 
+from evenbreak.cli.interrupts import INTERRUPTED
 from evenbreak.errors import DataError, EvenbreakError, InputError
 
 PROBLEMS_SHOWN = 20
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-FAILED, USAGE, BAD_DATA, INTERRUPTED = 1, 2, 3, 130
+FAILED, USAGE, BAD_DATA = 1, 2, 3
 
 
 def report_error(error: BaseException) -> int:

@@ -2,10 +2,14 @@
 
 import math
 import sys
+import threading
 import time
 from typing import Self
 
 import click
+
+SILENCE = 2.0
+"""The longest that a command says nothing on a terminal."""
 
 PATIENCE = 1.0
 """Seconds before the line first appears."""
@@ -15,6 +19,57 @@ PATIENCE_IN_A_FILE = 10.0
 
 _PAUSE = 0.1
 """Seconds between two updates."""
+
+_lock = threading.Lock()
+_shown = 0
+"""How many letters are on the line."""
+
+_counting = 0
+"""How many `Progress` have something to count just now."""
+
+
+def _show(line: str) -> None:
+    """Write the line over on the terminal; an empty one erases it."""
+    global _shown
+    with _lock:
+        end = "" if line else "\r"
+        click.echo("\r" + line.ljust(_shown) + end, nl=False, err=True)
+        _shown = len(line)
+
+
+def erase() -> None:
+    """Erase the line, before something else is printed."""
+    if _shown:
+        _show("")
+
+
+class Working:
+    """A line on a terminal that shows that a command still works, unless it counts by itself.
+
+    >>> with Working():
+    ...     pass
+    """
+
+    def __init__(self) -> None:
+        self._done = threading.Event()
+
+    def __enter__(self) -> None:
+        """Start the clock."""
+        # What is read from a terminal may be waited for.
+        if sys.stderr is not None and sys.stderr.isatty() and "-" not in sys.argv[1:]:
+            threading.Thread(target=self._show, daemon=True).start()
+
+    def _show(self) -> None:
+        begun = time.monotonic()
+        while not self._done.wait(SILENCE if time.monotonic() - begun < SILENCE else 1.0):
+            if not _counting:
+                seconds = round(time.monotonic() - begun)
+                _show(f"Working, {seconds} s so far; Ctrl-C stops it ...")
+
+    def __exit__(self, *_: object) -> None:
+        """Erase the line."""
+        self._done.set()
+        erase()
 
 
 class Progress:
@@ -35,7 +90,7 @@ class Progress:
     """
 
     def __init__(self, what: str) -> None:
-        self._what, self._shown = what, 0
+        self._what = what
         self._begun = time.monotonic()
         self._terminal = sys.stderr is not None and sys.stderr.isatty()
         self._next = self._begun + (PATIENCE if self._terminal else PATIENCE_IN_A_FILE)
@@ -53,17 +108,19 @@ class Progress:
         if not self._terminal:
             click.echo(line, err=True)
             return
-        click.echo("\r" + line.ljust(self._shown), nl=False, err=True)
-        self._shown = len(line)
+        _show(line)
 
     def __enter__(self) -> Self:
         """Start the clock."""
+        global _counting
+        _counting += 1
         return self
 
     def __exit__(self, *_: object) -> None:
         """Erase the line."""
-        if self._shown:
-            click.echo("\r" + " " * self._shown + "\r", nl=False, err=True)
+        global _counting
+        _counting -= 1
+        erase()
 
 
 def _left(seconds: float, count: int, total: int) -> str:

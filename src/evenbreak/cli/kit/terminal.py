@@ -8,6 +8,7 @@ import click
 
 from evenbreak.answers.faces.to_text import WIDTH, paragraph
 from evenbreak.cli.interrupts import raise_if_interrupted
+from evenbreak.cli.kit.progress import erase
 from evenbreak.cli.kit.values import refuse
 from evenbreak.files.problems import printable
 
@@ -65,6 +66,7 @@ def _named_by(place: Path) -> Iterator[str]:
 def say(message: str) -> None:
     """Print a message on stderr; on a terminal its lines are wrapped."""
     raise_if_interrupted()
+    erase()
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # File names stay whole, so that they can be copied.
     click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)
