@@ -7,7 +7,6 @@ import pytest
 
 from evenbreak.chains import chain_of, spectrum, stochastic_limit
 from evenbreak.chains.eigenpairs import (
-    SHIFT,
     UnitPairs,
     leading_pairs,
     roots_of_one,
@@ -34,20 +33,8 @@ def test_the_vectors_of_eigenvalue_1_are_laws_and_chances() -> None:
     assert units.error < 1e-14
 
 
-def test_the_resolvent_inverts_all_but_eigenvalue_1() -> None:
-    units = UnitPairs(CHAIN)
-    M = CHAIN.matrix.toarray()
-    x = np.random.default_rng(1).random(len(CHAIN))
-    x -= units.right @ (units.left @ x)
-    A = SHIFT * np.eye(len(CHAIN)) - M
-    assert A @ units.resolvent(x) == pytest.approx(x, abs=1e-12)
-    y = np.random.default_rng(2).random(len(CHAIN))
-    y -= units.left.T @ (units.right.T @ y)
-    assert A.T @ units.resolvent_transposed(y) == pytest.approx(y, abs=1e-12)
-
-
 def test_the_other_roots_of_1_solve_their_equations() -> None:
-    values, left, right = roots_of_one(CHAIN, UnitPairs(CHAIN))
+    values, left, right = roots_of_one(CHAIN, UnitPairs(CHAIN), 2).in_complex()
     M = CHAIN.matrix.toarray()
     assert values**3 == pytest.approx(np.ones(2), abs=1e-14)
     assert values[0] == pytest.approx(values[1].conj(), abs=1e-14)
@@ -57,11 +44,24 @@ def test_the_other_roots_of_1_solve_their_equations() -> None:
 
 
 def test_leading_pairs_begin_with_eigenvalue_1() -> None:
-    values, left, right = leading_pairs(CHAIN, UnitPairs(CHAIN), 5)
+    pairs, missed = leading_pairs(CHAIN, UnitPairs(CHAIN), 5)
+    assert missed < 1e-14
+    assert pairs.left.dtype == pairs.right.dtype == float
+    assert pairs.left @ pairs.right == pytest.approx(np.eye(5), abs=1e-12)
+    values, left, right = pairs.in_complex()
     assert values[:2].tolist() == [1.0, 1.0]
     assert np.abs(values[2:4]) == pytest.approx([1.0, 1.0])
     assert values[4] == pytest.approx(0.5)
     assert left @ right == pytest.approx(np.eye(5), abs=1e-12)
+    M = CHAIN.matrix.toarray()
+    assert M @ right == pytest.approx(right * values, abs=1e-14)
+    assert left @ M == pytest.approx(values[:, None] * left, abs=1e-14)
+
+
+@pytest.mark.parametrize("k", [2, 3, 4])
+def test_conjugate_pairs_are_never_parted(k: int) -> None:
+    pairs, _ = leading_pairs(CHAIN, UnitPairs(CHAIN), k)
+    assert len(pairs.values) == (2 if k == 2 else 4)
 
 
 def test_a_defective_matrix_has_too_few_vectors() -> None:

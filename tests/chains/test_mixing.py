@@ -94,6 +94,43 @@ class TestGap:
         gap = spectral_gap(chain_from_arrays(list(range(n)), j, i, M[i, j]))
         assert 0.4 < gap < 0.8
 
+    @pytest.mark.parametrize(("period", "size"), [(1, 40), (2, 40), (7, 30), (2, 600), (20, 60)])
+    def test_what_goes_round_settles_as_a_whole_period_does(self, period, size):
+        """From each state to three of the next phase: M^d is within one of the phases."""
+        draw = np.random.default_rng(size)
+        ways = [np.argsort(draw.random((size, size)), axis=1)[:, :3] for _ in range(period)]
+        arcs = [
+            ((k, i), ((k + 1) % period, j), chance)
+            for k, targets in enumerate(ways)
+            for i, row in enumerate(targets.tolist())
+            for j, chance in zip(row, draw.dirichlet(np.ones(3)), strict=True)
+        ]
+        chain = chain_of(arcs)
+        assert apparent_period(chain) == period
+        phase = [chain.states.index(state) for state in chain.states if state[0] == 0]
+        power = np.linalg.matrix_power(chain.matrix.toarray(), period)[np.ix_(phase, phase)]
+        second = np.sort(np.abs(np.linalg.eigvals(power)))[-2]
+        assert spectral_gap(chain) == pytest.approx(1 - second ** (1 / period), rel=1e-6)
+
+    def test_a_large_class_that_goes_round_for_ages(self):
+        """A drift about a torus, even but for a wait that hardly ever comes."""
+        side, rare = 34, 1e-12
+        moves = {(1, 0): 0.4, (-1, 0): 0.1, (0, 1): 0.3, (0, -1): 0.2}
+        arcs = [
+            ((i, j), ((i + a) % side, (j + b) % side), p * (1.0 - rare))
+            for i in range(side)
+            for j in range(side)
+            for (a, b), p in moves.items()
+        ]
+        arcs += [((i, j), (i, j), rare) for i in range(side) for j in range(side)]
+        chain = chain_of(arcs)
+        assert len(chain) > 1000
+        assert apparent_period(chain) == 2
+        turn = np.exp(2j * np.pi * np.arange(side) / side)
+        x, y = turn[:, None], turn[None, :]
+        moduli = np.sort(np.abs(0.4 * x + 0.1 / x + 0.3 * y + 0.2 / y).ravel())
+        assert spectral_gap(chain) == pytest.approx(1.0 - moduli[-3], rel=1e-6)
+
     def test_a_nearly_defective_eigenvalue_is_refused(self):
         """Twelve waits in a row and a way back so rare that rounding hides it."""
         arcs = [(i, i, 0.999) for i in range(12)] + [(i, i + 1, 0.001) for i in range(12)]

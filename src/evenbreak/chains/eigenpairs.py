@@ -17,14 +17,13 @@ LAPACK's QR algorithm; Lehoucq, Sorensen and Yang 1998 for ARPACK.
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 
 from evenbreak.chains.certified_lu import CertifiedLU
 from evenbreak.chains.powers import evened
@@ -91,21 +90,6 @@ class UnitPairs:
             missed += solves.missed(row[states], entered, transposed=True)
         return float(solves.error(missed, transposed=True, floor=_FLOOR).max())
 
-    @cached_property
-    def _factors(self) -> Any:
-        n = len(self._chain)
-        return scipy.sparse.linalg.splu(_shifted(evened(self._chain), n))
-
-    def resolvent(self, x: NDArray[Any]) -> NDArray[Any]:
-        """Return (SHIFT I - M)^-1 x with the eigenvalues 1 projected out."""
-        x = self._factors.solve(x - self.right @ (self.left @ x))
-        return np.asarray(x - self.right @ (self.left @ x))
-
-    def resolvent_transposed(self, y: NDArray[Any]) -> NDArray[Any]:
-        """Return (SHIFT I - M)^-T y with the eigenvalues 1 projected out."""
-        y = self._factors.solve(y - self.left.T @ (self.right.T @ y), trans="T")
-        return np.asarray(y - self.left.T @ (self.right.T @ y))
-
 
 def limit_by(
     right: NDArray[Any], left: NDArray[Any], v: NDArray[np.float64]
@@ -157,10 +141,82 @@ def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
     return law, 2.0 * float(solves.error(missed, floor=_FLOOR).sum()) + m * EPS
 
 
-def leading_pairs(
-    chain: Chain, units: UnitPairs, k: int
-) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Return k leading eigenvalues, the left vectors as rows and the right ones as columns.
+class Eigenpairs(NamedTuple):
+    """Eigenvalues, those of conjugate pairs one after the other, the upper first; real vectors.
+
+    The right vectors x + iy and x - iy of a conjugate pair stand as x and y, its left vectors
+    x + iy and x - iy as 2x and -2y, so that products L R stay what they are.
+
+    Parameters
+    ----------
+    values
+        shape (k,).
+    left, right
+        shapes (k, n) and (n, k).
+    """
+
+    values: NDArray[Any]
+    left: NDArray[np.float64]
+    right: NDArray[np.float64]
+
+    def and_then(self, more: Eigenpairs) -> Eigenpairs:
+        """Return these pairs and more."""
+        return Eigenpairs(
+            np.concatenate((self.values, more.values)),
+            np.vstack((self.left, more.left)),
+            np.hstack((self.right, more.right)),
+        )
+
+    def first(self, k: int, order: Places) -> Eigenpairs:
+        """Return the first k in an order, or one more, so that no conjugate pair is parted."""
+        order = order[: k + int(k > 0 and self.values[order[k - 1]].imag > 0.0)]
+        return Eigenpairs(self.values[order], self.left[order], self.right[:, order])
+
+    def missed(self, M: NDArray[Any] | csc_array) -> float:
+        """Return the largest entry of M R - R diag(values), L M - diag(values) L and L R - I."""
+        above = self.values.imag.clip(0.0)[:-1]
+        turn: Any = diags_array(self.values.real) + diags_array(above, offsets=1)
+        turn = turn - diags_array(above, offsets=-1)
+        return max(
+            float(np.abs(M @ self.right - self.right @ turn).max()),
+            float(np.abs(self.left @ M - turn @ self.left).max()),
+            float(np.abs(self.left @ self.right - np.eye(len(self.values))).max()),
+        )
+
+    def in_complex(self) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """Return the values and the left and right vectors as they are; real if all are real."""
+        upper = np.flatnonzero(self.values.imag > 0.0)
+        if not len(upper):
+            return self.values.real, self.left, self.right
+        left, right = self.left.astype(complex), self.right.astype(complex)
+        left[upper] = (self.left[upper] - 1j * self.left[upper + 1]) / 2.0
+        right[:, upper] += 1j * self.right[:, upper + 1]
+        left[upper + 1], right[:, upper + 1] = left[upper].conj(), right[:, upper].conj()
+        return self.values, left, right
+
+
+def _of_real_matrix(
+    values: NDArray[Any], left: NDArray[Any], right: NDArray[Any], order: Places, k: int
+) -> Eigenpairs:
+    """Return the first k pairs in an order in which conjugate ones stand together."""
+    ordered = values[order]
+    whole = ordered.imag == 0.0
+    upper = np.flatnonzero((ordered.imag[:-1] > 0.0) & (ordered[:-1].conj() == ordered[1:]))
+    whole[upper] = whole[upper + 1] = True
+    order = order[whole]
+    if len(order) < k:
+        raise no_basis(k)
+    values, left, right = values[order], left[order], right[:, order]
+    upper = np.flatnonzero(values.imag > 0.0)
+    rows, columns = left.real.copy(), right.real.copy()
+    rows[upper] *= 2.0
+    rows[upper + 1] = -2.0 * left[upper].imag
+    columns[:, upper + 1] = right[:, upper].imag
+    return Eigenpairs(values, rows, columns).first(k, np.arange(len(order)))
+
+
+def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, float]:
+    """Return the k leading pairs of a chain, or one more, and by how much they are missed.
 
     Those of eigenvalue 1 come first.
 
@@ -169,25 +225,30 @@ def leading_pairs(
     AccuracyError
         if there are no k independent vectors, or the iteration does not converge.
     """
-    ones = units.right.shape[1]
-    known: tuple[NDArray[Any], NDArray[Any], NDArray[Any]]
-    known = np.ones(ones), units.left, units.right
-    if k == ones:
-        return known
-    if len(chain) <= DENSE:
-        known = _joined(known, roots_of_one(chain, units))
-        known = known[0][:k], known[1][:k], known[2][:, :k]
-    if k == len(known[0]):
-        return known
-    find = _dense_others if len(chain) <= DENSE else _sparse_others
-    values, left, right = find(chain, units, known[0], k - len(known[0]))
-    # The known vectors are exact; only the others are adjusted.
-    left = _normed((left - (left @ known[2]) @ known[1]).T).T
-    right = _normed(right - known[2] @ (known[1] @ right))
-    overlap = left @ right
-    if not (np.isfinite(overlap).all() and np.linalg.cond(overlap) <= 1.0 / TOLERANCE):
-        raise no_basis(k, ones, np.inf)
-    return _joined(known, (values, np.linalg.solve(overlap, left), right))
+    n, ones = units.right.shape
+    M = evened(chain)
+    known = Eigenpairs(np.ones(ones), units.left, units.right)
+    known = known.and_then(roots_of_one(chain, units, k - ones))
+    missing = k - (len(known.values) if n <= DENSE else ones)
+    pairs, order = known, np.arange(len(known.values))
+    if missing > 0:
+        others = (_dense_others if n <= DENSE else _sparse_others)(M, known, missing)
+        # The known vectors are exact; only the others are adjusted.
+        left = others.left - (others.left @ known.right) @ known.left
+        right = others.right - known.right @ (known.left @ others.right)
+        try:
+            left = np.asarray(np.linalg.solve(left @ right, left), dtype=np.float64)
+        except np.linalg.LinAlgError:
+            raise no_basis(k, ones) from None
+        pairs = known.and_then(Eigenpairs(others.values, left, right))
+        order = np.arange(len(pairs.values))
+        if n > DENSE:
+            order = np.argsort(np.abs(pairs.values - 1.0), kind="stable")
+    pairs = pairs.first(k, order)
+    missed = pairs.missed(M.toarray() if n <= DENSE else M)
+    if not missed <= TOLERANCE:
+        raise no_basis(k, ones, missed)
+    return pairs, missed
 
 
 def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
@@ -202,39 +263,45 @@ def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
     return np.asarray(np.where(np.abs(turned) > 1.0, turned * (1.0 - EPS), turned))
 
 
-def roots_of_one(chain: Chain, units: UnitPairs) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Return the eigenvalues of modulus 1 other than 1, with left and right vectors.
+def roots_of_one(chain: Chain, units: UnitPairs, k: int) -> Eigenpairs:
+    """Return k pairs of eigenvalues of modulus 1 other than 1, or one more, those next to 1 first.
 
     A closed class of period d has each d-th root w of 1 once. Its right vector is the
     stationary law and its left vector is 1 in the class, both turned by w once for each step
     of the period; on the transient states the left vector solves L (w I - M) = 0.
     """
-    structure, M = chain.structure, evened(chain)
-    outside = np.flatnonzero(~structure.recurrent)
-    T = csc_array(M[:, outside][outside])
-    n = len(chain)
+    structure, n = chain.structure, len(chain)
+    classes = np.flatnonzero(structure.closed).tolist()
+    periods = structure.periods[classes].tolist()
+    turns = [(t / d, i, t) for i, d in enumerate(periods) for t in range(1, d // 2 + 1)]
     values: list[complex] = []
-    left, right = [np.zeros((0, n))], [np.zeros((n, 0))]
-    for i, label in enumerate(np.flatnonzero(structure.closed).tolist()):
-        period = int(structure.periods[label])
+    left, right = np.zeros((0, n)), np.zeros((n, 0))
+    outside = np.flatnonzero(~structure.recurrent)
+    out = evened(chain)[:, outside] if turns and len(outside) else None
+    for share, i, turn in sorted(turns):
+        if len(values) >= k:
+            break
+        period = periods[i]
         roots = np.exp(2j * np.pi * np.arange(period) / period)
         roots[np.arange(period) * 2 == period] = -1.0
-        inside = structure.label == label
-        # From 1 both ways round, so that conjugate pairs stay together.
-        for turn in sorted(range(1, period), key=lambda t: (min(t, period - t), t)):
-            turned = roots[turn * structure.phases % period]
-            row = np.where(inside, turned, 0.0)
-            if len(outside):
-                row[outside] = _turned_chances(T, roots[turn], M[:, outside].T @ row)
-            values.append(complex(roots[turn]))
-            left.append(row[None, :])
-            right.append((units.right[:, i] * turned.conj())[:, None])
-    return np.array(values, dtype=complex), np.vstack(left), np.hstack(right)
+        turned = roots[turn * structure.phases % period]
+        row = np.where(structure.label == classes[i], turned, 0.0)
+        if out is not None:
+            row[outside] = _turned_chances(out[outside], roots[turn], out.T @ row)
+        column = units.right[:, i] * turned.conj()
+        if share == 0.5:
+            values.append(-1.0)
+            rows, columns = [row.real], [column.real]
+        else:
+            values += [roots[turn], roots[turn].conj()]
+            rows, columns = [2.0 * row.real, -2.0 * row.imag], [column.real, column.imag]
+        left, right = np.vstack((left, *rows)), np.column_stack((right, *columns))
+    return Eigenpairs(np.array(values, dtype=complex), left, right)
 
 
 def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArray[Any]:
     """Return x with x (root I - T) = entered, for transient states T."""
-    A = csc_array((scipy.sparse.diags_array(np.full(len(entered), root)) - T).T)
+    A = csc_array((diags_array(np.full(len(entered), root)) - T).T)
     try:
         return np.asarray(scipy.sparse.linalg.splu(A).solve(entered.astype(complex)))
     except RuntimeError:
@@ -244,50 +311,40 @@ def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArr
         ) from None
 
 
-def _joined(
-    some: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
-    more: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
-) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    values, left, right = zip(some, more, strict=True)
-    return np.concatenate(values), np.vstack(left), np.hstack(right)
-
-
-def _normed(columns: NDArray[Any]) -> NDArray[Any]:
-    lengths = np.linalg.norm(columns, axis=0)
-    return np.asarray(columns / np.where(lengths > 0.0, lengths, 1.0))
-
-
-def no_basis(k: int, ones: int, residual: float) -> AccuracyError:
+def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> AccuracyError:
     """Return the error for a matrix without k independent eigenvectors."""
+    fewer = "" if ones is None else f" (k={ones}: the limit alone)"
     return AccuracyError(
         f"no {k} independent eigenvectors were found (residual {residual:.1e}): the matrix is "
-        "defective or nearly so, or k cuts through a repeated eigenvalue; ask for fewer "
-        f"(k={ones}: the limit alone), or use stochastic_limit and spectral_gap"
+        "defective or nearly so, or k cuts through a repeated eigenvalue; ask for fewer"
+        f"{fewer}, or use stochastic_limit and spectral_gap"
     )
 
 
-def _dense_others(
-    chain: Chain, _: UnitPairs, known: NDArray[Any], k: int
-) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    values, left, right = scipy.linalg.eig(evened(chain).toarray(), left=True, right=True)
-    # Moduli that differ only by rounding are ties, so that conjugate pairs stay together.
-    order = np.lexsort((-values.imag, -values.real, -np.abs(values).round(10)))
-    for value in known:
+def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
+    values, left, right = scipy.linalg.eig(M.toarray(), left=True, right=True)
+    # Moduli that differ only by rounding are ties; LAPACK has conjugate pairs together.
+    order = np.lexsort((-np.abs(values.imag), -values.real, -np.abs(values).round(10)))
+    for value in known.values:
         order = np.delete(order, np.argmin(np.abs(values[order] - value)))
-    order = order[:k]
-    return values[order], left[:, order].conj().T, right[:, order]
+    return _of_real_matrix(values, left.conj().T, right, order, k)
 
 
-def _sparse_others(
-    chain: Chain, units: UnitPairs, _: NDArray[Any], k: int
-) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    n = len(chain)
+def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
+    n = M.shape[0]
+    factors: Any = scipy.sparse.linalg.splu(_shifted(M, n))
     found = []
-    for matvec in (units.resolvent, units.resolvent_transposed):
-        operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=matvec, dtype=float)
+    for way, one, other in (("N", known.left, known.right), ("T", known.right.T, known.left.T)):
+
+        def resolvent(x: NDArray[Any], way: str = way, one: Any = one, other: Any = other) -> Any:
+            """Return (SHIFT I - M)^-1 x, or the transpose's, with the known pairs projected out."""
+            x = factors.solve(x - other @ (one @ x), way)
+            return x - other @ (one @ x)
+
+        operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=resolvent, dtype=float)
         start = np.random.default_rng(0).standard_normal(n)
         try:
-            found.append(scipy.sparse.linalg.eigs(operator, k=k, v0=start))
+            found.append(scipy.sparse.linalg.eigs(operator, k=min(k + 1, n - 2), v0=start))
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
                 f"the iteration for {k} eigenvalues of {n} did not converge; ask for fewer"
@@ -296,5 +353,5 @@ def _sparse_others(
     # The two runs may list the eigenvalues in different orders.
     partner = [int(np.argmin(np.abs(turned - value))) for value in values]
     values = SHIFT - 1.0 / values
-    order = np.lexsort((-values.imag, -values.real))
-    return values[order], left.T[partner][order], right[:, order]
+    order = np.lexsort((-values.imag, np.abs(values.imag), -values.real))
+    return _of_real_matrix(values, left.T[partner], right, order, k)

@@ -20,20 +20,27 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import scipy.linalg
 import scipy.sparse.linalg
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limit_matrix import limit_matrix
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
+from evenbreak.chains.stationary import laws_of
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 
 _ON_CIRCLE = 1e-8
 """Eigenvalues as close to a root of 1 as this, other than 1 itself, count as it."""
+_LEAST = 1e-290
+"""States with less of the law than this are scaled alike."""
+_BASIS = 60
+"""ARPACK iterates with at least so many vectors: with its 20 it may not converge."""
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
@@ -66,23 +73,18 @@ def spectral_gap(chain: Chain) -> float:
     """
     check_chain(chain)
     structure = chain.structure
-    M = evened(chain)
     sizes = np.diff(structure.offsets)
     alone = (sizes == 1)[structure.label] & ~structure.recurrent
-    moduli = [0.0, float(M.diagonal()[alone].max(initial=0.0))]
-    bounds = list(moduli)
-    for label in np.flatnonzero(sizes > 1):
-        states = structure.members(int(label))
-        block = M[:, states][states]
-        values, errors = _eigenvalues(block, int(structure.periods[label]))
-        found = np.minimum(np.abs(values), 1.0)  # of a stochastic matrix none is larger
-        moduli += found.tolist()
-        bounds += (found + errors).tolist()
-    gap = 1.0 - max(moduli)
-    if not max(bounds) - max(moduli) <= 1e-3 * gap:
+    largest = worst = float(evened(chain).diagonal()[alone].max(initial=0.0))
+    for values, error, seen in _classes(chain, sizes > 1):
+        # Of a stochastic matrix no eigenvalue is beyond the unit circle.
+        found = min(float(np.abs(values[seen:]).max(initial=0.0)), 1.0)
+        largest, worst = max(largest, found), max(worst, found + error)
+    gap = 1.0 - largest
+    if not worst - largest <= 1e-3 * gap:
         raise AccuracyError(
             f"the gap is about {gap:.3g}, but an eigenvalue is known only to within "
-            f"{max(bounds) - max(moduli):.1e}; follow the chain with propagate"
+            f"{worst - largest:.1e}; follow the chain with propagate"
         )
     return gap
 
@@ -104,41 +106,60 @@ def apparent_period(chain: Chain) -> int:
     >>> int(chain.structure.periods[0]), apparent_period(chain)
     (1, 2)
     """
-    structure, M = chain.structure, evened(chain)
-    periods = []
-    for label in np.flatnonzero(structure.closed):
-        states, period = structure.members(int(label)), int(structure.periods[label])
-        if 1 < len(states) != period:
-            period = _values(M[:, states][states], period)[2]
-        periods.append(period)
+    seen = [seen for _, _, seen in _classes(chain, chain.structure.closed)]
     # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.
-    return math.lcm(*periods)
+    return math.lcm(*seen)
 
 
-def _eigenvalues(block: csc_array, period: int) -> tuple[NDArray[Any], NDArray[np.float64]]:
-    """Return the eigenvalues of a class with their errors, less those on the unit circle."""
-    if period == block.shape[0]:
-        return np.empty(0), np.empty(0)
-    values, errors, seen = _values(block, period)
-    return values[seen:], errors[seen:]
+def _classes(chain: Chain, wanted: NDArray[np.bool_]) -> Iterator[tuple[NDArray[Any], float, int]]:
+    """Yield eigenvalues of each wanted class, the error of the first off the circle, the period.
+
+    The eigenvalues fall in modulus; as many as the period says are on the unit circle, or as close
+    to it as can be seen.
+    """
+    structure, M = chain.structure, evened(chain)
+    large = wanted & (np.diff(structure.offsets) > structure.periods)
+    try:
+        laws, _ = laws_of(chain, large & structure.closed)
+    except AccuracyError:  # the scale matters to the accuracy alone
+        laws = np.ones(len(chain))
+    for label in np.flatnonzero(wanted).tolist():
+        states, period = structure.members(label), int(structure.periods[label])
+        if not large[label]:
+            yield np.ones(period), 0.0, period
+            continue
+        law = laws[states] if structure.closed[label] else np.ones(len(states))
+        yield _values(csc_array(M[:, states][states]), law, period)
 
 
-def _values(block: csc_array, period: int) -> tuple[NDArray[Any], NDArray[np.float64], int]:
-    """Return the eigenvalues of a class by falling modulus, their errors, and its `_period`."""
+def _values(
+    block: csc_array, law: NDArray[np.float64], period: int
+) -> tuple[NDArray[Any], float, int]:
+    """Return the eigenvalues of a class by falling modulus, an error, and its `_period`.
+
+    With D the square roots of the law, D^-1 M D has the norm 1 whatever decades the law spans, and
+    that of a reversible class is symmetric. How far its eigenvalues are right shows when as much as
+    rounding may change is changed.
+    """
     n = block.shape[0]
     line = _line(block)
     if line is not None:
-        values = _ends_of_symmetric(*line)
-        errors = np.full(len(values), n * EPS)
-    elif n > DENSE:
-        values = _largest(block, period + 1)
-        errors = np.zeros(len(values))
-    else:
-        values, left, right = scipy.linalg.eig(block.toarray(), left=True, right=True)
-        errors = n * EPS / _overlaps(values, left, right)
-    order = np.argsort(-np.abs(values), kind="stable")
-    values, errors = values[order], errors[order]
-    return values, errors, _period(values, period)
+        values = _falling(_ends_of_symmetric(*line))
+        return values, n * EPS, _period(values, period)
+    roots = np.sqrt(np.maximum(law, _LEAST))
+    scaled = diags_array(1.0 / roots) @ block @ diags_array(roots)
+    if n > DENSE:
+        values = _largest(csc_array(scaled), period)
+        return values, 0.0, _period(values, period)
+    dense = scaled.toarray()
+    change = np.random.default_rng(0).standard_normal((n, n)) * (EPS * np.sqrt(n) / 2.0)
+    values, moved = (_falling(scipy.linalg.eigvals(A)) for A in (dense, dense + change))
+    seen = _period(values, period)
+    return values, abs(float(abs(values[seen]) - abs(moved[seen]))) if seen < n else 0.0, seen
+
+
+def _falling(values: NDArray[Any]) -> NDArray[Any]:
+    return values[np.argsort(-np.abs(values), kind="stable")]
 
 
 def _period(values: NDArray[Any], period: int) -> int:
@@ -150,19 +171,6 @@ def _period(values: NDArray[Any], period: int) -> int:
     places = turns.round()
     each_once = len(set((places % count).tolist())) == count
     return count if each_once and np.abs(turns - places).max() <= count * _ON_CIRCLE else period
-
-
-def _overlaps(values: NDArray[Any], left: NDArray[Any], right: NDArray[Any]) -> NDArray[np.float64]:
-    """Return 1 over the condition number of each eigenvalue: |y^H x| (Wilkinson).
-
-    The vectors of a repeated eigenvalue need not come in pairs: their overlaps are taken
-    together, as the smallest singular value.
-    """
-    overlaps = np.abs(np.sum(left.conj() * right, axis=0))
-    for i in np.flatnonzero(overlaps < 1e-6):
-        near = np.abs(values - values[i]) < 1e-6
-        overlaps[i] = np.linalg.norm(left[:, near].conj().T @ right[:, near], ord=-2)
-    return np.asarray(np.maximum(overlaps, EPS * EPS))
 
 
 def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -192,17 +200,28 @@ def _ends_of_symmetric(
     return np.concatenate(ends)
 
 
-def _largest(block: csc_array, k: int) -> NDArray[Any]:
-    start = np.random.default_rng(0).random(block.shape[0])
-    try:
-        return np.asarray(
-            scipy.sparse.linalg.eigs(block, k=k, v0=start, maxiter=300, return_eigenvectors=False)
-        )
-    except scipy.sparse.linalg.ArpackNoConvergence as error:
-        raise AccuracyError(
-            f"the iteration for the eigenvalues of a class of {block.shape[0]} states did not "
-            "converge: its gap is small; follow the chain with propagate"
-        ) from error
+def _largest(block: csc_array, period: int) -> NDArray[Any]:
+    """Return the largest eigenvalues of a large class, and one off the unit circle among them."""
+    n = block.shape[0]
+    start, count = np.random.default_rng(0).random(n), period
+    while True:
+        count = min(2 * count, n - 2) if count > period else period + 1
+        try:
+            values = scipy.sparse.linalg.eigs(
+                block,
+                k=count,
+                v0=start,
+                ncv=min(max(2 * count + 1, _BASIS), n),
+                maxiter=300,
+                return_eigenvectors=False,
+            )
+        except scipy.sparse.linalg.ArpackNoConvergence as error:
+            raise AccuracyError(
+                f"the iteration for the eigenvalues of a class of {n} states did not "
+                "converge: its gap is small; follow the chain with propagate"
+            ) from error
+        if count == n - 2 or (np.abs(values) < 1.0 - _ON_CIRCLE).any():
+            return _falling(values)
 
 
 def mixing_time(chain: Chain, eps: float = 0.25) -> int:

@@ -34,7 +34,6 @@ from evenbreak.chains.eigenpairs import (
     within_unit_disc,
 )
 from evenbreak.chains.mixing import mixing_time, spectral_gap
-from evenbreak.chains.powers import evened
 from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
 from evenbreak.chains.reversible_pairs import reversible_classes, reversible_pairs
 from evenbreak.checks import whole
@@ -67,7 +66,8 @@ class Spectrum:
     units
         how many eigenvalues are 1: the number of closed classes.
     residual
-        the largest absolute entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`;
+        the largest entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`, real
+        and imaginary parts apart;
         with `orthonormal` vectors Q, that of `S Q - Q diag(values)` and `Q^T Q - I`.
     limit_error
         a bound on the sum of the absolute errors of `limit`, from any start.
@@ -202,17 +202,9 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         return _of_reversible(chain, forms, k, units)
     pairs = UnitPairs(chain)
     _check_bound(pairs.error)
-    values, left, right = leading_pairs(chain, pairs, k)
-    values = within_unit_disc(values)
-    M = evened(chain)
-    residual = max(
-        float(np.abs(M @ right - right * values).max()),
-        float(np.abs((M.T @ left.T).T - values[:, None] * left).max()),
-        float(np.abs(left @ right - np.eye(k)).max()),
-    )
-    if not residual <= TOLERANCE:
-        raise no_basis(k, units, residual)
-    values, right, left = _real(values), _real(right), _real(left)
+    found, residual = leading_pairs(chain, pairs, k)
+    values, left, right = found.in_complex()
+    values, left, right = within_unit_disc(values[:k]), left[:k], right[:, :k]
     return Spectrum(chain, values, units, residual, pairs.error, None, right, left)
 
 
@@ -248,7 +240,3 @@ def _check_bound(error: float) -> None:
             "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
             "slow or too close to falling apart; use stochastic_limit, by elimination"
         )
-
-
-def _real(array: NDArray[Any]) -> NDArray[Any]:
-    return array if np.any(array.imag) else np.ascontiguousarray(array.real)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.chains import chain_of, mixing_time, spectral_gap
+from evenbreak.chains.mixing import apparent_period
 from evenbreak.errors import InputError
 from evenbreak.handicaps import CHARTS, EQUAL_SKILL, Ladder, chart, ladder_gap, ladder_mixing
 from evenbreak.handicaps.ladders.error_chain import period_of
@@ -155,3 +156,15 @@ def test_the_chain_of_a_ladder_settles_as_the_ladder_does(name):
     assert spectral_gap(chain) == pytest.approx(ladder_gap(ladder), rel=1e-9)
     slowest = max(ladder_mixing(ladder, end) for end in (-ladder.widest, ladder.widest))
     assert mixing_time(chain) == slowest
+
+
+@pytest.mark.parametrize("widest", [60, 510])
+@pytest.mark.parametrize(
+    ("system", "period"), [("step 2 1", 3), ("step 3 2", 5), ("elo 8", 1), ("margin 2", 1)]
+)
+def test_the_chain_of_a_wide_ladder_has_its_gap_and_period(system, period, widest):
+    """Its law spans up to a thousand decades, and its period ends once in ages."""
+    chain = chain_of(Ladder(system, widest=widest))
+    assert apparent_period(chain) == period
+    settled = Ladder(system, widest=min(widest, 150))  # no wider one has another gap
+    assert spectral_gap(chain) == pytest.approx(ladder_gap(settled), rel=1e-4)
