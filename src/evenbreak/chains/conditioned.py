@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.explore import chain_from_arrays
-from evenbreak.chains.passage_times import target_of
-from evenbreak.chains.transient import TransientPart
+from evenbreak.chains.passage_times import approach, target_of
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
@@ -57,22 +55,19 @@ def conditioned(chain: Chain, target: Any) -> Chain:
     """
     check_chain(chain)
     ends = target_of(chain, target)
-    arcs, n = chain.arcs, len(chain)
-    before = ~ends[arcs.sources]
-    j, i, p = arcs.sources[before], arcs.targets[before], arcs.chances[before]
-    hopeful = reachable(n, i, j, ends)
-    states = np.flatnonzero(hopeful & ~ends)
+    states, part, leak = approach(chain, ends, np.ones(len(chain), dtype=bool))
     h = ends.astype(np.float64)
-    h[states] = TransientPart(arcs, states).values(sums(j[ends[i]], p[ends[i]], n)[states])
-    if not (h[hopeful] > 0.0).all():
+    h[states] = part.values(leak)
+    if not (h[states] > 0.0).all():
         raise AccuracyError("a chance of reaching the target is smaller than any float")
-    if chain.start is not None and not hopeful[chain.index(chain.start)]:
+    if chain.start is not None and not h[chain.index(chain.start)]:
         raise ChainError(f"the target {target!r} cannot be reached from {chain.start!r}")
-    kept = np.flatnonzero(hopeful)
-    place = np.full(n, -1)
+    kept = np.flatnonzero(h)
+    place = np.full(len(chain), -1)
     place[kept] = np.arange(len(kept))
-    inside = hopeful[j] & hopeful[i]
-    j, i, p = j[inside], i[inside], p[inside]
+    arcs = chain.arcs
+    inside = (h[arcs.sources] > 0.0) & ~ends[arcs.sources] & (h[arcs.targets] > 0.0)
+    j, i, p = arcs.sources[inside], arcs.targets[inside], arcs.chances[inside]
     looped = states[chain.matrix.diagonal()[states] > 0.0]
     sources, targets = np.concatenate((j, looped)), np.concatenate((i, looped))
     chances = np.concatenate((p * (h[i] / h[j]), chain.matrix.diagonal()[looped]))

@@ -273,27 +273,41 @@ def target_of(chain: Chain, target: Any) -> NDArray[np.bool_]:
     return ends
 
 
+def approach(
+    chain: Chain, ends: NDArray[np.bool_], met: NDArray[np.bool_]
+) -> tuple[Places, TransientPart, NDArray[np.float64]]:
+    """Return those of the states `met` that can reach the `ends`, before they do.
+
+    Returns
+    -------
+    array, TransientPart, array
+        their positions, their solves, and the chance of stepping into the ends, given each.
+    """
+    n, arcs = len(chain), chain.arcs
+    before = ~ends[arcs.sources]
+    hopeful = reachable(n, arcs.targets[before], arcs.sources[before], ends) & met & ~ends
+    states = np.flatnonzero(hopeful)
+    arrive = hopeful[arcs.sources] & ends[arcs.targets]
+    leak = sums(arcs.sources[arrive], arcs.chances[arrive], n)[states]
+    return states, TransientPart(arcs, states), leak
+
+
 def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]
-    source, target, chance = arcs.sources[before], arcs.targets[before], arcs.chances[before]
-    met = reachable(n, source, target, v > 0.0) & ~ends
-    hopeful = met & reachable(n, target, source, ends)
-    lost = met & ~hopeful
-    states = np.flatnonzero(hopeful)
-    part = TransientPart(arcs, states)
-
-    arrive = hopeful[source] & ends[target]
-    leak = sums(source[arrive], chance[arrive], n)[states]
+    met = reachable(n, arcs.sources[before], arcs.targets[before], v > 0.0) & ~ends
+    states, part, leak = approach(chain, ends, met)
+    lost = met.copy()
+    lost[states] = False
     visits = part.visits(v[states])
     certain = not lost.any()
     if certain:
         p_reached, p_never, hope = 1.0, 0.0, np.ones(len(states), dtype=np.float64)
     else:
         p_reached, hope = float(v[ends].sum() + (visits * leak).sum()), part.values(leak)
-        vanish = hopeful[source] & lost[target]
-        flow = _spread(n, states, visits)[source[vanish]]
-        p_never = float(v[lost].sum() + (flow * chance[vanish]).sum())
+        vanish = lost[arcs.targets]
+        flow = _spread(n, states, visits)[arcs.sources[vanish]]
+        p_never = float(v[lost].sum() + (flow * arcs.chances[vanish]).sum())
     mean = variance = None
     if p_reached > 0.0:
         left = np.divide(part.values(hope), hope, out=np.zeros_like(hope), where=hope > 0.0)
