@@ -31,3 +31,24 @@ def test_too_much_work_is_refused():
     rows = [dict.fromkeys((i for i in range(30) if i != j), 0.01) for j in range(30)]
     with pytest.raises(AccuracyError, match="too many to eliminate"):
         Elimination(rows, [0.1] * 30, most=1_000)
+
+
+def test_a_core_with_many_arcs_is_left_to_a_solver_of_its_own():
+    """A line of ten states leads into six that are all joined, and back."""
+    n, tenth = 16, Fraction(1, 10)
+    rows = [{j + 1: 5 * tenth, j - 1: 4 * tenth} for j in range(1, 10)]
+    rows = [{1: 5 * tenth}, *rows]
+    rows += [{i: tenth for i in range(9, n) if i != j} for j in range(10, n)]
+    leaks = [1 - sum(row.values()) for row in rows]
+    cores = []
+
+    def core(arcs, leaks):
+        cores.append(Elimination(arcs, leaks))
+        return cores[-1]
+
+    in_two = Elimination([row.copy() for row in rows], leaks, most=30, core=core)
+    whole = Elimination(rows, leaks)
+    b = [Fraction(j % 3) for j in range(n)]
+    assert len(cores[0].steps) == 6
+    assert in_two.visits(b) == whole.visits(b)
+    assert in_two.values(b) == whole.values(b)

@@ -65,11 +65,11 @@ def test_answers_do_not_depend_on_the_way(monkeypatch):
     arcs += [("A", "A'", 1), ("A'", "A", Fraction(1, 2)), ("A'", "A'", Fraction(1, 2))]
     chain = chain_of(arcs, start="start")
     ways = []
-    for fill in (0, 1_000):
+    for fill in (0, 4, 1_000):
         monkeypatch.setattr(exact, "_FILL", fill)
         steps = steps_to_absorption(chain, exact=True)
         ways.append((stochastic_limit(chain, exact=True), steps))
-    assert ways[0] == ways[1]
+    assert ways[0] == ways[1] == ways[2]
     assert float(steps.mean_if_reached) == pytest.approx(
         steps_to_absorption(chain).mean_if_reached, rel=1e-14
     )

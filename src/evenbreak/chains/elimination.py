@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.errors import AccuracyError
@@ -34,15 +34,21 @@ class Elimination:
         `leaks[j]`: the probability of leaving for good, given j.
     most
         give up after making this many arcs.
+    core
+        makes the solver of the states that are left then, of their arcs and leaks.
 
     Raises
     ------
     AccuracyError
-        if more than `most` arcs have to be made.
+        if more than `most` arcs have to be made, and there is no `core`.
     """
 
     def __init__(
-        self, arcs: Sequence[dict[int, Any]], leaks: Sequence[Any], most: float = math.inf
+        self,
+        arcs: Sequence[dict[int, Any]],
+        leaks: Sequence[Any],
+        most: float = math.inf,
+        core: Callable[[list[dict[int, Any]], list[Any]], Any] | None = None,
     ) -> None:
         into: list[dict[int, Any]] = [{} for _ in arcs]
         for j, row in enumerate(arcs):
@@ -53,6 +59,7 @@ class Elimination:
         heapq.heapify(heap)
         # (state, its pivot, arcs to and from the states that are eliminated later)
         self.steps: list[tuple[int, Any, dict[int, Any], dict[int, Any]]] = []
+        self._rest: list[int] = []
         done = [False] * len(leak)
         while heap:
             cost, k = heapq.heappop(heap)
@@ -60,8 +67,14 @@ class Elimination:
             # Each change of a state's cost adds an entry; only the last one counts.
             if done[k] or cost != len(out) * len(back):
                 continue
-            done[k] = True
             most -= cost
+            if most < 0 and core:
+                self._rest = [j for j, gone in enumerate(done) if not gone]
+                place = {j: n for n, j in enumerate(self._rest)}
+                among = [{place[i]: p for i, p in arcs[j].items()} for j in self._rest]
+                self._core = core(among, [leak[j] for j in self._rest])
+                break
+            done[k] = True
             if most < 0:
                 raise AccuracyError(
                     f"these {len(leak)} states span more decades than floats do, and are too "
@@ -102,6 +115,8 @@ class Elimination:
                 share = x[k] / pivot
                 for i, chance in out.items():
                     x[i] += share * chance
+        if self._rest:
+            self._put(x, self._core.visits([x[j] for j in self._rest]))
         for k, pivot, _, back in reversed(self.steps):
             x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
         return x
@@ -114,9 +129,15 @@ class Elimination:
                 share = y[k] / pivot
                 for j, chance in back.items():
                     y[j] = y[j] + share * chance
+        if self._rest:
+            self._put(y, self._core.values([y[j] for j in self._rest]))
         for k, pivot, out, _ in reversed(self.steps):
             y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
         return y
+
+    def _put(self, x: list[Any], solved: list[Any]) -> None:
+        for j, value in zip(self._rest, solved, strict=True):
+            x[j] = value
 
 
 def _is_nothing(value: Any) -> bool:

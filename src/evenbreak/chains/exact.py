@@ -1,20 +1,20 @@
-"""The answers of a chain in fractions, class by class.
+"""The answers of a chain in fractions.
 
 A chance given as a `Fraction` or as text is taken as it is, and a float as the decimal that it
 prints: 0.6 is 3/5. A state whose self-loop is listed stays with what its other arcs leave over;
 the arcs of every other state must sum to exactly 1.
 
-The states of a sparse class are eliminated; in a dense one the fractions would grow with every
-step, so it is solved modulo a prime (see `lifting`).
+States with few arcs are eliminated. Where many arcs are left, the fractions would grow with every
+step, so what remains is solved modulo a prime (see `lifting`).
 
 Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -23,18 +23,18 @@ from evenbreak.chains.arcs import reachable
 from evenbreak.chains.decimal_elimination import rows_of
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.lifting import Lifting, whole_numbers
-from evenbreak.chains.structure import structure_of
-from evenbreak.errors import AccuracyError, ChainError
+from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 Rows = list[dict[int, Any]]
+Core = Callable[[Rows, list[Any]], Any]
+
 _FILL = 32
-"""A class is eliminated in fractions if that makes no more than so many arcs a state."""
+"""States are eliminated in fractions as long as that makes no more than so many arcs a state."""
 
 
 class ExactPassage(NamedTuple):
@@ -62,11 +62,11 @@ def exact_limit(chain: Chain, start: Any) -> dict[Any, Fraction]:
     ...                      start="sun"), None)
     {'rain': Fraction(3, 4), 'sun': Fraction(1, 4)}
     """
-    limit = limit_in(chain, exact_rows(chain), exact_start(chain, start), _FILL)
+    limit = limit_in(chain, exact_rows(chain), exact_start(chain, start), Lifting)
     return dict(zip(chain.states, map(Fraction, limit), strict=True))
 
 
-def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> list[Any]:
+def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None = None) -> list[Any]:
     """Return the stochastic limit of each state, in any kind of exact numbers.
 
     Parameters
@@ -77,22 +77,21 @@ def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> lis
         the arcs between different states, by source.
     v
         the start density, by position.
-    fill
-        see `_FILL`; math.inf for numbers that are not fractions.
+    core
+        what solves the states whose elimination would make many arcs; None: elimination too.
     """
     limit: list[Any] = [0] * len(graph)
-    for label, mass in enumerate(_masses(graph, rows, v, fill)):
+    for label, mass in enumerate(_masses(graph, rows, v, core)):
         if mass:
-            members = graph.structure.members(label)
-            law = _law(graph, rows, members, fill)
-            for state, share in zip(members.tolist(), law, strict=True):
+            members = graph.structure.members(label).tolist()
+            for state, share in zip(members, _law(rows, members, core), strict=True):
                 limit[state] = mass * share
     return limit
 
 
 def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
     """Return the probability of ending in each class, given the start."""
-    masses = _masses(chain, exact_rows(chain), exact_start(chain, start), _FILL)
+    masses = _masses(chain, exact_rows(chain), exact_start(chain, start), Lifting)
     return np.array([Fraction(mass) for mass in masses], dtype=object)
 
 
@@ -105,15 +104,17 @@ def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPas
     rows, v = exact_rows(chain), exact_start(chain, start)
     arcs = chain.arcs
     hopeful = reachable(len(chain), arcs.targets, arcs.sources, ends) & ~ends
-    part = _Part(chain, rows, np.flatnonzero(hopeful), _FILL)
-    hope = part.values({j: sum(p for i, p in rows[j].items() if ends[i]) for j in part.states})
-    steps = part.values(hope)
-    squares = part.values(steps)
-    reached = sum((x for j, x in v.items() if ends[j]), _dot(v, hope))
+    states = np.flatnonzero(hopeful).tolist()
+    factor = _factor(rows, states, Lifting)
+    hope = factor.values([sum(p for i, p in rows[j].items() if ends[i]) for j in states])
+    steps = factor.values(hope)
+    squares = factor.values(steps)
+    begun = [v.get(j, Fraction(0)) for j in states]
+    reached = sum((x for j, x in v.items() if ends[j]), _dot(begun, hope))
     mean = variance = None
     if reached:
-        mean = _dot(v, steps) / reached
-        variance = 2 * _dot(v, squares) / reached - mean - mean**2
+        mean = _dot(begun, steps) / reached
+        variance = 2 * _dot(begun, squares) / reached - mean - mean**2
     return ExactPassage(reached, 1 - reached, mean, variance)
 
 
@@ -167,7 +168,7 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     return density
 
 
-def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> list[Any]:
+def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None) -> list[Any]:
     """Return the probability of ending in each class."""
     structure = graph.structure
     label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
@@ -175,87 +176,36 @@ def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], fill: float) -> list
     for state, chance in v.items():
         if recurrent[state]:
             masses[label[state]] += chance
-    part = _Part(graph, rows, np.flatnonzero(~structure.recurrent), fill)
-    for state, visit in part.visits(v).items():
-        for i, chance in rows[state].items():
-            if recurrent[i]:
-                masses[label[i]] += visit * chance
+    states = np.flatnonzero(~structure.recurrent).tolist()
+    visits = _factor(rows, states, core).visits([v.get(state, 0) for state in states])
+    for state, visit in zip(states, visits, strict=True):
+        if visit:
+            for i, chance in rows[state].items():
+                if recurrent[i]:
+                    masses[label[i]] += visit * chance
     return masses
 
 
-def _law(graph: Chain, rows: Rows, members: Places, fill: float) -> list[Any]:
+def _law(rows: Rows, members: list[int], core: Core | None) -> list[Any]:
     """Return the law of a closed class: the visits between two visits to its first state."""
-    first, rest = members[0], members[1:]
-    if not len(rest):
+    first, *rest = members
+    if not rest:
         return [1]
-    visits = _Part(graph, rows, rest, fill).visits(rows[first])
-    total = sum(visits.values(), 1)
-    return [1 / total, *(visits[state] / total for state in rest.tolist())]
+    visits = _factor(rows, rest, core).visits([rows[first].get(i, 0) for i in rest])
+    total = sum(visits, 1)
+    return [1 / total, *(visit / total for visit in visits)]
 
 
-class _Part:
-    """I - T factored, with T the arcs of a chain among some of its states.
-
-    Parameters
-    ----------
-    graph, rows, fill
-        as in `limit_in`.
-    states
-        positions of the states, increasing.
-    """
-
-    def __init__(self, graph: Chain, rows: Rows, states: Places, fill: float) -> None:
-        self._rows, self._fill, self.states = rows, fill, states.tolist()
-        structure = structure_of(graph.arcs.among(states)[0])
-        in_order = states[structure.order].tolist()
-        self._classes = [in_order[a:b] for a, b in pairwise(structure.offsets.tolist())]
-        self._class = dict(zip(self.states, structure.label.tolist(), strict=True))
-        self._factors: dict[int, Elimination | Lifting] = {}
-
-    def visits(self, b: Mapping[int, Any]) -> dict[int, Any]:
-        """Return (I - T)^-1 b by state, for b by state; what lies elsewhere does not count."""
-        flow = {state: b.get(state, 0) for state in self.states}
-        for number, members in enumerate(self._classes):
-            entering = [flow[state] for state in members]
-            if not any(entering):
-                continue
-            visits = self._factor(number).visits(entering)
-            for state, visit in zip(members, visits, strict=True):
-                flow[state] = visit
-                for i, chance in self._rows[state].items():
-                    if self._class.get(i, number) != number:
-                        flow[i] += visit * chance
-        return flow
-
-    def values(self, r: Mapping[int, Any]) -> dict[int, Any]:
-        """Return (I - T)^-T r by state, for r by state."""
-        values: dict[int, Any] = {}
-        for number, members in reversed(list(enumerate(self._classes))):
-            right = [
-                sum((p * values[i] for i, p in self._rows[j].items() if i in values), r[j])
-                for j in members
-            ]
-            values.update(zip(members, self._factor(number).values(right), strict=True))
-        return values
-
-    def _factor(self, number: int) -> Elimination | Lifting:
-        """Return I - T within a class, factored when first used."""
-        if number not in self._factors:
-            members = self._classes[number]
-            place = {state: k for k, state in enumerate(members)}
-            rows = [self._rows[j] for j in members]
-            inner = [{place[i]: p for i, p in row.items() if i in place} for row in rows]
-            leaks = [sum((p for i, p in row.items() if i not in place), 0) for row in rows]
-            try:
-                copies = [row.copy() for row in inner]
-                self._factors[number] = Elimination(copies, leaks, self._fill * len(members))
-            except AccuracyError:
-                self._factors[number] = Lifting(inner, leaks)
-        return self._factors[number]
+def _factor(rows: Rows, states: list[int], core: Core | None) -> Elimination:
+    """Return I - T factored, with T the arcs among the states."""
+    place = {state: k for k, state in enumerate(states)}
+    inner = [{place[i]: p for i, p in rows[j].items() if i in place} for j in states]
+    leaks = [sum(p for i, p in rows[j].items() if i not in place) for j in states]
+    return Elimination(inner, leaks, _FILL * len(states) if core else math.inf, core)
 
 
-def _dot(v: Mapping[int, Fraction], values: Mapping[int, Fraction]) -> Fraction:
-    return sum((x * values[j] for j, x in v.items() if j in values), Fraction(0))
+def _dot(x: Sequence[Fraction], y: Sequence[Fraction]) -> Fraction:
+    return sum((a * b for a, b in zip(x, y, strict=True) if a), Fraction(0))
 
 
 def _shown(total: Any) -> str:

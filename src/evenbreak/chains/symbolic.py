@@ -8,7 +8,6 @@ It needs sympy, which the extra `symbolic` installs.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -83,7 +82,7 @@ def symbolic_limit(
     arcs: list[dict[int, Any]] = [{} for _ in rows]
     for (j, i, _), chance in zip(listed, chances, strict=True):
         arcs[place[j]][place[i]] = chance
-    limit = limit_in(graph, arcs, {place[start]: one}, math.inf)
+    limit = limit_in(graph, arcs, {place[start]: one})
     shown = (_readable(field.to_sympy(field.convert(share))) for share in limit)
     return dict(zip(graph.states, shown, strict=True))
 
