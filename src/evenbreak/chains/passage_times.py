@@ -338,7 +338,7 @@ def _variance(
     chain: Chain,
     v: NDArray[np.float64],
     ends: NDArray[np.bool_],
-    states: NDArray[np.intp],
+    states: Places,
     visits: NDArray[np.float64],
     hope: NDArray[np.float64],
     left: NDArray[np.float64],
@@ -355,7 +355,7 @@ def _variance(
     return float(begun.sum() + moved.sum() + stayed.sum())
 
 
-def _spread(n: int, states: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _spread(n: int, states: Places, values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return `values` of `states` as a vector over all n states, 0 elsewhere."""
     spread = np.zeros(n)
     spread[states] = values
