@@ -13,6 +13,8 @@ from .limit_matrix import limit_matrix as limit_matrix
 from .limit_of import limit_of as limit_of
 from .limits import Limit as Limit
 from .limits import stochastic_limit as stochastic_limit
+from .lumping import coarsest_lumping as coarsest_lumping
+from .lumping import lumped as lumped
 from .mean_passages import kemeny_constant as kemeny_constant
 from .mean_passages import mean_first_passages as mean_first_passages
 from .mixing import mixing_time as mixing_time
