@@ -53,3 +53,14 @@ def test_large_and_sparse_classes_are_not_dense():
     assert not is_dense(ring.arcs)
     assert is_dense(dense(100, 1).arcs)
     assert is_dense(arcs_of(Chain([0], [[1.0]]).matrix))
+
+
+@pytest.mark.parametrize("kind", ["alike", "two kinds", "turning"])
+def test_rounding_errors_of_many_states_do_not_add_up(kind):
+    """Where states are alike, all of them round in the same direction."""
+    n = 300
+    i = np.arange(n)
+    into = np.where(i < n // 2, 3, 1) if kind == "two kinds" else np.ones(n, dtype=int)
+    weights = np.outer(into, np.ones(n)) + ((i[:, None] - i) % n if kind == "turning" else 0)
+    law = dense_law(Chain(range(n), weights / weights.sum(axis=0)).arcs)
+    assert law == pytest.approx(into / into.sum(), rel=1e-15, abs=0.0)

@@ -117,9 +117,10 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     array([0.33333333, 0.66666667])
     """
     n = arcs.size
-    A = np.zeros((n, n), order="F")
+    many = n > _SMALL
+    A = np.zeros((n, n), order="C" if many else "F")
     A[arcs.targets, arcs.sources] = -arcs.chances
-    block = factored(A)
+    block = factored(np.asfortranarray(A))
     law: NDArray[np.float64] = np.zeros(n)
     law[-1] = 1.0
     law = dtrsv(block, law, 1, 0, 0, 0, 1, 1)  # with ones on the diagonal, overwriting
@@ -127,6 +128,9 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     total = dasum(law)
     if not (total < _FAR and (law * block.diagonal()).min() * _FAR > n * total):
         return None
+    if many:
+        # The balance of a state with all others takes the mean of their rounding errors.
+        law = (A * law).sum(axis=1) / arcs.outflow
     law /= law.sum()
     return law
 
