@@ -133,14 +133,26 @@ def reachable(
     >>> reachable(3, np.array([0, 1]), np.array([1, 0]), np.array([True, False, False]))
     array([ True,  True, False])
     """
-    # One search, from a root with an arc to every seed.
-    roots = np.flatnonzero(seeds)
+    reached = np.zeros(size, dtype=bool)
+    reached[tree_from(size, sources, targets, np.flatnonzero(seeds))[0]] = True
+    return reached
+
+
+def tree_from(size: int, sources: Places, targets: Places, roots: Places) -> tuple[Places, Places]:
+    """Return the states that can be reached from the `roots`, by distance, and a tree of arcs.
+
+    Returns
+    -------
+    array, array
+        the states; and the parent of each state in the tree, shape (size + 1,): `size` for the
+        roots, and negative where there is none.
+    """
+    # One search, from a state `size` with an arc to every root.
     near = np.concatenate((sources, np.full(len(roots), size)))
     far = np.concatenate((targets, roots))
     graph = csr_array((np.ones(len(near)), (near, far)), shape=(size + 1, size + 1))
-    reached = np.zeros(size + 1, dtype=bool)
-    reached[csgraph.breadth_first_order(graph, size, return_predecessors=False)] = True
-    return reached[:-1]
+    order, parent = csgraph.breadth_first_order(graph, size)
+    return order[1:], parent
 
 
 def put_back(x: NDArray[np.float64], order: Places) -> NDArray[np.float64]:

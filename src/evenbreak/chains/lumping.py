@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -26,27 +26,18 @@ from evenbreak.chains.exact import exact_chance
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from scipy.sparse import csr_array
 
     from evenbreak.chains.arcs import Places
+
+Labels: TypeAlias = Callable[[Any], Hashable] | Mapping[Any, Hashable]
+"""The label of each state: a function of the state, or a mapping or Series from the states."""
 
 _ROUNDING = 1e-12
 """Chances count as equal if they differ by no more than this, relatively."""
 
 
-class _Flows(NamedTuple):
-    """The chance from each state into each other block that its arcs lead to, by state.
-
-    States of one block have the same `kind` of flow into another block if the chances are equal.
-    """
-
-    states: Places
-    blocks: Places
-    chances: NDArray[np.float64]
-    kinds: Places
-
-
-def lumped(chain: Chain, by: Callable[[Any], Hashable] | Mapping[Any, Hashable]) -> Chain:
+def lumped(chain: Chain, by: Labels) -> Chain:
     """Return the chain of the labels of its states: states with the same label become one.
 
     All answers stay exact: a label has the probability of all its states together.
@@ -78,12 +69,14 @@ def lumped(chain: Chain, by: Callable[[Any], Hashable] | Mapping[Any, Hashable])
     """
     check_chain(chain)
     names, block = _labelled(chain, by)
-    arcs = chain.arcs
-    _check(chain, names, block, _flows(block, arcs.sources, arcs.targets, arcs.chances))
-    count = len(names)
+    into, count = chain.arcs.matrix().tocsr(), len(names)
+    leaving = _leaving(block, np.bincount(block).tolist(), into, np.arange(len(chain)))
+    if leaving:
+        raise _not_lumpable(chain, names, block, leaving[0])
     first = np.unique(block, return_index=True)[1]
     column = chain.matrix[:, first].tocoo()
-    pairs, place = np.unique(column.col * count + block[column.row], return_inverse=True)
+    keys = column.col.astype(np.int64) * count + block[column.row]
+    pairs, place = np.unique(keys, return_inverse=True)
     source, target = np.divmod(pairs, count)
     chances = np.minimum(sums(place, column.data, len(pairs)), 1.0)
     matrix = csc_array((chances, (target, source)), shape=(count, count))
@@ -95,9 +88,7 @@ def lumped(chain: Chain, by: Callable[[Any], Hashable] | Mapping[Any, Hashable])
     return Chain(names, matrix, start, given)
 
 
-def coarsest_lumping(
-    chain: Chain, by: Callable[[Any], Hashable] | Mapping[Any, Hashable]
-) -> dict[Hashable, Hashable]:
+def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
     """Return the fewest labels by which the chain can be lumped, keeping some states apart.
 
     Parameters
@@ -128,10 +119,8 @@ def coarsest_lumping(
     into = chain.arcs.matrix().tocsr()
     sizes, changed = np.bincount(block).tolist(), np.arange(len(chain))
     while True:
-        some = into[changed].tocoo()
-        flows = _flows(block, some.col, changed[some.row], some.data)
         new: list[int] = []
-        for piece in _split(block, sizes, flows):
+        for piece in _leaving(block, sizes, into, changed):
             sizes[block[piece[0]]] -= len(piece)
             block[piece] = len(sizes)
             sizes.append(len(piece))
@@ -161,58 +150,53 @@ def _labelled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
     return list(numbers), np.array(block)
 
 
-def _flows(block: Places, sources: Places, targets: Places, chances: NDArray[np.float64]) -> _Flows:
-    """Return the flows of some arcs, which must be all those into the blocks they lead to."""
-    outside = block[sources] != block[targets]
-    j, b = sources[outside].astype(np.int64), block[targets[outside]]
-    pairs, place = np.unique(j * len(block) + b, return_inverse=True)
-    states, blocks = np.divmod(pairs, len(block))
-    total = sums(place, chances[outside], len(pairs))
-    order = np.lexsort((total, blocks, block[states]))
-    own, to, sorted_total = block[states][order], blocks[order], total[order]
+def _leaving(block: Places, sizes: list[int], into: csr_array, targets: Places) -> list[list[int]]:
+    """Return the states that must leave their block, piece by piece.
+
+    The arcs are those into some targets, which make up whole blocks: the states of a piece have
+    the same chance into each of these. Of each block stay the states without such arcs, or the
+    largest piece if there are none.
+    """
+    arcs = into[targets].tocoo()
+    sources, entered = arcs.col, block[targets[arcs.row]]
+    outside = block[sources] != entered
+    keys = sources[outside].astype(np.int64) * len(block) + entered[outside]
+    pairs, place = np.unique(keys, return_inverse=True)
+    states, others = np.divmod(pairs, len(block))
+    chances = sums(place, arcs.data[outside], len(pairs))
+    # Equal chances from one block into another are of one kind.
+    order = np.lexsort((chances, others, block[states]))
+    own, to, rising = block[states][order], others[order], chances[order]
     differ = (np.diff(own) != 0) | (np.diff(to) != 0)
-    differ |= sorted_total[1:] > sorted_total[:-1] * (1.0 + _ROUNDING)
+    differ |= rising[1:] > rising[:-1] * (1.0 + _ROUNDING)
     kinds = np.zeros(len(pairs), dtype=np.int64)
     kinds[order[1:]] = np.cumsum(differ)
-    return _Flows(states, blocks, total, kinds)
-
-
-def _split(block: Places, sizes: list[int], flows: _Flows) -> list[list[int]]:
-    """Return the states that must leave their block, piece by piece, by their flows.
-
-    Of each block stay the states without flows, or the largest piece if there are none.
-    """
-    marks = np.flatnonzero(np.diff(flows.states, prepend=-1))
-    states = flows.states[marks]
-    alike: dict[tuple[int, ...], list[int]] = defaultdict(list)
-    for state, kinds in zip(states.tolist(), np.split(flows.kinds, marks)[1:], strict=True):
-        alike[block[state], *kinds.tolist()].append(state)
-    pieces: dict[int, list[list[int]]] = defaultdict(list)
-    for key, piece in alike.items():
-        pieces[key[0]].append(piece)
+    marks = np.flatnonzero(np.diff(states, prepend=-1))
+    alike: dict[int, dict[bytes, list[int]]] = defaultdict(lambda: defaultdict(list))
+    for state, each in zip(states[marks].tolist(), np.split(kinds, marks)[1:], strict=True):
+        alike[block[state]][each.tobytes()].append(state)
     leaving: list[list[int]] = []
-    for number, parts in pieces.items():
-        idle = sizes[number] - sum(map(len, parts))
-        leaving += parts if idle else sorted(parts, key=len)[:-1]
+    for number, pieces in alike.items():
+        parts = sorted(pieces.values(), key=len)
+        leaving += parts if sum(map(len, parts)) < sizes[number] else parts[:-1]
     return leaving
 
 
-def _check(chain: Chain, names: list[Hashable], block: Places, flows: _Flows) -> None:
-    """Refuse labels that are not lumpable, naming two states and what tells them apart."""
-    leaving = _split(block, np.bincount(block).tolist(), flows)
-    if not leaving:
-        return
-    one, own = leaving[0][0], block == block[leaving[0][0]]
-    own[leaving[0]] = False
-    other = int(own.argmax())
-    chance, kind = np.zeros((2, 2, len(names)))
-    for row, state in enumerate((one, other)):
-        at = np.flatnonzero(flows.states == state)
-        chance[row, flows.blocks[at]] = flows.chances[at]
-        kind[row, flows.blocks[at]] = flows.kinds[at] + 1
-    b = int((kind[0] != kind[1]).argmax())
-    raise ChainError(
-        f"states {chain.states[one]!r} and {chain.states[other]!r} have the same label "
-        f"{names[block[one]]!r}, but move to {names[b]!r} with the chances {chance[0, b]:.12g} and "
-        f"{chance[1, b]:.12g}; give them different labels, or let coarsest_lumping find the labels"
+def _not_lumpable(
+    chain: Chain, names: list[Hashable], block: Places, piece: list[int]
+) -> ChainError:
+    """Return the error that names a state of the piece, another of its block, and what differs."""
+    mine = block[piece[0]]
+    others = block == mine
+    others[piece] = False
+    pair = [piece[0], int(others.argmax())]
+    to = np.array([np.bincount(block, column) for column in chain.matrix[:, pair].toarray().T])
+    differ = np.abs(to[0] - to[1]) / np.maximum(to.max(axis=0), np.finfo(float).tiny)
+    differ[mine] = 0.0
+    b = int(differ.argmax())
+    one, other = (chain.states[i] for i in pair)
+    return ChainError(
+        f"states {one!r} and {other!r} have the same label {names[mine]!r}, but move to "
+        f"{names[b]!r} with the chances {to[0, b]:.12g} and {to[1, b]:.12g}; give them different "
+        "labels, or let coarsest_lumping find the labels"
     )

@@ -44,9 +44,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csgraph, csr_array
 
-from evenbreak.chains.arcs import reachable
+from evenbreak.chains.arcs import reachable, tree_from
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.dense_elimination import factored, less, solved
 from evenbreak.chains.stationary import stationary_laws
@@ -176,7 +175,7 @@ def _certain_visits(chain: Chain) -> tuple[Places, NDArray[np.bool_]]:
     # A state meets itself, and what all the states that may follow it meet: a bit for each.
     following = [near.tolist() for near in onward]
     meets = [1 << k for k in range(count)] + [-1] * len(transient)
-    order = _backwards(n, count, sources, targets)
+    order = tree_from(n, targets, sources, np.arange(count))[0][count:].tolist()
     settled = False
     while not settled:
         settled = True
@@ -193,14 +192,6 @@ def _certain_visits(chain: Chain) -> tuple[Places, NDArray[np.bool_]]:
     packed = b"".join(bits.to_bytes(width, "little") for bits in meets[count:])
     rows = np.frombuffer(packed, dtype=np.uint8).reshape(len(transient), width)
     return transient, np.unpackbits(rows, axis=1, count=n, bitorder="little").astype(bool)
-
-
-def _backwards(n: int, ends: int, sources: Places, targets: Places) -> list[int]:
-    """Return the states after the first few, the `ends`, by their distance from these."""
-    near, far = np.append(targets, np.full(ends, n)), np.append(sources, np.arange(ends))
-    graph = csr_array((np.ones(len(near)), (near, far)), shape=(n + 1, n + 1))
-    order: list[int] = csgraph.breadth_first_order(graph, n, return_predecessors=False).tolist()
-    return order[1 + ends :]
 
 
 def _means_among(chain: Chain, states: Places, root: int | None = None) -> Matrix:

@@ -24,6 +24,7 @@ import numpy as np
 from scipy.sparse import csgraph, csr_array
 
 from evenbreak.arrays import array_values
+from evenbreak.chains.arcs import tree_from
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -148,17 +149,11 @@ class Structure:
         depth = self._depths(periods > 1) - 1
         return np.asarray(np.where(self.recurrent, depth % periods[self.label], 0))
 
-    def _depths(self, searched: NDArray[np.bool_]) -> Places:
-        """Return the depth of each state of the `searched` classes in a tree of arcs.
-
-        One breadth-first search grows all trees, from a root with an arc to each of theirs.
-        """
+    def _depths(self, classes: NDArray[np.bool_]) -> Places:
+        """Return the depth of each state of some classes in a tree of arcs."""
         n = self.arcs.size
-        roots = self.order[self.offsets[:-1][searched]]
-        sources = np.concatenate((self.arcs.sources, np.full(len(roots), n)))
-        targets = np.concatenate((self.arcs.targets, roots))
-        graph = csr_array((np.ones(len(sources)), (sources, targets)), shape=(n + 1, n + 1))
-        _, parent = csgraph.breadth_first_order(graph, n)
+        roots = self.order[self.offsets[:-1][classes]]
+        _, parent = tree_from(n, self.arcs.sources, self.arcs.targets, roots)
         parent[parent < 0] = n
         # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
         depth = np.where(np.arange(n + 1) == n, 0, 1).astype(np.int64)
