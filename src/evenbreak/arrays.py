@@ -16,6 +16,7 @@ Places = NDArray[np.intp]
 Bools = NDArray[np.bool_]
 
 Class = TypeVar("Class", bound=type)
+Array = TypeVar("Array", bound=NDArray[Any])
 _LONGEST = 60
 _PLAIN = frozenset((type(None), bool, int, float, str))
 
@@ -72,7 +73,7 @@ def owned(value: Any) -> Any:
     if type(value) in _PLAIN:
         return value
     if isinstance(value, np.ndarray):
-        return value if _is_frozen(value) else _frozen(np.array(value))
+        return value if _is_frozen(value) else frozen(np.array(value))
     if hasattr(value, "has_canonical_format"):  # a compressed sparse matrix
         parts = [value.data, value.indices, value.indptr]
         if all(map(_is_frozen, parts)):
@@ -80,7 +81,7 @@ def owned(value: Any) -> Any:
         copy = value.copy()
         copy.has_canonical_format  # noqa: B018  found out once, before nothing can be set
         for part in (copy.data, copy.indices, copy.indptr):
-            _frozen(part)
+            frozen(part)
         return copy
     if isinstance(value, (tuple, list)) and _holds(value):
         own = {id(one): owned(one) for one in value}
@@ -107,7 +108,8 @@ def _is_frozen(array: Any) -> bool:
     return array is None
 
 
-def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+def frozen(array: Array) -> Array:
+    """Return an array to which nobody can write any more."""
     array.flags.writeable = False
     return array
 

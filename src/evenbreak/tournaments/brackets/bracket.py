@@ -110,6 +110,13 @@ class Group:
     places: tuple[Place | None, ...]
 
 
+class GoesOn(NamedTuple):
+    """Whether a match's winner and loser have a next match, by the slot they come from."""
+
+    winner: tuple[bool, bool]
+    loser: tuple[bool, bool]
+
+
 @dataclass(frozen=True)
 class Bracket:
     """A tournament: its matches, and where winners and losers go.
@@ -187,6 +194,23 @@ class Bracket:
     def by_name(self) -> dict[str, Match]:
         """The matches by name."""
         return {match.name: match for match in self.matches}
+
+    @cached_property
+    def going(self) -> dict[str, GoesOn]:
+        """For each match whether its winner and loser have a next match."""
+        slots = [slot for match in self.matches for slot in match.slots]
+        waiting = {slot for slot in slots if isinstance(slot, Source)}
+
+        def waited(name: str, outcome: str, sat: int) -> bool:
+            return Source(name, outcome) in waiting or Source(name, outcome, sat) in waiting
+
+        return {
+            match.name: GoesOn(
+                (waited(match.name, "winner", 1), waited(match.name, "winner", 2)),
+                (waited(match.name, "loser", 1), waited(match.name, "loser", 2)),
+            )
+            for match in self.matches
+        }
 
     def match(self, name: str) -> Match:
         """Return a match by name.

@@ -54,21 +54,23 @@ class Standing:
             if name not in self.winners and None not in seats
         )
 
-    @property
+    @cached_property
     def remaining(self) -> Bracket:
         """The undecided matches, with the players who are known already in their slots."""
         matches = tuple(
-            replace(match, slots=(self._slot(match.slots[0]), self._slot(match.slots[1])))
+            self._seated(match)
             for match in self.bracket.matches
             if match.name not in self.winners or self._open_group(match.name)
         )
         groups = tuple(group for group in self.bracket.groups if not self._settled(group))
         return replace(self.bracket, matches=matches, groups=groups, byes=())
 
+    def _seated(self, match: Match) -> Match:
+        slots = self._slot(match.slots[0]), self._slot(match.slots[1])
+        return match if slots == match.slots else replace(match, slots=slots)
+
     def _slot(self, slot: Slot) -> Slot:
-        if isinstance(slot, int):
-            return slot
-        return self.sent.get(slot, slot)
+        return slot if isinstance(slot, int) else self.sent.get(slot, slot)
 
     def _settled(self, group: Group) -> bool:
         return Source(group.name, 1) in self.sent

@@ -21,13 +21,17 @@ from evenbreak.arrays import Floats
 from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.group_odds import rank_orders, rank_states, result_chances
 from evenbreak.tournaments.odds.plan import (
+    Apart,
     Branch,
     GroupStep,
     Index,
     MatchStep,
     Plan,
+    Players,
     adding_up,
 )
+
+_FEW = 4_000  # states, for which a sparse matrix takes longer to call than to multiply
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,15 +81,38 @@ def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> Forward
         if isinstance(step, GroupStep):
             masses[number], ranks[step.name] = group_odds(step, chances)
         else:
-            mass = joined([masses.pop(k) for k in step.joins])
-            p = chances.of(step.name)[step.first, step.second]
-            meet[step.name], first_wins[step.name] = _pairs(step, mass), p
-            masses[number] = passed_on(step, mass, p)
+            p = first_wins[step.name] = chances.of(step.name)[step.first, step.second]
+            parts = [masses.pop(k) for k in step.joins]
+            meet[step.name], masses[number] = played(step, parts, p)
         if keep:
             after[number] = masses[number]
         if not step.slots:
             total = total * masses.pop(number).sum(axis=0)
     return ForwardPass(meet, first_wins, ranks, total, after)
+
+
+def played(step: MatchStep, parts: list[Floats], p: Floats) -> tuple[Floats, Floats]:
+    """Return the chance of each pair of a match, and the probabilities of the states after it."""
+    if p.ndim == 1 and step.apart and all(part.ndim == 1 for part in parts):
+        first, second = (
+            np.bincount(branch.winner, part) for branch, part in zip(step.apart, parts, strict=True)
+        )
+        table = p.reshape(len(first), len(second))
+        after = _passed_on_apart(step.apart[0], parts[0], parts[1], table)
+        after += _passed_on_apart(step.apart[1], parts[1], parts[0], 1.0 - table.T)
+        return np.multiply.outer(first, second).ravel(), after
+    mass = joined(parts)
+    return pairs(step, mass), passed_on(step, mass, p)
+
+
+def _passed_on_apart(branch: Apart, winner: Floats, loser: Floats, win: Floats) -> Floats:
+    """Return what a branch adds to the states after a match, given the chances of its parts.
+
+    win[i, j] is the chance that the winner is i of his slot's players, if the other is j.
+    """
+    beaten = branch.kept @ (loser * win[:, branch.loser]).T
+    moved: Floats = branch.moved @ (winner[:, None] * beaten.T[branch.winner]).ravel()
+    return moved
 
 
 def joined(parts: list[Floats]) -> Floats:
@@ -115,7 +142,7 @@ def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
 
 def won_of(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
     """Return the probability of each state and a win of slot 1, and that of each state."""
-    of_state = p if step.pair is None else p[step.pair]
+    of_state = p if step.pair is None else p.take(step.pair, axis=0)
     whole = mass[..., None] if of_state.ndim > mass.ndim else mass
     return whole * of_state, whole
 
@@ -124,16 +151,17 @@ def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
     """Return what one branch adds to the probabilities of the states after a match."""
     branch: Branch = step.branches[side]
     moved = mass if branch.rows is None else mass[branch.rows]
-    if mass.ndim == 1:
+    if mass.ndim == 1 and len(mass) < _FEW:
         return np.bincount(branch.to, moved, step.size).astype(float, copy=False)
     arrived: Floats = step.scatter[side] @ moved
     return arrived
 
 
-def _pairs(step: MatchStep, mass: Floats) -> Floats:
+def pairs(step: MatchStep, mass: Floats) -> Floats:
+    """Return the chance of each pair of a match from the probabilities of its states."""
     if step.pair is None or step.meeting is None:
         return mass
-    if mass.ndim == 1:
+    if mass.ndim == 1 and len(mass) < _FEW:
         return np.bincount(step.pair, mass, len(step.first)).astype(float, copy=False)
     met: Floats = step.meeting @ mass
     return met
@@ -159,7 +187,7 @@ def group_odds(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
     return shares @ orders, ranks
 
 
-def summed(index: Index, mass: Floats, size: int) -> Floats:
+def summed(index: Index | Players, mass: Floats, size: int) -> Floats:
     """Return the sums of the values with the same index."""
     if mass.ndim == 1:
         return np.bincount(index, mass, size).astype(float, copy=False)

@@ -21,7 +21,6 @@ from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
 from evenbreak.tournaments.odds.group_odds import rank_orders
 from evenbreak.tournaments.odds.meetings import (
-    goes_on,
     group_meetings,
     meetings_so_far,
     place_odds,
@@ -169,7 +168,7 @@ class _Prizes:
     def __init__(self, bracket: Bracket, value: Floats) -> None:
         self.bracket = bracket
         self.value = dict(zip(bracket.places, value.tolist(), strict=True))
-        self.going = goes_on(bracket)
+        self.going = bracket.going
         self.players = len(bracket.players)
 
     def of_match(self, step: MatchStep) -> tuple[Floats, Floats]:

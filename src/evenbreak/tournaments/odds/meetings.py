@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.tournaments.brackets.bracket import Bracket, Match, Place, Source
+from evenbreak.tournaments.brackets.bracket import Bracket, GoesOn, Match, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
 from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.forward import ForwardPass, summed
-from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
+from evenbreak.tournaments.odds.plan import Plan, Players
 
 
 class Meeting(NamedTuple):
@@ -39,41 +39,16 @@ class Meeting(NamedTuple):
         return float(self.probability.sum())
 
 
-class GoesOn(NamedTuple):
-    """Whether a match's winner and loser have a next match, by the slot they come from."""
-
-    winner: tuple[bool, bool]
-    loser: tuple[bool, bool]
-
-
-def goes_on(bracket: Bracket) -> dict[str, GoesOn]:
-    """Return for each match whether its winner and loser have a next match."""
-    slots = [slot for match in bracket.matches for slot in match.slots]
-    waiting = {slot for slot in slots if isinstance(slot, Source)}
-
-    def waited(name: str, outcome: str, sat: int) -> bool:
-        return Source(name, outcome) in waiting or Source(name, outcome, sat) in waiting
-
-    return {
-        match.name: GoesOn(
-            (waited(match.name, "winner", 1), waited(match.name, "winner", 2)),
-            (waited(match.name, "loser", 1), waited(match.name, "loser", 2)),
-        )
-        for match in bracket.matches
-    }
-
-
 def plan_meetings(plan: Plan, through: ForwardPass) -> dict[str, Meeting]:
     """Return the meetings of a plan's matches from its forward pass."""
-    count = len(plan.bracket.players)
     found = {}
-    for step in plan.steps:
-        if isinstance(step, MatchStep):
-            there = (step.first < count) & (step.second < count)
-            meet, p = through.meet[step.name][there], through.first_wins[step.name][there]
-            if p.ndim > meet.ndim:
-                meet = np.broadcast_to(meet[:, None], p.shape)
-            found[step.name] = Meeting(step.first[there], step.second[there], meet, p)
+    for name, (there, first, second) in plan.pairs.items():
+        meet, p = through.meet[name], through.first_wins[name]
+        if there is not None:
+            meet, p = meet[there], p[there]
+        if p.ndim > meet.ndim:
+            meet = np.broadcast_to(meet[:, None], p.shape)
+        found[name] = Meeting(first, second, meet, p)
     return found
 
 
@@ -148,10 +123,9 @@ def place_odds(
     shape = max(samples, default=())
     odds = np.zeros((len(bracket.players), len(column), *shape))
     in_group = {name for group in bracket.groups for name in group.matches}
-    going = goes_on(bracket)
     for match in bracket.matches:
         if match.name in meetings and match.name not in in_group:
-            add_places(odds, column, match, going[match.name], meetings[match.name])
+            add_places(odds, column, match, bracket.going[match.name], meetings[match.name])
     for group in bracket.groups:
         for rank, place in enumerate(group.places):
             if place is not None and group.name in ranks and rank < len(group.members):
@@ -165,6 +139,8 @@ def add_places(
     odds: Floats, column: Mapping[Place, int], match: Match, going: GoesOn, meeting: Meeting
 ) -> None:
     """Add the places that a match decides: those of players without a next match."""
+    if all(going.winner) and all(going.loser):
+        return
     won = meeting.probability * meeting.first_wins
     lost = meeting.probability - won
     for place, on, players, mass in (
@@ -174,7 +150,7 @@ def add_places(
         (match.loser_place, going.loser[1], meeting.second, won),
     ):
         if place is not None and not on:
-            added = summed(players.astype(np.int32), mass, len(odds))
+            added = summed(players, mass, len(odds))
             odds[:, column[place]] += added.reshape(
                 len(odds), *added.shape[1:] or [1] * (odds.ndim - 2)
             )

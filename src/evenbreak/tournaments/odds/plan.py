@@ -12,9 +12,9 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, frozen
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Source
 
 Players: TypeAlias = NDArray[np.int16]
@@ -38,6 +38,29 @@ class Branch:
 
 
 @dataclass(frozen=True, eq=False)
+class Apart:
+    """A branch of a match whose parts are summed before they are joined.
+
+    Parameters
+    ----------
+    winner
+        which of his slot's players wins, in each state of the winner's part.
+    loser
+        which of his slot's players loses, in each state of the loser's part.
+    kept
+        the sparse matrix that sums the states of the loser's part that are one without the loser.
+    moved
+        the sparse matrix from the states of the winner's part and what is kept of the loser's,
+        in this order, to the states after the match.
+    """
+
+    winner: Index
+    loser: Index
+    kept: csc_array
+    moved: csc_array
+
+
+@dataclass(frozen=True, eq=False)
 class MatchStep:
     """One match. Its states are all pairs of states of the parts of the bracket that it joins.
 
@@ -47,6 +70,8 @@ class MatchStep:
         the match.
     joins
         the numbers of the steps before it whose open slots it joins: none, one or two.
+    sizes
+        the number of states of each of these.
     first, second
         the distinct pairs of players who can meet, by slot.
     pair
@@ -63,6 +88,7 @@ class MatchStep:
 
     name: str
     joins: tuple[int, ...]
+    sizes: tuple[int, ...]
     first: Players
     second: Players
     pair: Index | None
@@ -78,9 +104,30 @@ class MatchStep:
         return one, other
 
     @cached_property
-    def meeting(self) -> csc_array | None:
+    def meeting(self) -> csr_array | None:
         """The sparse matrix that sums states by pair; None if states and pairs are the same."""
-        return None if self.pair is None else adding_up(self.pair, len(self.first))
+        return None if self.pair is None else adding_up(self.pair, len(self.first)).tocsr()
+
+    @cached_property
+    def apart(self) -> tuple[Apart, Apart] | None:
+        """The two branches by the parts that the match joins; None where that saves nothing.
+
+        A loser who is out leaves behind states of his part that differ in nothing else. They are
+        summed, for each winner, before the parts are joined.
+        """
+        if len(self.sizes) < 2 or self.pair is None:
+            return None
+        if any(branch.rows is not None for branch in self.branches):
+            return None
+        one, other = (branch.to.reshape(self.sizes) for branch in self.branches)
+        second = len(np.unique(self.second))  # all pairs are possible, slot 1's player first
+        seats = self.pair[:: self.sizes[1]] // second, self.pair[: self.sizes[1]] % second
+        apart = (
+            _apart(one, seats[0], seats[1], self.size),
+            _apart(other.T, seats[1], seats[0], self.size),
+        )
+        joined = sum(branch.moved.shape[1] for branch in apart)
+        return apart if joined < len(self.pair) else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +171,17 @@ class Plan:
     bracket: Bracket
     steps: tuple[Step, ...]
 
+    @cached_property
+    def pairs(self) -> dict[str, tuple[NDArray[np.bool_] | None, Players, Players]]:
+        """For each match the pairs that are two players, not nobody: which (None: all), and who."""
+        nobody, found = len(self.bracket.players), {}
+        for step in self.steps:
+            if isinstance(step, MatchStep):
+                there = (step.first < nobody) & (step.second < nobody)
+                first, second = frozen(step.first[there]), frozen(step.second[there])
+                found[step.name] = None if there.all() else there, first, second
+        return found
+
     @property
     def states(self) -> int:
         """The number of states of all steps together."""
@@ -138,6 +196,13 @@ class Plan:
                 held += [2 * len(branch.to) for branch in one.branches]
                 held += [] if one.pair is None else [2 * len(one.pair)]
         return sum(held)
+
+
+def _apart(to: Index, winner: Index, loser: Index, size: int) -> Apart:
+    """Return a branch by where it leads, to[state of the winner's part, of the loser's part]."""
+    _, kept_as, kept = np.unique(to[0], return_index=True, return_inverse=True)
+    moved = adding_up(to[:, kept_as].ravel(), size)
+    return Apart(winner, loser, adding_up(kept.astype(np.int32), len(kept_as)), moved)
 
 
 def adding_up(index: Index, size: int) -> csc_array:

@@ -207,6 +207,7 @@ def match_step(
     return MatchStep(
         match.name,
         tuple(table.step for table in tables),
+        tuple(table.size for table in tables),
         (distinct // (nobody + 1)).astype(np.int16),
         (distinct % (nobody + 1)).astype(np.int16),
         pair,

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats
-from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot, Source
+from evenbreak.tournaments.brackets.bracket import Bracket, GoesOn, Place, Slot, Source
 from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.odds.chances import Chances, of_samples
 from evenbreak.tournaments.odds.controls import controls_of
 from evenbreak.tournaments.odds.cut import Cut, cut_before
 from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
-from evenbreak.tournaments.odds.meetings import GoesOn, Meeting, add_places, goes_on
+from evenbreak.tournaments.odds.meetings import Meeting, add_places
 from evenbreak.tournaments.odds.plan import MatchStep, Plan, Players
 from evenbreak.tournaments.odds.planning import plan_of
 from evenbreak.tournaments.odds.play import PlayedOut, play_out
@@ -146,7 +146,7 @@ class _Sampler:
     ) -> None:
         self.bracket, self.chances, self.cut = bracket, chances, cut
         self.column = {place: k for k, place in enumerate(now.bracket.places)}
-        self.going = goes_on(now.bracket)
+        self.going = now.bracket.going
         self.plan: Plan = plan_of(cut.rest)
         self.first, self.second = who_can_sit(bracket)
         self.nobody = len(bracket.players)
