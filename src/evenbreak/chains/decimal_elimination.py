@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.elimination import Elimination
+from evenbreak.chains.elimination import Elimination, eliminated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -121,24 +121,20 @@ def decimal_law(arcs: Arcs) -> NDArray[np.float64]:
     AccuracyError
         if the elimination would take too long.
     """
-    rest = np.arange(1, arcs.size)
-    inner, leak = arcs.among(rest)
     with localcontext(_CONTEXT):
-        b = [Decimal(0)] * (arcs.size - 1)
-        for i, chance in zip(
-            arcs.targets[: arcs.indptr[1]].tolist(),
-            arcs.chances[: arcs.indptr[1]].tolist(),
-            strict=True,
-        ):
-            b[i - 1] = Decimal(chance)
-        law = [Decimal(1), *_factor(inner, leak, _MOST_ARCS).visits(b)]
+        rows, rest = _rows(arcs), range(1, arcs.size)
+        factor = eliminated(rows, rest, _MOST_ARCS)
+        law = [Decimal(1), *factor.visits([rows[0].get(i, Decimal(0)) for i in rest])]
         total = sum(law)
         return _floats([value / total for value in law])
 
 
+def _rows(arcs: Arcs) -> list[dict[int, Decimal]]:
+    return [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
+
+
 def _factor(arcs: Arcs, leak: NDArray[np.float64], most: float) -> Elimination:
-    rows = [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
-    return Elimination(rows, [Decimal(value) for value in leak.tolist()], most)
+    return Elimination(_rows(arcs), [Decimal(value) for value in leak.tolist()], most)
 
 
 def _floats(values: list[Decimal]) -> NDArray[np.float64]:

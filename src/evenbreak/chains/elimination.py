@@ -140,6 +140,19 @@ class Elimination:
             x[j] = value
 
 
+def eliminated(
+    rows: Sequence[dict[int, Any]],
+    states: Sequence[int],
+    most: float = math.inf,
+    core: Callable[[list[dict[int, Any]], list[Any]], Any] | None = None,
+) -> Elimination:
+    """Return I - T factored, with T the arcs among some of the states; the rows are kept."""
+    place = {state: k for k, state in enumerate(states)}
+    inner = [{place[i]: p for i, p in rows[j].items() if i in place} for j in states]
+    leaks = [sum(p for i, p in rows[j].items() if i not in place) for j in states]
+    return Elimination(inner, leaks, most, core)
+
+
 def _is_nothing(value: Any) -> bool:
     """Return whether a number is 0; an array never counts as nothing."""
     return not hasattr(value, "shape") and not value

@@ -21,7 +21,7 @@ import numpy as np
 
 from evenbreak.chains.arcs import reachable
 from evenbreak.chains.decimal_elimination import rows_of
-from evenbreak.chains.elimination import Elimination
+from evenbreak.chains.elimination import Elimination, eliminated
 from evenbreak.chains.lifting import Lifting, whole_numbers
 from evenbreak.errors import ChainError
 
@@ -83,9 +83,11 @@ def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None =
     limit: list[Any] = [0] * len(graph)
     for label, mass in enumerate(_masses(graph, rows, v, core)):
         if mass:
-            members = graph.structure.members(label).tolist()
-            for state, share in zip(members, _law(rows, members, core), strict=True):
-                limit[state] = mass * share
+            first, *rest = graph.structure.members(label).tolist()
+            visits = _factor(rows, rest, core).visits([rows[first].get(i, 0) for i in rest])
+            limit[first] = mass / sum(visits, 1)
+            for state, visit in zip(rest, visits, strict=True):
+                limit[state] = limit[first] * visit
     return limit
 
 
@@ -186,22 +188,9 @@ def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None) -
     return masses
 
 
-def _law(rows: Rows, members: list[int], core: Core | None) -> list[Any]:
-    """Return the law of a closed class: the visits between two visits to its first state."""
-    first, *rest = members
-    if not rest:
-        return [1]
-    visits = _factor(rows, rest, core).visits([rows[first].get(i, 0) for i in rest])
-    total = sum(visits, 1)
-    return [1 / total, *(visit / total for visit in visits)]
-
-
 def _factor(rows: Rows, states: list[int], core: Core | None) -> Elimination:
     """Return I - T factored, with T the arcs among the states."""
-    place = {state: k for k, state in enumerate(states)}
-    inner = [{place[i]: p for i, p in rows[j].items() if i in place} for j in states]
-    leaks = [sum(p for i, p in rows[j].items() if i not in place) for j in states]
-    return Elimination(inner, leaks, _FILL * len(states) if core else math.inf, core)
+    return eliminated(rows, states, _FILL * len(states) if core else math.inf, core)
 
 
 def _dot(x: Sequence[Fraction], y: Sequence[Fraction]) -> Fraction:
