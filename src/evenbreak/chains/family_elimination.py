@@ -136,23 +136,20 @@ def _dense_laws(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
             chances.append((j, i, np.broadcast_to(chance, count)))
             absent[j, i] = False
     law, pivots = np.empty((size, count)), np.ones((size, count))
-    # Used for all parts: fresh memory costs more than the arithmetic.
     workspace = np.empty((size, size, min(_AT_ONCE, count)))
-    products = np.empty_like(workspace[0])
     for begin in range(0, count, _AT_ONCE):
         part = slice(begin, begin + _AT_ONCE)
         A = workspace[:, :, : len(law[0, part])]
         A[absent] = 0.0
         for j, i, chance in chances:
             A[j, i] = chance[part]
-        product = products[:, : A.shape[2]]
+        # Each row and column is finished in its turn, from all that were finished before.
         for k in range(size - 1, 0, -1):
-            out = A[k, :k]
-            pivots[k, part] = pivot = out.sum(axis=0)
-            A[:k, k] /= pivot
-            for j in range(k):
-                np.multiply(out, A[j, k], out=product[:k])
-                A[j, :k] += product[:k]
+            out, back, done = A[k, :k], A[:k, k], slice(k + 1, size)
+            out += np.einsum("lc,lic->ic", A[k, done], A[done, :k])
+            back += np.einsum("jlc,lc->jc", A[:k, done], A[done, k])
+            pivots[k, part] = out.sum(axis=0)
+            back /= pivots[k, part]
         law[0, part] = 1.0
         for k in range(1, size):
             np.einsum("jc,jc->c", law[:k, part], A[:k, k], out=law[k, part])
