@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.chains import chain_of, limits_over, stochastic_limit
+from evenbreak.chains import chain_of, families, limits_over, stochastic_limit
 from evenbreak.errors import ChainError, EvenbreakError, InputError
 from evenbreak.games import (
     CATALOGUE,
@@ -65,6 +65,46 @@ def compare(game_of: Callable[..., Any], *, within: float = 1e-14, **chances: An
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_game_of_the_catalogue_has_its_own_limits_edges_included(name: str) -> None:
     compare(lambda p1, p2: kind(p1, p2, CATALOGUE[name]), p1=SIDE[:, None], p2=SIDE)
+
+
+@pytest.fixture
+def short(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let families repeat what was done from the 41st member on."""
+    monkeypatch.setattr(families, "_FIRST", 40)
+    monkeypatch.setattr(families, "_BATCH", 50)
+
+
+@pytest.mark.usefixtures("short")
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_what_is_repeated_is_what_would_have_been_done(name: str) -> None:
+    p1, p2 = np.random.default_rng(3).uniform(0.05, 0.95, (2, 80))
+    p1[60:66] = [0.0, 1.0, 0.5, 1e-9, 1e-200, 0.25]
+    for size in (55, 80):
+        compare(
+            lambda p1, p2: kind(p1, p2, CATALOGUE[name]), within=1e-13, p1=p1[:size], p2=p2[:size]
+        )
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_no_game_of_the_catalogue_is_worked_out_member_by_member(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(families, "stochastic_limit", lambda _: pytest.fail("one by one"))
+    p1, p2 = np.random.default_rng(4).uniform(0.2, 0.8, (2, 8))
+    limits_over(lambda p1, p2: kind(p1, p2, CATALOGUE[name]), p1=p1, p2=p2)
+
+
+@pytest.mark.usefixtures("short")
+def test_a_game_that_takes_a_later_member_another_way_is_asked_again() -> None:
+    p = np.concatenate([np.linspace(0.1, 0.3, 45), np.linspace(0.4, 0.9, 60)])
+    for way in (
+        lambda p: p if p < 0.5 else p * p,
+        lambda p: p if p < 0.35 else p / 2 if isinstance(p, float) else p / 3,
+        lambda p: np.where(p < 0.5, p, 0.25),
+        lambda p: p / (0.9 + p) if p < 0.35 else 0.5,
+    ):
+        found = limits_over(lambda p, way=way: Moody(p, way), p=p)
+        np.testing.assert_allclose(found["won"], [way(x) for x in p.tolist()], rtol=1e-13)
 
 
 def test_stiff_chances_keep_their_digits() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.chains.family_numbers import Disagreement, Numbers
+from evenbreak.chains.family_numbers import Disagreement, Numbers, Program, Record
 
 
 def test_arithmetic_goes_entry_by_entry() -> None:
@@ -37,3 +37,50 @@ def test_arrays_and_other_functions_are_refused() -> None:
     for use in (lambda: p * np.ones(2), lambda: np.add.reduce(p), lambda: np.sort(p), lambda: {p}):
         with pytest.raises((Disagreement, TypeError)):
             use()
+
+
+def test_a_program_repeats_what_was_done_in_little_memory() -> None:
+    record, draw = Record(), np.random.default_rng(1)
+
+    def work(x: Any, y: Any) -> list[Any]:
+        terms = [x]
+        for k in range(200):
+            terms = [*terms[-2:], terms[-1] * y + k / (1.0 + x)]
+        kept = np.where(x < y, terms[-1], terms[-2])
+        return [kept, x, 0.5, (1.0 + x) * (1.0 + x)]
+
+    x, y = draw.random((2, 50))
+    outputs = work(Numbers(x, record), Numbers(y, record))
+    program = Program(record, outputs)
+    assert len(program._registers) < 250  # most of them are the constants k
+    for size in (64, 7):
+        x, y = draw.random((2, size))
+        found = program.run([x, y])
+        assert found is not None
+        for one, other in zip(found, work(x, y), strict=True):
+            np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    ("ask", "others"),
+    [
+        (lambda p: p > 0.5, [0.7, 0.5]),
+        (lambda p: p >= 0.6, [0.7, 0.59]),
+        (lambda p: p < 0.5, [0.7, 0.4]),
+        (lambda p: p >= 0.9, [0.7, 0.95]),
+        (lambda p: p == 0.25, [0.7, 0.25]),
+        (lambda p: p != 0.25, [0.7, 0.25]),
+        (lambda p: p > 1.0 - p, [0.7, 0.3]),
+        (lambda p: p * p > 0.25, [0.7, 0.5]),
+        (lambda p: p - 0.5, [0.7, 0.5]),
+    ],
+)
+def test_a_program_asks_again(ask: Callable[[Any], Any], others: list[float]) -> None:
+    record = Record()
+    p = Numbers(np.array([0.6, 0.8]), record)
+    assert bool(ask(p)) == bool(ask(0.6))
+    program = Program(record, [2.0 * p])
+    again = program.run([np.array([0.65, 0.7])])
+    assert again is not None
+    assert again[0].tolist() == [1.3, 1.4]
+    assert program.run([np.array(others)]) is None

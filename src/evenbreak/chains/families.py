@@ -13,7 +13,8 @@ member by member.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -23,8 +24,8 @@ from scipy.sparse import csc_array
 from evenbreak.arrays import own_arrays
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.family_elimination import family_limits
-from evenbreak.chains.family_numbers import Disagreement, Numbers
+from evenbreak.chains.family_elimination import family_limits, limits_in_numbers
+from evenbreak.chains.family_numbers import Disagreement, Numbers, Program, Record
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.checks import probability, together
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
 
 _BATCH = 8192
 """Members at a time: an array of them fits into the cache."""
+_FIRST = 1024
+"""Of more than one batch so many are worked out first, and what was done is then repeated."""
 _FEW = 3
 """So few members are calculated one by one; from a larger part so many are checked."""
 _SUM_TOLERANCE, _ROUNDING = 1e-9, 1e-15
@@ -80,15 +83,6 @@ class FamilyLimit:
     def __repr__(self) -> str:
         count, n = self.period.size, len(self.states)
         return f"<FamilyLimit of {count} game{'s' * (count != 1)} over {n} state{'s' * (n != 1)}>"
-
-
-class _Part(NamedTuple):
-    """The limits of some members of the family."""
-
-    members: Places
-    states: list[Any]
-    limits: Floats
-    period: int
 
 
 def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> FamilyLimit:
@@ -146,50 +140,127 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
         name: value if isinstance(value, float) else np.broadcast_to(value, shape).ravel()
         for name, value in given.items()
     }
-    return _joined(list(_Family(game_of, flat).parts(count)), shape)
+    return _Family(game_of, flat, count).limits(shape)
 
 
-def _joined(parts: list[_Part], shape: tuple[int, ...]) -> FamilyLimit:
-    row: dict[Any, int] = {}
-    for part in sorted(parts, key=lambda part: -len(part.states)):
-        for state in part.states:
-            row.setdefault(state, len(row))
-    count = math.prod(shape)
-    limits, period = np.zeros((len(row), count)), np.ones(count, dtype=np.int64)
-    for part in parts:
-        for state, limit in zip(part.states, part.limits, strict=True):
-            limits[row[state], part.members] = limit
-        period[part.members] = part.period
-    by_state = np.moveaxis(limits.reshape(len(row), *shape), 0, -1)
-    return FamilyLimit(tuple(row), by_state, period.reshape(shape))
+class _Found:
+    """The limits that are known so far."""
+
+    def __init__(self, count: int) -> None:
+        self._listed: list[list[Any]] = []
+        self._row: dict[Any, int] = {}
+        self._limits = np.zeros((0, count))
+        self._periods: dict[int, list[Any]] = {}
+
+    def add(
+        self, members: Any, states: list[Any], limits: Iterable[tuple[int, Any]], period: int
+    ) -> None:
+        """Add the limits of some members, by places in the list of their states."""
+        if not any(states is listed for listed in self._listed):
+            self._listed.append(states)
+            for state in states:
+                self._row.setdefault(state, len(self._row))
+            before = self._limits
+            if len(self._row) > len(before):
+                self._limits = np.zeros((len(self._row), before.shape[1]))
+                self._limits[: len(before)] = before
+        for place, values in limits:
+            self._limits[self._row[states[place]], members] = values
+        self._periods.setdefault(period, []).append(members)
+
+    def together(self, shape: tuple[int, ...]) -> FamilyLimit:
+        """Return all of them, with the states of the largest graph first."""
+        order: dict[Any, int] = {}
+        for states in sorted(self._listed, key=len, reverse=True):
+            for state in states:
+                order.setdefault(state, self._row[state])
+        rows = list(order.values())
+        limits = self._limits if rows == sorted(rows) else self._limits[rows]
+        # Nobody else has these arrays, so they need no copy.
+        limits.flags.writeable = False
+        by_state = np.moveaxis(limits.reshape(len(rows), *shape), 0, -1)
+        return FamilyLimit(tuple(order), by_state, self._period(shape))
+
+    def _period(self, shape: tuple[int, ...]) -> Ints:
+        period = np.array(next(iter(self._periods)))
+        if len(self._periods) > 1:
+            period = np.empty(self._limits.shape[1], dtype=np.int64)
+            for of_some, parts in self._periods.items():
+                for members in parts:
+                    period[members] = of_some
+            period = period.reshape(shape)
+        period.flags.writeable = False
+        return np.broadcast_to(period, shape)
+
+
+class _Again(NamedTuple):
+    """What was done for one part, to be repeated for members that give the same answers."""
+
+    states: list[Any]
+    sources: list[int]
+    targets: list[int]
+    period: int
+    places: list[int]
+    """Where the limits belong that `limits` returns."""
+    limits: Program
+    chances: Program
 
 
 class _Family:
     """A game and arrays of chances of shape (k,), or floats."""
 
-    def __init__(self, game_of: Callable[..., Game], chances: dict[str, Floats | float]) -> None:
-        self._game_of, self._chances = game_of, chances
+    def __init__(
+        self, game_of: Callable[..., Game], chances: dict[str, Floats | float], count: int
+    ) -> None:
+        self._game_of, self._chances, self._count = game_of, chances, count
         self._structures: dict[Any, Structure] = {}
+        self._found = _Found(count)
+        self._programs: list[_Again] = []
 
-    def parts(self, count: int) -> Iterator[_Part]:
-        """Yield the limits of all members, those with the same graph together."""
-        waiting = [np.arange(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH)]
-        while waiting:
+    def limits(self, shape: tuple[int, ...]) -> FamilyLimit:
+        """Return the limits of all members, those with the same graph worked out together."""
+        done, step = 0, _BATCH if self._count <= _BATCH else _FIRST
+        waiting: list[Places] = []
+        while waiting or done < self._count:
+            if not waiting:
+                batch = slice(done, min(done + step, self._count))
+                if not self._again(batch):
+                    waiting.append(np.arange(batch.start, batch.stop))
+                done, step = (
+                    batch.stop,
+                    min((known.limits.size for known in self._programs), default=_BATCH),
+                )
+                continue
             members, true = waiting.pop(), None
             if len(members) > _FEW:
                 try:
-                    found, doubtful = self._together(members)
+                    members = self._together(members)
                 except Disagreement as answer:
                     true = answer.true
                 except Exception:
                     true = None
-                else:
-                    yield found
-                    members = members[doubtful]
             if true is None:
-                yield from map(self._alone, members.tolist())
+                for member in members.tolist():
+                    self._alone(member)
             else:
                 waiting += [members[true], members[~true]]
+        return self._found.together(shape)
+
+    def _again(self, batch: slice) -> bool:
+        """Repeat what was done for another batch; return whether that is right for this one."""
+        given = [value[batch] for value in self._chances.values() if not isinstance(value, float)]
+        middle = (batch.start + batch.stop) // 2
+        at = [value[middle - batch.start, None] for value in given]
+        for known in self._programs:
+            with suppress(Exception), np.errstate(divide="raise", invalid="raise"):
+                limits = known.limits.run(given)
+                if limits is not None:
+                    chances = [float(np.ravel(p)[0]) for p in known.chances.run(at) or ()]
+                    self._check(middle, known.states, known.sources, known.targets, chances)
+                    limits_at = zip(known.places, limits, strict=True)
+                    self._found.add(batch, known.states, limits_at, known.period)
+                    return True
+        return False
 
     def _game(self, member: int) -> Game:
         return self._game_of(
@@ -199,30 +270,47 @@ class _Family:
             }
         )
 
-    def _alone(self, member: int) -> _Part:
+    def _alone(self, member: int) -> None:
         limit = stochastic_limit(chain_of(self._game(member)))
-        return _Part(
-            np.array([member]), list(limit.states), limit.probability[:, None], limit.period
-        )
+        states = list(limit.states)
+        self._found.add(member, states, enumerate(limit.probability), limit.period)
 
-    def _together(self, members: Places) -> tuple[_Part, Any]:
+    def _together(self, members: Places) -> Places:
+        """Work out the limits of members with one graph; return those that remain doubtful."""
+        record = Record()
         # Where a float would raise ZeroDivisionError, arrays must not go on either.
         with np.errstate(divide="raise", invalid="raise"):
             game = self._game_of(
                 **{
-                    name: value if isinstance(value, float) else Numbers(value[members])
+                    name: value if isinstance(value, float) else Numbers(value[members], record)
                     for name, value in self._chances.items()
                 }
             )
             states, sources, targets, numbers = moves_of(game, game.start)
-        chances = [p.values if isinstance(p, Numbers) else float(p) for p in numbers]
         for k in (0, len(members) // 2, len(members) - 1):
-            self._check(int(members[k]), states, sources, targets, [_at(p, k) for p in chances])
-        sources, targets, chances = _completed(len(states), sources, targets, chances)
+            at = [_at(p, k) for p in numbers]
+            self._check(int(members[k]), states, sources, targets, at)
+        moves = sources, targets
+        sources, targets, completed = _completed(len(states), sources, targets, numbers)
         structure = self._structure(len(states), sources, targets)
-        limits, doubtful = family_limits(structure, sources, targets, chances, len(members))
         period = math.lcm(*structure.periods[structure.closed].tolist())
-        return _Part(members, states, limits, period), doubtful
+        chances = [p.values if isinstance(p, Numbers) else p for p in completed]
+        limits, doubtful = family_limits(structure, sources, targets, chances, len(members))
+        self._found.add(members, states, enumerate(limits), period)
+        if self._count > _BATCH and len(self._programs) < _FEW:
+            with suppress(Disagreement), np.errstate(all="ignore"):
+                found = limits_in_numbers(structure, sources, targets, completed)
+                if found is not None:
+                    known = _Again(
+                        states,
+                        *moves,
+                        period,
+                        list(found),
+                        Program(record, found.values()),
+                        Program(record, numbers, answers=False),
+                    )
+                    self._programs.append(known)
+        return members[doubtful]
 
     def _check(
         self,
@@ -235,9 +323,10 @@ class _Family:
         """Refuse arcs that are not those of the game made from plain floats."""
         game = self._game(member)
         *graph, exact = moves_of(game, game.start)
-        if graph != [states, sources, targets] or not np.allclose(
-            chances, np.array(exact, dtype=float), rtol=_SAME, atol=0.0
-        ):
+        same = graph == [states, sources, targets] and all(
+            math.isclose(p, float(q), rel_tol=_SAME) for p, q in zip(chances, exact, strict=True)
+        )
+        if not same:
             raise Disagreement(None)
 
     def _structure(self, size: int, sources: list[int], targets: list[int]) -> Structure:
@@ -249,8 +338,8 @@ class _Family:
         return self._structures[key]
 
 
-def _at(chance: Floats | float, place: int) -> float:
-    return chance if isinstance(chance, float) else float(chance[place])
+def _at(chance: Any, place: int) -> float:
+    return float(chance.values[place] if isinstance(chance, Numbers) else chance)
 
 
 def _completed(
@@ -270,14 +359,14 @@ def _completed(
             others[j] = others[j] + chance
     scales: list[Any] = [None] * size
     for j in set(sources):
-        missed = np.abs(others[j] + (0.0 if loops[j] is None else loops[j]) - 1.0)
-        if not np.all(missed <= _SUM_TOLERANCE):
+        total = others[j] + (0.0 if loops[j] is None else loops[j])
+        if not 1.0 - _SUM_TOLERANCE <= total <= 1.0 + _SUM_TOLERANCE:
             raise Disagreement(None)
         if loops[j] is not None:
             left = 1.0 - others[j]
-            loops[j] = left if Numbers(np.asarray(left > 0.0)) else None
-        elif np.any(missed > _ROUNDING):
-            scales[j] = np.where(missed > _ROUNDING, others[j], 1.0)
+            loops[j] = left if left > 0.0 else None
+        elif not (_all(total >= 1.0 - _ROUNDING) and _all(total <= 1.0 + _ROUNDING)):
+            scales[j] = np.where(abs(total - 1.0) <= _ROUNDING, 1.0, total)
     kept_sources, kept_targets, completed = [], [], []
     for j, i, chance in zip(sources, targets, chances, strict=True):
         found = loops[j] if i == j else chance if scales[j] is None else chance / scales[j]
@@ -286,3 +375,8 @@ def _completed(
             kept_targets.append(i)
             completed.append(found)
     return kept_sources, kept_targets, completed
+
+
+def _all(truth: Any) -> bool:
+    """Return whether all say yes, without an answer where some do and others do not."""
+    return bool(truth) if not isinstance(truth, Numbers) or truth.values.all() else False

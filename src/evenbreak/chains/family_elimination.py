@@ -8,7 +8,7 @@ References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +25,9 @@ _AT_ONCE = 512
 """So many dense chains at a time: the calls of numpy cost little, and the caches still help."""
 _SMALL = 1e-290
 """A float below this, beside the largest, may have lost digits to underflow."""
+
+_LEAST, _MOST = 1e-120, 1e40
+"""Visits between these, with pivots above the first, are far from what `_SMALL` excludes."""
 
 _Row = dict[int, Any]
 
@@ -67,31 +70,83 @@ def family_limits(
     array([[0.66666667, 0.4       ],
            [0.33333333, 0.6       ]])
     """
-    n = len(structure.label)
-    rows: list[_Row] = [{} for _ in range(n)]
-    for j, i, chance in zip(sources, targets, chances, strict=True):
-        if i != j:
-            rows[j][i] = chance
+    rows = _rows(structure, sources, targets, chances)
     with np.errstate(all="ignore"):
-        ends, doubtful = _ends(structure, rows, count)
-        limit = np.zeros((n, count))
-        for label in np.flatnonzero(structure.closed).tolist():
-            members = structure.members(label).tolist()
-            mass = sum((ends[state] for state in members if state in ends), 0.0)
+        ends, visits, pivots = _ends(structure, rows)
+        doubtful = _doubtful(visits, pivots, count)
+        limit = np.zeros((len(rows), count))
+        for members in _closed(structure):
+            mass = _mass(ends, members)
             if len(members) == 1:
                 limit[members[0]] = mass
                 continue
-            law, in_doubt = _law([_among(rows[state], members) for state in members], count)
-            limit[members] = law * mass
-            doubtful |= in_doubt
+            among = [_among(rows[state], members) for state in members]
+            visits, pivots = _dense_visits(among, count) if _is_dense(among) else _visits(among)
+            law = np.array([np.broadcast_to(visited, count) for visited in visits])
+            law /= law.max(axis=0)  # first, against overflow
+            limit[members] = law / law.sum(axis=0) * mass
+            doubtful |= _doubtful(visits, pivots, count)
     return limit, doubtful
 
 
-def _ends(structure: Structure, rows: list[_Row], count: int) -> tuple[dict[int, Any], Bools]:
-    """Return the chance of entering the closed classes at each of their states."""
+def limits_in_numbers(
+    structure: Structure, sources: Sequence[int], targets: Sequence[int], chances: Sequence[Any]
+) -> dict[int, Any] | None:
+    """Return the limits from state 0 that are not 0, in numbers that answer a comparison as one.
+
+    None for a dense class, and where numbers leave the range in which nothing can underflow.
+    """
+    rows = _rows(structure, sources, targets, chances)
+    ends, visits, pivots = _ends(structure, rows)
+    limit: dict[int, Any] = {}
+    for members in _closed(structure):
+        mass = _mass(ends, members)
+        if len(members) == 1:
+            limit[members[0]] = mass
+            continue
+        among = [_among(rows[state], members) for state in members]
+        if _is_dense(among):
+            return None
+        law, of_law = _visits(among)
+        visits, pivots = [*visits, *law], [*pivots, *of_law]
+        share = mass / sum(law, 0.0)
+        limit.update((state, visited * share) for state, visited in zip(members, law, strict=True))
+    safe = all(_LEAST < x < _MOST for x in visits) and all(x > _LEAST for x in pivots)
+    return limit if safe else None
+
+
+def _rows(
+    structure: Structure, sources: Sequence[int], targets: Sequence[int], chances: Sequence[Any]
+) -> list[_Row]:
+    rows: list[_Row] = [{} for _ in structure.label]
+    for j, i, chance in zip(sources, targets, chances, strict=True):
+        if i != j:
+            rows[j][i] = chance
+    return rows
+
+
+def _closed(structure: Structure) -> Iterator[list[int]]:
+    """Yield the states of each closed class."""
+    for label in np.flatnonzero(structure.closed).tolist():
+        yield structure.members(label).tolist()
+
+
+def _mass(ends: dict[int, Any], members: list[int]) -> Any:
+    return sum((ends[state] for state in members if state in ends), 0.0)
+
+
+def _is_dense(rows: list[_Row]) -> bool:
+    return len(rows) >= _DENSE_FROM and 4 * sum(map(len, rows)) >= len(rows) ** 2
+
+
+def _ends(structure: Structure, rows: list[_Row]) -> tuple[dict[int, Any], list[Any], list[Any]]:
+    """Return the chance of entering the closed classes at each of their states.
+
+    The visits to the states before, and the pivots there, come with it.
+    """
     inner = np.flatnonzero(~structure.recurrent).tolist()
     if 0 not in inner:
-        return {0: np.ones(count)}, np.zeros(count, dtype=bool)
+        return {0: 1.0}, [], []
     kept = set(inner)
     leaks = [sum((p for i, p in rows[j].items() if i not in kept), 0.0) for j in inner]
     elimination = Elimination([_among(rows[j], inner) for j in inner], leaks)
@@ -101,7 +156,7 @@ def _ends(structure: Structure, rows: list[_Row], count: int) -> tuple[dict[int,
         for i, chance in rows[j].items():
             if i not in kept:
                 ends[i] = ends.get(i, 0.0) + visited * chance
-    return ends, _doubtful(visits, elimination.pivots, count)
+    return ends, visits, elimination.pivots
 
 
 def _among(row: _Row, members: list[int]) -> _Row:
@@ -110,25 +165,18 @@ def _among(row: _Row, members: list[int]) -> _Row:
     return {place[i]: chance for i, chance in row.items() if i in place}
 
 
-def _law(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
-    """Return the stationary law of the class that the arcs make, shape (m, k), and the doubts."""
-    size = len(rows)
-    if size >= _DENSE_FROM and 4 * sum(map(len, rows)) >= size * size:
-        return _dense_laws(rows, count)
-    from_cut, rest = rows[0], list(range(1, size))
+def _visits(rows: list[_Row]) -> tuple[list[Any], list[Any]]:
+    """Return the visits to the states of a closed class for each one to the first, and pivots."""
+    rest = list(range(1, len(rows)))
     elimination = Elimination(
         [_among(row, rest) for row in rows[1:]], [row.get(0, 0.0) for row in rows[1:]]
     )
-    visits = elimination.visits([from_cut.get(i, 0.0) for i in rest])
-    law = np.empty((size, count))
-    law[0] = 1.0
-    for k, visited in enumerate(visits, 1):
-        law[k] = visited
-    return _scaled(law), _doubtful([1.0, *visits], [1.0, *elimination.pivots], count)
+    visits = elimination.visits([rows[0].get(i, 0.0) for i in rest])
+    return [1.0, *visits], [1.0, *elimination.pivots]
 
 
-def _dense_laws(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
-    """Return the laws by elimination in arrays of (source, target, chain)."""
+def _dense_visits(rows: list[_Row], count: int) -> tuple[list[Any], list[Any]]:
+    """Return what `_visits` does, by elimination in arrays of (source, target, chain)."""
     size = len(rows)
     chances, absent = [], np.ones((size, size), dtype=bool)
     for j, row in enumerate(rows):
@@ -153,13 +201,7 @@ def _dense_laws(rows: list[_Row], count: int) -> tuple[Floats, Bools]:
         law[0, part] = 1.0
         for k in range(1, size):
             np.einsum("jc,jc->c", law[:k, part], A[:k, k], out=law[k, part])
-    return _scaled(law), _doubtful(list(law), list(pivots), count)
-
-
-def _scaled(law: Floats) -> Floats:
-    """Return the laws with sums of 1, scaled to a largest entry of 1 first against overflow."""
-    law = law / law.max(axis=0)
-    return np.asarray(law / law.sum(axis=0))
+    return list(law), list(pivots)
 
 
 def _doubtful(x: Sequence[Any], pivots: Sequence[Any], count: int) -> Bools:

@@ -5,11 +5,17 @@ False, as a float does, if all entries agree; otherwise it raises `Disagreement`
 for which the answer is True, so that the caller can ask again for these and for the others. So
 code that branches on a value stays right. What needs one true number (`float`, `round`, `hash`,
 `str`) raises `Disagreement` without such a list: only one entry at a time can answer.
+
+What is done with the numbers is kept in a `Record`. As nothing but these answers can lead the code
+another way, the same operations are right for any other numbers that give the same answers: a
+`Program` repeats them for these, in memory that stays in the cache, and asks again.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -17,7 +23,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from evenbreak.checks import ManyAsOne
 
 if TYPE_CHECKING:
-    from evenbreak.arrays import Bools
+    from evenbreak.arrays import Bools, Floats
 
 
 class Disagreement(Exception):  # noqa: N818  it is an answer, not a failure
@@ -34,6 +40,38 @@ class Disagreement(Exception):  # noqa: N818  it is an answer, not a failure
         self.true = true
 
 
+class _Step(NamedTuple):
+    """One operation: a function, the places of its arguments or constants, and its dtype."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+    dtype: np.dtype[Any]
+
+
+class _Place(int):
+    """The place of a number in a record, told apart from a constant."""
+
+
+class Record:
+    """What is done with some numbers, and which answers they give."""
+
+    def __init__(self) -> None:
+        self.steps: list[_Step | None] = []
+        self.answers: list[tuple[_Place, bool]] = []
+        self._places: dict[Any, _Place] = {}
+
+    def place(self, step: _Step | None = None) -> _Place:
+        """Return the place of the number made in this step; None stands for one that is given."""
+        key = step and (step.function, *((type(x), x) for x in step.arguments))
+        if key in self._places:
+            return self._places[key]
+        self.steps.append(step)
+        place = _Place(len(self.steps) - 1)
+        if key:
+            self._places[key] = place
+        return place
+
+
 class Numbers(NDArrayOperatorsMixin, ManyAsOne):
     """Several numbers, or several truth values, that go through arithmetic as one.
 
@@ -41,6 +79,8 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
     ----------
     values
         shape (k,).
+    record
+        where it is kept what is done with them; all numbers that meet have the same.
 
     >>> p = Numbers(np.array([0.25, 0.5]))
     >>> (1.0 - p).values, bool(p < 0.75)
@@ -52,31 +92,49 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
     [ True False]
     """
 
-    __slots__ = ("values",)
+    __slots__ = ("place", "record", "values")
     __hash__ = None  # type: ignore[assignment]
 
-    def __init__(self, values: Any) -> None:
+    def __init__(
+        self, values: Any, record: Record | None = None, step: _Step | None = None
+    ) -> None:
         self.values = values
+        self.record = Record() if record is None else record
+        self.place = self.record.place(step)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the values."""
+        return np.shape(self.values)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Numbers:
         """Return a function of numpy, entry by entry."""
         if method != "__call__" or options or ufunc.nout != 1:
             raise Disagreement(None)
-        return Numbers(ufunc(*map(_plain, inputs)))
+        if ufunc is np.add:  # sums begin with 0
+            for one, other in (inputs, inputs[::-1]):
+                if isinstance(one, float) and one == 0.0:
+                    return other  # type: ignore[no-any-return]
+        return self._made(ufunc, inputs)
 
     def __array_function__(self, function: Any, _types: Any, args: Any, options: Any) -> Numbers:
         """Return `numpy.where`, the one other function that works entry by entry."""
         if function is not np.where or options:
             raise Disagreement(None)
-        return Numbers(np.where(*map(_plain, args)))
+        return self._made(function, args)
+
+    def _made(self, function: Callable[..., Any], inputs: Sequence[Any]) -> Numbers:
+        values = function(*map(_plain, inputs))
+        arguments = (x.place if isinstance(x, Numbers) else x for x in inputs)
+        return Numbers(values, self.record, _Step(function, tuple(arguments), values.dtype))
 
     def __bool__(self) -> bool:
         true = self.values != 0
-        if true.all():
-            return True
-        if true.any():
+        answer = bool(true.all())
+        if not answer and true.any():
             raise Disagreement(true)
-        return False
+        self.record.answers.append((self.place, answer))
+        return answer
 
     def _one(self, *_: Any) -> NoReturn:
         raise Disagreement(None)
@@ -92,3 +150,133 @@ def _plain(value: Any) -> Any:
     if np.ndim(value):
         raise Disagreement(None)
     return value
+
+
+_MEMORY = 1_500_000
+"""Bytes of a cache that numbers under way should fit into."""
+_SHORTEST, _LONGEST = 4096, 16_000
+"""Numbers at a time: few cost calls, and for more the system has to be asked for memory."""
+_LEAST, _MOST = np.minimum.reduce, np.maximum.reduce
+_EXTREMES: dict[Any, Any] = {
+    np.less: (_MOST, _LEAST),
+    np.less_equal: (_MOST, _LEAST),
+    np.greater: (_LEAST, _MOST),
+    np.greater_equal: (_LEAST, _MOST),
+}
+"""Which entry answers for all that a comparison with a constant is true, or false."""
+
+
+class Program:
+    """The operations of a record, to be repeated with other numbers, `size` or fewer at a time.
+
+    Parameters
+    ----------
+    record
+        what was done.
+    outputs
+        the numbers to return: some of the record's, or floats.
+    answers
+        whether the answers must be the same.
+    """
+
+    def __init__(self, record: Record, outputs: Iterable[Any], *, answers: bool = True) -> None:
+        self._registers, self._given, self._acts = list[Any](), list[Any](), list[Any]()
+        self._outputs = [x.place if isinstance(x, Numbers) else x for x in outputs]
+        self._tests: dict[int, list[Any]] = defaultdict(list)
+        needed = {place for place in self._outputs if isinstance(place, _Place)}
+        for place, answer in dict(record.answers).items() if answers else ():
+            step = record.steps[place]
+            compared = step is not None and step.function in _EXTREMES
+            x, limit = step.arguments if step and compared else (None, place)
+            if step and isinstance(x, _Place) and not isinstance(limit, _Place):
+                self._tests[x].append(
+                    (_EXTREMES[step.function][not answer], step.function, limit, answer)
+                )
+                needed.add(x)
+            else:
+                self._tests[place].append((np.all if answer else np.any, None, None, answer))
+                needed.add(place)
+        self._plan(record, needed)
+        memory = [k for k, x in enumerate(self._registers) if isinstance(x, np.dtype)]
+        self.size = min(_LONGEST, max(_SHORTEST, _MEMORY // (8 * len(memory) + 1)))
+        for k in memory:
+            # At another place in its page than the one before.
+            room, shift = np.empty(self.size + 4096, self._registers[k]), 64 * (k % 64)
+            self._registers[k] = room[shift : shift + self.size]
+
+    def _plan(self, record: Record, needed: set[Any]) -> None:
+        """Give each number that is needed a register, and use it again after its last use."""
+        last: dict[int, int] = {}
+        for place in range(len(record.steps) - 1, -1, -1):
+            step = record.steps[place]
+            if step is not None and place in needed:
+                for x in step.arguments:
+                    if isinstance(x, _Place):
+                        needed.add(x)
+                        last.setdefault(x, place)
+        kept = {place for place in self._outputs if isinstance(place, _Place)}
+        free: dict[Any, list[int]] = defaultdict(list)
+        at: dict[int, int] = {}
+        for place, step in enumerate(record.steps):
+            if step is None:
+                at[place] = self._register(None)
+                self._given.append((at[place], self._tests.get(place, ())))
+            elif place in needed:
+                arguments = [
+                    at[x] if isinstance(x, _Place) else self._register(x) for x in step.arguments
+                ]
+                # The result takes the place of an argument if it can: that is twice as fast.
+                ends = [
+                    x
+                    for x in dict.fromkeys(step.arguments[::-1])
+                    if isinstance(x, _Place) and last[x] == place and x not in kept
+                ]
+                for x in ends:
+                    made = record.steps[x]
+                    if made is not None:
+                        free[made.dtype].append(at[x])
+                pool = free[step.dtype]
+                at[place] = pool.pop() if pool else self._register(step.dtype)
+                self._acts.append((step.function, arguments, at[place], self._tests.get(place)))
+                if place not in last and place not in kept:
+                    free[step.dtype].append(at[place])
+        self._outputs = [
+            at[x] if isinstance(x, _Place) else self._register(x) for x in self._outputs
+        ]
+
+    def _register(self, content: Any) -> int:
+        self._registers.append(content)
+        return len(self._registers) - 1
+
+    def run(self, given: Sequence[Floats]) -> list[Any] | None:
+        """Return the outputs for these numbers; None if they answer otherwise.
+
+        They are overwritten by the next run.
+        """
+        size = len(given[0])
+        held = [x[:size] if np.ndim(x) else x for x in self._registers]
+        for (register, tests), numbers in zip(self._given, given, strict=True):
+            held[register] = numbers
+            if not _passed(numbers, tests):
+                return None
+        for function, arguments, target, tests in self._acts:
+            inputs = [held[k] for k in arguments]
+            if function is np.where:
+                held[target] = function(*inputs)
+            else:
+                function(*inputs, out=held[target])
+            if tests and not _passed(held[target], tests):
+                return None
+        return [held[k] for k in self._outputs]
+
+
+def _passed(numbers: Any, tests: Sequence[Any]) -> bool:
+    """Return whether numbers answer as those before did."""
+    found: dict[Any, Any] = {}
+    for extreme, comparison, limit, answer in tests:
+        if extreme not in found:
+            found[extreme] = extreme(numbers)
+        x = found[extreme]
+        if bool(x if comparison is None else comparison(x, limit)) != answer or x != x:
+            return False
+    return True

@@ -92,11 +92,12 @@ class Rack(Generic[ChanceT]):
             q = probability(q, "q" + player)
             together(**{"p" + player: p, "q" + player: q})
             off = abs(p + q - 1.0)
-            if (off if isinstance(off, float) else off.max(initial=0.0)) > _ROUNDING:
+            many = not isinstance(off, float | ManyAsOne)
+            if (off.max(initial=0.0) if many else off) > _ROUNDING:
                 raise InputError(f"p{player} and q{player} do not add up to 1; correct one of them")
         for name, chance in (("p", p), ("q", q)):
             own = copy(chance)  # so that a later change to the caller's array changes nothing here
-            if not isinstance(own, float):
+            if not isinstance(own, float | ManyAsOne):
                 own.flags.writeable = False
             object.__setattr__(self, name + player, own)
 
