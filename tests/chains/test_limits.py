@@ -55,7 +55,7 @@ def test_every_start_of_random_chains(seed):
         periods = [oracle.period(chain, states) for states in reached]
         assert limit.period == np.lcm.reduce(periods)
         assert limit.is_cesaro == (limit.period > 1)
-        assert limit.residual is None
+        assert (limit.bound or 0.0) < 1e-15
         visits = expected_visits(chain, start)
         for j, x in oracle.visits(columns, density).items():
             assert visits[j] == pytest.approx(float(x), rel=5e-15)
@@ -112,11 +112,12 @@ def test_classes_out_of_reach_are_not_solved(monkeypatch):
     matrix[[0, 70], 77] = 0.5
     chain = Chain(range(78), csc_array(matrix))
 
-    def fail(*_args):
-        raise AssertionError("a class out of reach was factored")
+    class Fail(factorisation.CertifiedSolve):
+        def __init__(self, *_args, **_kinds):
+            raise AssertionError("a class out of reach was factored")
 
     monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    monkeypatch.setattr(factorisation, "DecimalElimination", fail)
+    monkeypatch.setattr(factorisation, "CertifiedSolve", Fail)
     assert stochastic_limit(chain, 71).probability[70:77] == pytest.approx(np.full(7, 1 / 7))
     with pytest.raises(AssertionError, match="out of reach"):
         stochastic_limit(chain, 77)
@@ -131,21 +132,17 @@ def torus(k, rng):
     return Chain(range(k * k), csc_array((chances, (rows, columns))), 0)
 
 
-def test_a_large_class_carries_its_residual_unless_certified(monkeypatch):
+@pytest.mark.parametrize("much", [-1.0, np.inf])
+def test_a_large_class_carries_a_proved_bound(monkeypatch, much):
     chain = torus(16, np.random.default_rng(2))
     exact = stochastic_limit(chain)
-    assert exact.residual is None
-    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
-    monkeypatch.setattr("evenbreak.chains.certified_lu.GUARANTEED", 0.0)
-    carried = stochastic_limit(Chain(chain.states, chain.matrix, 0))
-    assert 0 < carried.residual < 1e-15
-    assert carried.probability == pytest.approx(exact.probability, rel=1e-12)
-    monkeypatch.undo()
-    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
-    certified = stochastic_limit(Chain(chain.states, chain.matrix, 0))
-    if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # else it cannot be certified
-        assert certified.residual is None
-    assert certified.probability == pytest.approx(exact.probability, rel=1e-12)
+    assert exact.bound is None
+    monkeypatch.setattr(factorisation, "_LITTLE_WORK", -1.0)
+    monkeypatch.setattr(factorisation, "_MUCH_WORK", much)
+    proved = stochastic_limit(Chain(chain.states, chain.matrix, 0))
+    assert 0.0 < proved.bound < 5e-16
+    assert proved.probability == pytest.approx(exact.probability, rel=2e-14)
+    assert f"bound={proved.bound:.3g}" in repr(proved)
 
 
 @pytest.mark.parametrize("plain", [True, False])

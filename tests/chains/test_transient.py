@@ -17,34 +17,45 @@ from evenbreak.chains import (
     stochastic_limit,
     transient,
 )
-from evenbreak.chains.certified_lu import CertifiedSolve
+from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.decimal_elimination import DecimalElimination, decimal_law
 from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
 
-# name -> (arcs for plain Python, largest small class, width of a narrow band)
+
+class Refused(CertifiedSolve):
+    """Proves nothing."""
+
+    def __init__(self, *_, **__):
+        raise NotCertifiedError
+
+
+ALL = {"_DENSE": 0, "_NARROW": 0, "SMALL": 1}
 METHODS = {
-    "plain Python": (10**6, 64, 4),
-    "one substitution": (0, 64, 4),
-    "small classes up to 3": (0, 3, 0),
-    "decimal numbers": (0, 1, 100),
-    "fronts": (0, 1, 0),
+    "plain Python": {"plain": 10**6},
+    "one substitution": {"SMALL": 64},
+    "small classes up to 3": {**ALL, "SMALL": 3, "_LITTLE_WORK": np.inf},
+    "decimal numbers": {**ALL, "_NARROW": 100, "CertifiedSolve": Refused},
+    "fronts": {**ALL, "_LITTLE_WORK": np.inf},
+    "fronts, since nothing is proved": {**ALL, "_LITTLE_WORK": -1, "CertifiedSolve": Refused},
+    "factors, proved": {**ALL, "_LITTLE_WORK": -1},
+    "iterations, proved": {**ALL, "_LITTLE_WORK": -1, "_MUCH_WORK": -1},
 }
 
 
 @pytest.fixture(params=METHODS)
 def method(request, monkeypatch):
-    use(monkeypatch, *METHODS[request.param])
+    use(monkeypatch, **METHODS[request.param])
 
 
 each_method = pytest.mark.usefixtures("method")
 
 
-def use(monkeypatch, plain, small, narrow):
+def use(monkeypatch, plain=0, **plan):
     monkeypatch.setattr(transient, "_FEW_ARCS", plain)
-    monkeypatch.setattr(factorisation, "SMALL", small)
-    monkeypatch.setattr(factorisation, "_NARROW", narrow)
+    for name, value in plan.items():
+        monkeypatch.setattr(factorisation, name, value)
     # Fronts and blocks so small that a dozen states fill several.
     monkeypatch.setattr(dissection, "_LEAF", 3)
     monkeypatch.setattr(dense_elimination, "_ONE_BY_ONE", 2)
@@ -93,7 +104,7 @@ def test_visits_and_values(seed, decades):
     visits, values = exact_solves(chain, b)
     assert oracle.worst_relative_error(part.visits(b), visits) < 5e-15
     assert oracle.worst_relative_error(part.values(b), values) < 5e-15
-    assert part.residual is None
+    assert part.bound is None or part.bound < 5e-15
     both = np.column_stack((b, b[::-1]))
     assert part.visits(both)[:, 0] == pytest.approx(part.visits(b), rel=1e-14)
     assert part.values(both)[:, 1] == pytest.approx(part.values(b[::-1]), rel=1e-14)
@@ -105,24 +116,23 @@ def test_each_method_is_what_it_says(monkeypatch):
     chain = Chain(range(10), csc_array(np.block([[ring, np.zeros((9, 1))], [np.full(9, 0.25), 1]])))
     kinds = {}
     for name, settings in METHODS.items():
-        use(monkeypatch, *settings)
-        part = TransientPart(chain.arcs, np.arange(9))
-        part.visits(np.ones(9))
-        factor = part._factor
-        pieces = getattr(factor, "_pieces", [])
-        kinds[name] = type(pieces[0].solver) if pieces else type(factor)
+        with monkeypatch.context() as patch:
+            use(patch, **settings)
+            part = TransientPart(chain.arcs, np.arange(9))
+            part.visits(np.ones(9))
+            factor = part._factor
+            pieces = getattr(factor, "_pieces", [])
+            kinds[name] = type(pieces[0].solver) if pieces else type(factor)
     assert kinds == {
         "plain Python": transient._InPlainPython,
         "one substitution": TriangularSolve,
         "small classes up to 3": FrontElimination,
         "decimal numbers": DecimalElimination,
         "fronts": FrontElimination,
+        "fronts, since nothing is proved": FrontElimination,
+        "factors, proved": CertifiedSolve,
+        "iterations, proved": CertifiedSolve,
     }
-    use(monkeypatch, 0, 1, 0)
-    monkeypatch.setattr(factorisation, "_MOST_ENTRIES", 0)
-    part = TransientPart(chain.arcs, np.arange(9))
-    part.visits(np.ones(9))
-    assert type(part._factor._pieces[0].solver) is CertifiedSolve
 
 
 def test_a_part_of_the_states_leaks_to_the_others():
@@ -136,7 +146,7 @@ def test_no_transient_states():
     part = Chain(range(2), csc_array(np.eye(2))).transient
     assert part.visits(np.zeros(0)).shape == (0,)
     assert part.values(np.zeros((0, 3))).shape == (0, 3)
-    assert part.residual is None
+    assert part.bound is None
 
 
 @each_method

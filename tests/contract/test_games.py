@@ -104,7 +104,7 @@ def test_all_routes_give_the_same_chain(game: Game) -> None:
 
 def test_the_limit_lies_where_the_game_ends_or_goes_on_for_ever(game: Game) -> None:
     limit = stochastic_limit(chain_of(game))
-    assert limit.residual is None
+    assert limit.bound is None
     assert limit.probability.sum() == pytest.approx(1.0, abs=1e-14)
     assert (limit.probability >= 0.0).all()
     ended = [p for state, p in limit.to_dict().items() if not game.moves(state)]

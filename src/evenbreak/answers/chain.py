@@ -45,11 +45,6 @@ def chain_answer(
     """
     limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = mean_steps_of(chain)
-    if limit.residual is not None and via != "eigen":
-        doubts.append(
-            f"the limit was solved with residual {limit.residual:.3g}, without a bound for each "
-            "entry"
-        )
     states, structure = list(chain.states), chain.structure
     columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
     values: list[Sequence[Any]] = [states, structure.kinds]
@@ -82,7 +77,7 @@ def chain_answer(
             "states": {state: {"class": label, "kind": kind} for state, label, kind in classes},
             "period": limit.period,
             "mean_steps": mean_steps,
-            "residual": limit.residual,
+            "bound": limit.bound,
             "steps": steps,
             "density": density,
         },

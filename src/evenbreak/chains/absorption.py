@@ -42,10 +42,7 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Se
     """Return the probability of ending in each closed class, given the start, as a Series.
 
     A class of one state has that state as its label, a larger one the tuple of its states. Each
-    entry is right to about machine precision, unless play passes through a transient class
-    too large for elimination (see `factorisation`). Then it is certified to a relative
-    error of 1e-6 at least, and if that is all that can be said, `chain.transient.residual`
-    is not None but says by how much the equations are missed.
+    entry is right to about machine precision (see `stochastic_limit`).
 
     With `exact` the entries are fractions (see `stochastic_limit`).
 
@@ -83,8 +80,7 @@ def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
     """Return the expected number of steps begun in each state, given the start, as a Series.
 
     Transient states have a finite number. Recurrent states have inf if they can be reached,
-    otherwise 0. The accuracy is that of `absorption`, with the residual in
-    `chain.transient.residual`.
+    otherwise 0. The accuracy is that of `absorption`.
 
     Raises
     ------

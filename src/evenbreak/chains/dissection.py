@@ -53,6 +53,12 @@ class Front(NamedTuple):
         """The numbers that its factors hold."""
         return (self.last - self.first) * (self.last - self.first + 2 * len(self.later))
 
+    @property
+    def work(self) -> float:
+        """About the multiplications that its elimination takes."""
+        size = self.last - self.first
+        return float(size * (size + len(self.later)) ** 2)
+
 
 def neighbours(T: csc_array) -> csc_array:
     """Return which states are joined by an arc either way, each with itself; entries are 1."""

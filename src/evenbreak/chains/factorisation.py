@@ -4,14 +4,14 @@
 |---|---|---|
 | one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
 | a line of states | cyclic reduction (`line_elimination`) | linear |
-| band of up to 4 | elimination in decimal numbers (`decimal_elimination`) | linear |
-| others, up to 40 million factors | in fronts of a dissection (`front_elimination`) | see below |
-| larger | sparse LU, certified or with its residual (`certified_lu`) | as SuperLU |
+| some hundreds of states, or dense | elimination in fronts (`front_elimination`) | cubic |
+| cut in two by few states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid |
+| others | iteration on aggregates, every entry proved (`certified`) | about linear |
 
-In fronts, a square grid of n states takes time n^1.5 and memory n log n; a graph that no few states
-cut in two takes n^3 and n^2. Consecutive small classes are solved together. Where hundreds of
-states in a row have equal arcs, doubles repeat the same rounding error at each of them, so long
-and narrow classes are solved with more digits.
+Consecutive small classes are solved together. Where an answer cannot be proved, since the class is
+left so rarely that twice the digits of a double do not suffice, it is eliminated without
+subtraction, which always succeeds: in fronts, up to 40 million factors, or in decimal numbers if
+the class is long and narrow, since doubles then repeat the same rounding error at each state.
 """
 
 from __future__ import annotations
@@ -24,22 +24,28 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import arcs_of, put_back, sums
-from evenbreak.chains.certified_lu import CertifiedSolve
+from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.decimal_elimination import DecimalElimination
 from evenbreak.chains.dissection import bandwidth, dissect, neighbours
 from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.triangular_solve import TriangularSolve
+from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Arcs, Places
+    from evenbreak.chains.dissection import Front
 
 SMALL = 64
 _MOST_ENTRIES = 40_000_000
 """Of factors in fronts: those of some 6,000 states with arcs to all others, or a 500 x 500 grid."""
+_LITTLE_WORK, _MUCH_WORK = 2e7, 1e10
+"""Multiplications that fronts do at once, and from which on a factorisation is too slow."""
+_DENSE = 4
+"""A class is dense if it has an arc for one in so many pairs of states."""
 _NARROW = 4
 
 
@@ -77,23 +83,66 @@ class _Piece:
     def solver(self) -> _Solver:
         """The factors of the piece, made when first used."""
         size = self.last - self.first
-        leak = self._leak
-        if len(self.chances):
-            leak = leak + sums(self.sources - self.first, self.chances, size)
         if len(self._offsets) > 2 or size <= SMALL:
-            return TriangularSolve(*self._inner, leak, self._outflow, self._offsets)
-        sources, targets, chances = self._inner
-        T = csc_array((chances, (targets, sources)), shape=(size, size))
-        order = line_order(T)
+            return TriangularSolve(*self._inner, self._leaks, self._outflow, self._offsets)
+        order = line_order(self._arcs)
         if order is not None:
-            return LineElimination(T, leak, order)
-        graph = neighbours(T)
-        if bandwidth(graph) <= _NARROW:
-            return DecimalElimination(arcs_of(T), leak)
-        order, fronts = dissect(graph)
-        if sum(front.entries for front in fronts) <= _MOST_ENTRIES:
-            return FrontElimination(T, leak, order, fronts)
-        return CertifiedSolve(T, leak)
+            return LineElimination(self._arcs, self._leaks, order)
+        work = sum(front.work for front in self._fronts[1])
+        is_dense = size * size <= _DENSE * self._arcs.nnz
+        if (work <= _LITTLE_WORK or is_dense) and not self._is_narrow:
+            return self._eliminated()
+        return CertifiedSolve(self._arcs, self._leaks, factored=work <= _MUCH_WORK)
+
+    def solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+        """Return (I - T)^-1 b (transposed on request), for b >= 0 of shape (m, k)."""
+        try:
+            return self.solver.values(b) if transposed else self.solver.visits(b)
+        except NotCertifiedError:
+            self.solver = self._eliminated()
+        return self.solver.values(b) if transposed else self.solver.visits(b)
+
+    @cached_property
+    def _leaks(self) -> NDArray[np.float64]:
+        """The chance of leaving the piece, given each state."""
+        if not len(self.chances):
+            return self._leak
+        return self._leak + sums(self.sources - self.first, self.chances, self.last - self.first)
+
+    @cached_property
+    def _arcs(self) -> csc_array:
+        sources, targets, chances = self._inner
+        size = self.last - self.first
+        return csc_array((chances, (targets, sources)), shape=(size, size))
+
+    @cached_property
+    def _is_narrow(self) -> bool:
+        return bandwidth(neighbours(self._arcs)) <= _NARROW
+
+    @cached_property
+    def _fronts(self) -> tuple[Places, list[Front]]:
+        return dissect(neighbours(self._arcs))
+
+    def _eliminated(self) -> _Solver:
+        """Return the factors without subtraction.
+
+        Raises
+        ------
+        AccuracyError
+            if they would be too many.
+        """
+        order, fronts = self._fronts
+        if self._is_narrow:
+            return DecimalElimination(arcs_of(self._arcs), self._leaks)
+        entries = sum(front.entries for front in fronts)
+        if entries > _MOST_ENTRIES:
+            raise AccuracyError(
+                f"a class of {len(order):,} states is left too rarely to prove an answer in floats "
+                f"and no few states cut it apart: its factors would be {entries:,} numbers in "
+                f"{entries * 8e-9:.2g} GB, and {_MOST_ENTRIES:,} are allowed; join some of its "
+                "states or split the chain"
+            )
+        return FrontElimination(self._arcs, self._leaks, order, fronts)
 
 
 class Factorisation:
@@ -140,11 +189,17 @@ class Factorisation:
             self._pieces.append(piece)
 
     @property
-    def residual(self) -> float | None:
-        """The largest residual so far of an answer that could not be certified, or None."""
-        solvers = (p.__dict__.get("solver") for p in self._pieces)
-        residuals = [s.residual for s in solvers if isinstance(s, CertifiedSolve)]
-        return max((r for r in residuals if r is not None), default=None)
+    def bound(self) -> float | None:
+        """A proved bound on the relative errors so far; None where elimination needed none."""
+        solvers = (piece.__dict__.get("solver") for piece in self._pieces)
+        errors = [solver.error for solver in solvers if isinstance(solver, CertifiedSolve)]
+        return sum(errors) if errors else None
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether all answers are proved, so that underflow has not touched them unnoticed."""
+        solvers = [p.solver for p in self._pieces if "solver" in p.__dict__]
+        return all(isinstance(solver, CertifiedSolve) for solver in solvers)
 
     @property
     def pivots(self) -> NDArray[np.float64]:
@@ -164,7 +219,7 @@ class Factorisation:
         for piece in self._pieces:
             part = f[piece.first : piece.last]
             if part.any():
-                part[:] = piece.solver.visits(part)
+                part[:] = piece.solved(part, transposed=False)
                 _add(f, piece.targets, f[piece.sources] * piece.chances[:, None])
         return f if self.order is None else put_back(f, self.order)
 
@@ -175,7 +230,7 @@ class Factorisation:
             _add(y, piece.sources, y[piece.targets] * piece.chances[:, None])
             part = y[piece.first : piece.last]
             if part.any():
-                part[:] = piece.solver.values(part)
+                part[:] = piece.solved(part, transposed=True)
         return y if self.order is None else put_back(y, self.order)
 
 

@@ -28,9 +28,6 @@ def limit_matrix(chain: Chain) -> csc_array:
     For states in a line, with absorbing states at its ends, there is a closed form. Otherwise
     time and memory are those of one solve for each closed class that is entered from outside,
     and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
-    Where only a sparse factorisation helps, the residual of the chances of ending in a class
-    is in `chain.transient.residual` afterwards; that of the law of a closed class is in
-    `stochastic_limit(chain, state).residual` for a state of the class.
 
     Raises
     ------

@@ -57,10 +57,10 @@ class Limit(Mapping[Hashable, float]):
         shape (n,): the limit of each state, given the start.
     period
         the least common multiple of the periods of the closed classes reached.
-    residual
-        None if each entry is right to about machine precision (see `stochastic_limit`);
-        otherwise the most by which an equation of a large class is missed, in units of the
-        largest entry of the right-hand side.
+    bound
+        a proved bound: on the relative error of each entry, after solves whose residual was
+        measured (see `stochastic_limit`); by eigenvectors, on the sum of the absolute errors. None
+        after elimination without subtraction, which needs none.
 
     >>> from evenbreak.chains import chain_of
     >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
@@ -73,7 +73,7 @@ class Limit(Mapping[Hashable, float]):
     chain: Chain
     probability: NDArray[np.float64]
     period: int = 1
-    residual: float | None = None
+    bound: float | None = None
 
     @property
     def states(self) -> Sequence[Hashable]:
@@ -114,9 +114,9 @@ class Limit(Mapping[Hashable, float]):
         likeliest = np.argsort(-self.probability, kind="stable")[:_SHOWN].tolist()
         shown = [f"{self.states[i]!r}: {self.probability[i]:.6g}" for i in likeliest]
         more = ", ..." if len(self) > _SHOWN else ""
-        missed = "" if self.residual is None else f", residual={self.residual:.3g}"
+        proved = "" if self.bound is None else f", bound={self.bound:.3g}"
         return (
-            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{missed}: "
+            f"<Limit over {len(self)} state{'s' * (len(self) != 1)}, period={self.period}{proved}: "
             f"{', '.join(shown)}{more}>"
         )
 
@@ -203,12 +203,13 @@ def stochastic_limit(
     -----
     However stiff the chain, each entry is right to a few units in the last place times the
     length of the path to it (seen: 2e-14 over a line of 20,000 states, 4e-15 over 5,000
-    states with arcs at random). The exceptions are classes of more than some
-    6,000 states (a grid, 250,000) that no few states cut in two: there a sparse factorisation
-    is certified, and if the certificate is worse than 1e-12 the limit carries its `residual`.
+    states with arcs at random). In classes of more than some hundreds of states that bound on the
+    relative error of every entry is proved by the residual, and the limit carries it: `bound` is a
+    few times 1e-16. One above 1e-14 is refused.
 
-    Time and memory are linear in the number of arcs if the classes are single states, lines
-    or at most 64 states; see `factorisation` for the others. Reference: O'Cinneide 1993.
+    Time and memory are about linear in the number of arcs, whatever the graph, except where a large
+    class is left so rarely that nothing can be proved; see `factorisation`. Reference: O'Cinneide
+    1993.
 
     >>> from evenbreak.chains import chain_of
     >>> miss_forever = chain_of([("S1", "S2", 1.0), ("S2", "S1", 1.0)])
@@ -240,15 +241,16 @@ def stochastic_limit(
     if structure.count == 1:
         if at is None:
             chain.density(start)  # refuses what is no start
-        law, residual = laws_of(chain, structure.closed)
-        return Limit(chain, law, int(structure.periods[0]), residual)
+        law, bound = laws_of(chain, structure.closed)
+        return Limit(chain, law, int(structure.periods[0]), bound)
     mass = masses_of(chain, start)
-    law, residual = laws_of(chain, mass > 0.0)
+    law, bound = laws_of(chain, mass > 0.0)
     law *= mass[structure.label]
     period = _period_reached(chain, start)
     if "transient" in chain.__dict__:
-        residual = largest(chain.transient.residual, residual)
-    return Limit(chain, law, period, residual)
+        bounds = [part for part in (chain.transient.bound, bound) if part is not None]
+        bound = sum(bounds) if bounds else None
+    return Limit(chain, law, period, bound)
 
 
 def _limit_in_line(chain: Chain, at: int | None) -> Limit:
@@ -295,8 +297,3 @@ def _period_reached(chain: Chain, start: Any) -> int:
     """Return the least common multiple of the periods of the closed classes reached."""
     reached = closed_classes_reached(chain, chain.density(start))
     return math.lcm(*chain.structure.periods[reached].tolist())
-
-
-def largest(*residuals: float | None) -> float | None:
-    """Return the largest of the residuals that are not None, or None."""
-    return max((r for r in residuals if r is not None), default=None)

@@ -64,10 +64,6 @@ class PassageTime:
         The variance is inf if it is larger than any float.
     certain
         whether the graph says that the target is always reached; then `p_never` is exactly 0.
-    residual
-        None if these are right to about machine precision; otherwise, after a large class
-        that only a sparse factorisation can solve, by how much its equations are missed
-        (see `TransientPart.residual`).
 
     Notes
     -----
@@ -80,7 +76,6 @@ class PassageTime:
     mean_if_reached: float | None
     variance_if_reached: float | None
     certain: bool
-    residual: float | None
     _at_once: float = field(repr=False)
     _v: NDArray[np.float64] = field(repr=False)
     _chain: Chain = field(repr=False)
@@ -324,7 +319,6 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         mean_if_reached=mean,
         variance_if_reached=variance,
         certain=certain,
-        residual=part.residual,
         _at_once=float(v[ends].sum()),
         _v=v[states],
         _chain=chain,

@@ -57,8 +57,7 @@ def long_run_reward(
         if a state or arc is unknown, a reward is not a finite number, or the start is
         neither a state nor a density.
     AccuracyError
-        if the limit cannot be guaranteed. (For a large class that only a sparse
-        factorisation can solve, `stochastic_limit` reports the residual.)
+        if the limit cannot be guaranteed.
 
     Notes
     -----

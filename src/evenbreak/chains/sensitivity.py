@@ -28,7 +28,7 @@ from scipy.sparse import csc_array
 from evenbreak.arrays import array_values
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.limits import largest, stochastic_limit
+from evenbreak.chains.limits import stochastic_limit
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
@@ -68,15 +68,11 @@ class Sensitivity:
         shape (n, n), sparse, with the arcs of the chain: entry [i, j] is the derivative of
         `value` with respect to the probability of the arc from j to i, taken from the other
         arcs of j in proportion; 0 if j has no other arc.
-    residual
-        None if the solves behind these are right to about machine precision; otherwise the
-        largest residual, as in `Limit`.
     """
 
     chain: Chain
     value: float
     matrix: csc_array
-    residual: float | None
     _slopes: _Slopes = field(repr=False)
 
     def __getitem__(self, arc: tuple[Hashable, Hashable]) -> float:
@@ -185,13 +181,12 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     ends[part.states] = _signed_values(part, entered[part.states])
     forward = limit.probability.copy()
     forward[part.states] = part.visits(chain.density(start)[part.states])
-    relative, missed = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
+    relative = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
     slopes = _Slopes(recurrent, forward, ends, relative)
     return Sensitivity(
         chain=chain,
         value=float((limit.probability * c).sum()),
         matrix=_in_proportion(chain, slopes),
-        residual=largest(limit.residual, part.residual, missed),
         _slopes=slopes,
     )
 
@@ -201,21 +196,15 @@ def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.fl
     return np.asarray(part.values(np.maximum(r, 0.0)) - part.values(np.maximum(-r, 0.0)))
 
 
-def _relative_values(
-    chain: Chain, surplus: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], float | None]:
-    """Return h with (I - M^T) h = surplus on closed classes, 0 in their first states.
-
-    And the residual of the solve, as `TransientPart.residual`.
-    """
+def _relative_values(chain: Chain, surplus: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return h with (I - M^T) h = surplus on closed classes, 0 in their first states."""
     structure = chain.structure
     rest = structure.recurrent.copy()
     rest[structure.order[structure.offsets[:-1][structure.closed]]] = False
     states = np.flatnonzero(rest)
     h = np.zeros(len(chain))
-    part = TransientPart(chain.arcs, states)
-    h[states] = _signed_values(part, surplus[states])
-    return h, part.residual
+    h[states] = _signed_values(TransientPart(chain.arcs, states), surplus[states])
+    return h
 
 
 def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:

@@ -22,6 +22,7 @@ from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.certified import spread
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
 from evenbreak.chains.dense_elimination import factored
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 _SMALL, _MOST_ENTRIES = 64, 40_000_000
 """A dense array is best for so few states, or if a quarter of its entries are arcs."""
+_LARGE = 500
+"""Classes of so many states may be solved by iteration."""
 _FAR = 1e290
 """Numbers so far apart are left to the general way, which knows what underflow costs."""
 
@@ -67,7 +70,7 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
 
 
 def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float64], float | None]:
-    """Return the laws of those of `classes` that are closed, and the residual if there is one.
+    """Return the laws of those of `classes` that are closed, and a bound if there is one.
 
     One state of each class is cut out; the visits to the others between two visits to it
     are proportional to the law.
@@ -80,17 +83,22 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     wanted = classes & structure.closed
     law = np.zeros(len(chain))
     cut = structure.order[structure.offsets[:-1][wanted]]
+    for k in np.flatnonzero(np.diff(structure.offsets)[wanted] > _LARGE).tolist():
+        # Cut where the class spends much of its time, the others are soon left.
+        members = np.sort(structure.members(int(np.flatnonzero(wanted)[k])))
+        arcs, _ = chain.arcs.among(members)
+        cut[k] = members[spread(arcs.matrix(), arcs.outflow).argmax()]
     law[cut] = 1.0
     inside = wanted[structure.label]
     rest = inside.copy()
     rest[cut] = False
-    residual = None
+    bound = None
     if rest.any():
         states = np.flatnonzero(rest)
         part = TransientPart(chain.arcs, states)
         x, doubtful = part.attempt((chain.arcs.matrix() @ law)[states, None])
         law[states] = x[:, 0]
-        residual = part.residual
+        bound = part.bound
         for label in np.unique(structure.label[states[doubtful[:, 0]]]):
             members = structure.members(label)
             law[members] = _law_of(chain.arcs.among(members)[0])
@@ -100,7 +108,7 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     law[inside] /= top[structure.label[inside]]
     total = sums(structure.label[inside], law[inside], structure.count)
     law[inside] /= total[structure.label[inside]]
-    return law, residual
+    return law, bound
 
 
 def is_dense(arcs: Arcs) -> bool:

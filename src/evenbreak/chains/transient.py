@@ -77,14 +77,14 @@ class TransientPart:
         return self._factor.values(np.ones((len(self.states), 1)))[:, 0]
 
     @property
-    def residual(self) -> float | None:
-        """None if every entry of the answers so far is right to about machine precision.
+    def bound(self) -> float | None:
+        """A proved bound on the relative errors of the answers so far.
 
-        Otherwise, after a class too large for elimination that could not be certified: the
-        largest entry of b - (I - T) x, in units of the largest entry of b.
+        None if all classes were eliminated without subtraction: then every entry is right to a few
+        units in the last place times the length of the paths to it.
         """
         factor = self.__dict__.get("_factor")
-        return None if factor is None else factor.residual
+        return None if factor is None else factor.bound
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b: the expected visits to each state, given the start density b.
@@ -158,11 +158,10 @@ class TransientPart:
         """
         try:
             with np.errstate(all="ignore"):
-                if transposed:
-                    x, gain = self._factor.values(b), self._steps
-                else:
-                    x = self._factor.visits(b)
-                    gain = 1.0 / self._factor.pivots
+                x = self._factor.values(b) if transposed else self._factor.visits(b)
+                if self._factor.is_proved and x.max() < np.inf:
+                    return x, np.zeros(b.shape, dtype=bool)
+                gain = self._steps if transposed else 1.0 / self._factor.pivots
                 doubtful = where_doubtful(x, gain)
         except (np.linalg.LinAlgError, ZeroDivisionError):
             # A pivot, a sum of positive arcs, was smaller than any float.
@@ -200,7 +199,7 @@ class TransientPart:
 class _InPlainPython:
     """Elimination with a dictionary for each state: the fastest for a few dozen states."""
 
-    residual = None
+    bound, is_proved = None, False
 
     def __init__(self, arcs: Arcs, leak: NDArray[np.float64]) -> None:
         self._elimination = Elimination(rows_of(arcs), leak.tolist())

@@ -74,7 +74,7 @@ def test_json_keys(answer):
         "states",
         "period",
         "mean_steps",
-        "residual",
+        "bound",
         "steps",
         "density",
         "probabilities",
@@ -82,7 +82,7 @@ def test_json_keys(answer):
     assert (told["steps"], told["density"]) == (None, None)
     assert told["states"]["S2"] == {"class": told["states"]["S1"]["class"], "kind": "transient"}
     assert told["states"]["W"]["kind"] == "absorbing"
-    assert (told["period"], told["residual"]) == (1, None)
+    assert (told["period"], told["bound"]) == (1, None)
     assert told["mean_steps"] == pytest.approx(1.7 / 0.44)
 
 

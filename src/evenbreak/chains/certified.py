@@ -1,0 +1,337 @@
+"""Solves of large classes, whose every entry comes with a proved bound on its relative error.
+
+A = D - T, for states that are all left in the end, is an M-matrix: its inverse has no negative
+entry. Hence, if some w >= 0 has A w >= 1, every x is within
+
+    |x - A^-1 b| <= w max |b - A x|,
+
+entry by entry. So it does not matter how x was found: here by a sparse LU factorisation or, where
+no few states cut the class in two and the factors would not fit, by Krylov iterations, on the
+aggregates of `aggregation` where plain ones are slow. Either is repeated on what is still missed.
+The residual is calculated in twice the precision of doubles, its own rounding errors are bounded,
+and the inequality for w is checked likewise.
+
+Unknowns and equations are scaled by powers of 2 so that every unknown is near 1 and every diagonal
+entry near 1. This is exact, it turns the bound into one on relative errors, and entries of any
+size, 1e-200 beside 1, are found alike: digits that one round cannot see are those that the next
+one, scaled anew, begins with.
+
+References: Varga 1962, Matrix Iterative Analysis, and Neumaier 1999 for bounds by M-matrices; Rump
+2010, "Verification methods"; van der Vorst 1992 for the iteration.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse.linalg import LinearOperator, bicgstab, splu
+
+from evenbreak.chains.aggregation import Aggregation
+from evenbreak.chains.double_double import ROUND, Pair, Rows, halves, product, two_product, two_sum
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from evenbreak.chains.arcs import Places
+
+    Floats = NDArray[np.float64]
+
+GUARANTEED = 1e-14
+"""Answers whose entries may be off by more than this, relatively, are not returned."""
+_SHARP = 2.0 * ROUND
+_NEAR = 2.0**-50
+"""What is missed when a bound is worth the work."""
+_SHARE = 1e-10
+_PLAIN, _AGGREGATED = 64, 60
+"""Iterations before aggregates are made, and with them."""
+_ROUNDS, _TRIES, _STALLS = 40, 6, 2
+_UNSEEN, _NEAR_ONE = -32, 3
+"""An unknown below this power of 2 is not seen in a round; one up to this power is near 1."""
+_TINY = 2.0**-1000
+_SPREAD = 64
+"""So many steps find the part of a class where it spends most of its time."""
+
+
+class NotCertifiedError(Exception):
+    """No approximation was found that could be proved right."""
+
+
+class CertifiedSolve:
+    """(I - T) solved for one class of states, each answer with a proved bound on its error.
+
+    Parameters
+    ----------
+    T
+        sparse, shape (m, m): the arcs within the class; no diagonal.
+    leak
+        shape (m,): the chance to leave the class, given the state; not all zero.
+    factored
+        whether a sparse factorisation fits.
+
+    Attributes
+    ----------
+    error
+        the largest bound on a relative error of the answers so far.
+    """
+
+    def __init__(self, T: csc_array, leak: Floats, *, factored: bool) -> None:
+        self._T = T
+        out = Rows(T.indptr).sum(T.data, np.zeros(len(T.data)))
+        high, low = two_sum(out.high, leak)
+        self._outflow = two_sum(high, low + out.low)
+        self.pivots = self._outflow.high
+        self.error = 0.0
+        self._factors = _Factors(T, self.pivots) if factored else None
+
+    def visits(self, b: Floats) -> Floats:
+        """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
+        return self._solved(self._forward, b)
+
+    def values(self, r: Floats) -> Floats:
+        """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
+        return self._solved(self._backward, r)
+
+    @cached_property
+    def _forward(self) -> _System:
+        factors = None if self._factors is None else self._factors.solve
+        return _System(csr_array(self._T), self._outflow, self._spread, self._even, factors)
+
+    @cached_property
+    def _backward(self) -> _System:
+        factors = None if self._factors is None else self._factors.solve_transposed
+        return _System(self._T.T, self._outflow, self._even, self._spread, factors)
+
+    @cached_property
+    def _even(self) -> Floats:
+        return np.ones(len(self.pivots))
+
+    @cached_property
+    def _spread(self) -> Floats:
+        return self._even if self._factors else spread(self._T, self.pivots)
+
+    def _solved(self, system: _System, b: Floats) -> Floats:
+        x = np.zeros_like(b)
+        for k in np.flatnonzero(b.any(axis=0)):
+            x[:, k], error = system.solve(b[:, k])
+            self.error = max(self.error, error)
+        return x
+
+
+def spread(T: csc_array, outflow: Floats) -> Floats:
+    """Return roughly the visits to each state after some steps from anywhere, the largest being 1.
+
+    Each state is left in a step or stays, with a chance of 1/2.
+
+    >>> spread(csc_array([[0.0, 0.25], [0.5, 0.0]]), np.array([0.5, 0.25])).round(3)
+    array([0.5, 1. ])
+    """
+    flow, step = np.ones(len(outflow)), 0.5 / outflow
+    for _ in range(_SPREAD):
+        flow = 0.5 * flow + T @ (step * flow)
+        flow /= flow.max()
+    visits = flow / outflow
+    return np.asarray(visits / visits.max())
+
+
+class _Factors:
+    """Sparse LU factors of A = diag(outflow) - T, as floats give them."""
+
+    def __init__(self, T: csc_array, outflow: Floats) -> None:
+        self._unit = np.ldexp(1.0, -np.frexp(outflow)[1])
+        A = csc_array((diags_array(outflow) - T) @ diags_array(self._unit))
+        try:
+            self._lu = splu(
+                A, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+            )
+        except RuntimeError:  # singular in floats
+            raise NotCertifiedError from None
+
+    def solve(self, b: Floats) -> Floats:
+        return np.asarray(self._unit * self._lu.solve(b))
+
+    def solve_transposed(self, b: Floats) -> Floats:
+        return np.asarray(self._lu.solve(self._unit * b, "T"))  # type: ignore[call-overload]
+
+
+class _System:
+    """A x = b for any b >= 0, with A = diag(outflow) - arcs.
+
+    Parameters
+    ----------
+    arcs
+        sparse, shape (m, m), nonnegative, no diagonal.
+    outflow
+        shape (m,) each: the diagonal of A.
+    right, left
+        shape (m,), positive: about the vectors to which A is closest to singular.
+    factors
+        returns A^-1 b as floats give it; None if the factors do not fit.
+    """
+
+    def __init__(
+        self,
+        arcs: csr_array,
+        outflow: Pair,
+        right: Floats,
+        left: Floats,
+        factors: Callable[[Floats], Floats] | None,
+    ) -> None:
+        self.arcs, self.outflow, self.left, self._right = arcs, outflow, left, right
+        self.factors, self.plain = factors, True
+        self.rows = Rows(arcs.indptr)
+
+    def solve(self, b: Floats) -> tuple[Floats, float]:
+        """Return A^-1 b > 0, and a bound on the relative error of every entry.
+
+        Raises
+        ------
+        NotCertifiedError
+            if no answer could be proved to `GUARANTEED`.
+        """
+        nothing = np.zeros(len(b))
+        with np.errstate(all="ignore"):  # what overflows is not proved
+            power = np.frexp(self._right)[1].astype(np.int64)
+            equations = _Scaled(self, power, np.ldexp(self._right, -power))
+            y, w, bound, last, stalls = Pair(nothing, nothing), None, np.inf, np.inf, 0
+            for _ in range(_ROUNDS):
+                residual, missed = equations.missed(y, np.ldexp(b, -equations.shift))
+                if missed <= _NEAR and y.high.min() > 0.0:
+                    w = equations.witness() if w is None else w
+                    bound = float((missed * w / y.high).max())
+                stalls += not missed <= last / 4.0
+                if bound <= _SHARP or stalls > _STALLS:
+                    break
+                last = missed
+                y = _sum(y, equations.solved(residual, _SHARE))
+                move = _moves(y.high)
+                if move.any():
+                    power = power + move
+                    y = Pair(*(np.ldexp(np.where(y.high > 0.0, part, 0.0), -move) for part in y))
+                    equations = _Scaled(self, power, np.maximum(y.high, 0.5))
+                    w, bound, last = None, np.inf, np.inf
+        if not bound <= GUARANTEED:
+            raise NotCertifiedError
+        return np.ldexp(y.high, power), bound + ROUND
+
+
+class _Scaled:
+    """The equations A x = b for x = 2^power y.
+
+    Parameters
+    ----------
+    system
+        the equations.
+    power
+        shape (m,): whole numbers.
+    about
+        shape (m,), positive: about what y is to be.
+    """
+
+    def __init__(self, system: _System, power: Places, about: Floats) -> None:
+        arcs = system.arcs
+        unit = np.frexp(system.outflow.high)[1]
+        self._power, self.shift = power, power + unit
+        shift = power[arcs.indices] - np.repeat(self.shift, np.diff(arcs.indptr))
+        self._diagonal = Pair(*(np.ldexp(part, -unit) for part in system.outflow))
+        self._arcs = csr_array(
+            (np.ldexp(arcs.data, shift), arcs.indices, arcs.indptr), shape=arcs.shape
+        )
+        self._halves = halves(self._arcs.data)
+        self._system, self._about = system, about
+
+    def missed(self, y: Pair, b: Floats) -> tuple[Floats, float]:
+        """Return b - A y for y >= 0, and at least its largest size."""
+        at, terms = self._arcs.indices, self._system.rows.terms
+        parts = halves(y.high)
+        flow = product(
+            self._arcs.data, self._halves, y.high[at], Pair(parts.high[at], parts.low[at])
+        )
+        into = self._system.rows.sum(flow.high, flow.low + self._arcs.data * y.low[at])
+        out = two_product(self._diagonal.high, y.high)
+        below = self._diagonal.high * y.low + self._diagonal.low * y.high
+        whole, lost = two_sum(into.high, b)
+        rest, more = two_sum(whole, -out.high)
+        residual = rest + ((lost + more) + (into.low - (out.low + below)))
+        rounding = 2.0 * (ROUND * (terms + 8)) ** 2 * (into.high + out.high + b)
+        size = (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + (terms + 8) * _TINY
+        return residual, float(size.max())
+
+    def witness(self) -> Floats:
+        """Return w > 0 with A w >= 1, proved.
+
+        Raises
+        ------
+        NotCertifiedError
+            if none is found.
+        """
+        w, nothing, two = (np.full(len(self.shift), value) for value in (0.0, 0.0, 2.0))
+        residual = two
+        for _ in range(_TRIES):
+            w = np.maximum(w + self.solved(residual, 1e-2), 0.0)
+            residual, missed = self.missed(Pair(w, nothing), two)
+            if missed <= 1.0:
+                return w
+        raise NotCertifiedError
+
+    def solved(self, b: Floats, share: float) -> Floats:
+        """Return y with A y = b, as floats give it, to a `share` of the size of b or more."""
+        if self._system.factors is not None:
+            top = int((np.frexp(b)[1] + self.shift).max())
+            x = self._system.factors(np.ldexp(b, self.shift - top))
+            return np.ldexp(x, top - self._power)
+        m, size = len(b), float(np.abs(b).max())
+        A = LinearOperator((m, m), matvec=self._times, dtype=np.float64)
+        # The iteration breaks down on a residual that few states have, and by an absolute measure.
+        b, y = b / size, np.random.default_rng(0).random(m)
+        if self._system.plain:
+            y, unfinished = bicgstab(A, b, y, rtol=share, maxiter=_PLAIN)
+            if not unfinished:
+                return size * y
+            self._system.plain = False
+        M = LinearOperator((m, m), matvec=self._aggregated, dtype=np.float64)
+        y, _ = bicgstab(A, b, y, rtol=share, maxiter=_AGGREGATED, M=M)
+        return size * y
+
+    def _times(self, y: Floats) -> Floats:
+        return np.asarray(self._diagonal.high * y - self._arcs @ y)
+
+    def _aggregated(self, b: Floats) -> Floats:
+        return self._about * self._aggregation(self._weight * b)
+
+    @cached_property
+    def _weight(self) -> Floats:
+        return np.ldexp(self._system.left, self.shift)
+
+    @cached_property
+    def _aggregation(self) -> Aggregation:
+        A = diags_array(self._diagonal.high) - self._arcs
+        try:
+            return Aggregation(csr_array(diags_array(self._weight) @ A @ diags_array(self._about)))
+        except RuntimeError:
+            raise NotCertifiedError from None
+
+
+def _sum(y: Pair, more: Floats) -> Pair:
+    high, lost = two_sum(y.high, more)
+    return two_sum(high, lost + y.low)
+
+
+def _moves(y: Floats) -> Places:
+    """Return the powers of 2 that bring all unknowns near 1; all 0 if they are near already.
+
+    Raises
+    ------
+    NotCertifiedError
+        if an unknown is not a number.
+    """
+    exponent = np.frexp(y)[1]
+    if not np.isfinite(y).all() or y.max() <= 0.0:
+        raise NotCertifiedError
+    unseen = int(exponent.max()) + _UNSEEN
+    move = np.where(y > 0.0, np.maximum(exponent, unseen), unseen)
+    return move if np.abs(move).max() > _NEAR_ONE else np.zeros_like(move)

@@ -1,0 +1,42 @@
+"""Sums and products in twice the precision of doubles, against fractions."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_array
+
+from evenbreak.chains import double_double
+from evenbreak.chains.double_double import ROUND, Rows, two_product, two_sum
+
+
+def numbers(rng, size):
+    return rng.standard_normal(size) * 10.0 ** rng.integers(-12, 12, size)
+
+
+def test_sums_and_products_of_two_are_exact():
+    rng = np.random.default_rng(1)
+    a, b = numbers(rng, 200), numbers(rng, 200)
+    for found, exact in ((two_sum(a, b), Fraction.__add__), (two_product(a, b), Fraction.__mul__)):
+        for high, low, x, y in zip(*found, a, b, strict=True):
+            assert Fraction(high) + Fraction(low) == exact(Fraction(x), Fraction(y))
+
+
+@pytest.mark.parametrize("few", [1, 16])
+def test_rows_are_summed_in_twice_the_precision(monkeypatch, few):
+    """Empty rows, short ones and one of all the entries, with nearly everything cancelling."""
+    monkeypatch.setattr(double_double, "_FEW_ROWS", few)
+    rng = np.random.default_rng(2)
+    dense = np.where(rng.random((40, 300)) < 0.02, numbers(rng, (40, 300)), 0.0)
+    dense[7], dense[8] = numbers(rng, 300), 0.0
+    dense[9, :100] = -dense[7, :100]
+    matrix = csr_array(dense)
+    errors = matrix.data * 2.0**-54
+    high, low = Rows(matrix.indptr).sum(matrix.data, errors)
+    for i in range(40):
+        row = slice(matrix.indptr[i], matrix.indptr[i + 1])
+        terms = [Fraction(x) for x in (*matrix.data[row], *errors[row])]
+        size = float(sum(abs(x) for x in terms))
+        missed = abs(float(Fraction(high[i]) + Fraction(low[i]) - sum(terms)))
+        assert missed <= ((len(terms) + 4) * ROUND) ** 2 * size
+        assert abs(low[i]) <= 2.0 * ROUND * abs(high[i])
