@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 _ONE_BY_ONE = 64
 """So few states are eliminated one by one."""
 _TERMS = 128
-_FEW, _SMALL, _LARGE = 7, 2**18, 2**24
-"""BLAS solves for so few columns, and multiplies so many numbers, without threads.
+_FEW, _SMALL, _LARGE = 1000, 2**18, 2**24
+"""BLAS solves for so few numbers, and multiplies so many, without waking threads.
 
 Waking threads for small matrices can take a hundred times as long as the work itself when the
 cores are busy. From `_LARGE` multiplications on, threads are worth it.
@@ -133,7 +133,8 @@ def solved(block: Matrix, B: Matrix, part: str, *, transposed: bool = False) -> 
     """Return L^-1 B or U^-1 B for a factored block (transposed on request); B may be used up."""
     B = np.asfortranarray(B)
     lower, columns = part == "L", B.shape[1]
-    step = columns if block.size * columns >= _LARGE else _FEW
+    few = _FEW // max(len(block), 1)
+    step = few if few and block.size * columns < _LARGE else columns
     for k in range(0, columns, step):
         right = B[:, k : k + step]
         dtrsm(1.0, block, right, lower=lower, diag=not lower, trans_a=transposed, overwrite_b=1)

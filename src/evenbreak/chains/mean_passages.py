@@ -239,7 +239,7 @@ def _by_halves(A: Matrix) -> Matrix:
         watched = np.concatenate((A[here, here], A[-1:, here]))
         within = _by_halves(less(watched, P, A[gone, here]))
         means[here, here] = within
-        means[here, gone] = -P[-1] - within @ P[:-1]
+        means[here, gone] = less(np.tile(-P[-1], (len(within), 1)), within, P[:-1])
     return means
 
 
