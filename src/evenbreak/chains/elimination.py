@@ -80,7 +80,7 @@ class Elimination:
                     f"these {len(leak)} states span more decades than floats do, and are too "
                     "many to eliminate in decimal numbers; split the chain or scale its arcs"
                 )
-            pivot = self.pivot(k, sum(out.values(), leak[k]))
+            pivot = sum(out.values(), leak[k])
             self.steps.append((k, pivot, out, back))
             for i in out:
                 del into[i][k]
@@ -94,10 +94,6 @@ class Elimination:
                         row[i] = into[i][j] = row.get(i, 0) + share * onward
             for j in out.keys() | back.keys():
                 heapq.heappush(heap, (len(arcs[j]) * len(into[j]), j))
-
-    def pivot(self, k: int, outflow: Any) -> Any:  # noqa: ARG002
-        """Return what to divide by for state k, given what leaves it."""
-        return outflow
 
     @property
     def pivots(self) -> list[Any]:

@@ -7,6 +7,7 @@ arrays of one shape, or fractions.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any
 
@@ -30,22 +31,6 @@ def ratio(x: Any, y: Any) -> Any:
     return np.divide(x, y, out=np.zeros(y.shape), where=y > 0.0)
 
 
-class _Elimination(Elimination):
-    """Elimination of states, some of which may never be left (in arrays, for some entries)."""
-
-    def __init__(self, arcs: list[dict[int, Any]], leaks: list[Any]) -> None:
-        self.stays: dict[int, Any] = {}
-        super().__init__(arcs, leaks)
-
-    def pivot(self, k: int, outflow: Any) -> Any:
-        """Return the outflow, and 1 where it is 0, which is kept in `stays`."""
-        stays = outflow == 0.0
-        if stays is True or (stays is not False and stays.any()):
-            self.stays[k] = stays
-            return outflow + stays
-        return outflow
-
-
 class ScoreChain:
     """The absorbing chain of a match's scores, solved for any rewards.
 
@@ -61,15 +46,18 @@ class ScoreChain:
     """
 
     def __init__(self, rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> None:
+        endless = _endless(rows)
         # The states farthest from the start first, so that ties are eliminated from the ends.
         self._place = {state: k for k, state in enumerate(reversed(rows))}
         self._ends: list[dict[Hashable, Any]] = []
         among: list[dict[int, Any]] = []
         for state in self._place:
             row = {t: chance for t, chance in rows[state].items() if t != state}
+            if state in endless:
+                row[NEVER] = row.get(NEVER, 0) + endless[state]
             self._ends.append({t: chance for t, chance in row.items() if t not in self._place})
             among.append({self._place[t]: chance for t, chance in row.items() if t in self._place})
-        self._factor = _Elimination(among, [sum(row.values()) for row in self._ends])
+        self._factor = Elimination(among, [sum(row.values()) for row in self._ends])
 
     def solve(
         self,
@@ -96,7 +84,31 @@ class ScoreChain:
         for k, row in enumerate(self._ends):
             for target in row.keys() & final.keys():
                 own[k] = own[k] + row[target] * final[target]
-        if NEVER in final:
-            for k, stays in self._factor.stays.items():
-                own[k] = own[k] + stays * final[NEVER]
         return {**final, **dict(zip(self._place, self._factor.values(own), strict=True))}
+
+
+def _endless(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> dict[Hashable, Any]:
+    """Return 1 for each state from which play cannot end; arrays where that differs by entry."""
+    before = defaultdict[Hashable, list[tuple[Hashable, Any]]](list)
+    for state, row in rows.items():
+        for target, chance in row.items():
+            if (possible := _truth(chance > 0)) is not False:
+                before[target].append((state, possible))
+    ends: dict[Hashable, Any] = dict.fromkeys(before.keys() - rows.keys(), True)
+    queue = list(ends)
+    while queue:
+        target = queue.pop()
+        for state, possible in before[target]:
+            known = ends.get(state, False)
+            reached = _truth(known | (possible & ends[target]))
+            if known is not True and _truth(reached == known) is not True:
+                ends[state] = reached
+                queue.append(state)
+    return {state: 1 - 1 * ends.get(state, False) for state in rows if ends.get(state) is not True}
+
+
+def _truth(answer: Any) -> Any:
+    """Return True or False for what is so everywhere or nowhere; else the array."""
+    if isinstance(answer, bool):
+        return answer
+    return True if answer.all() else answer if answer.any() else False
