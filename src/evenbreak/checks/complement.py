@@ -33,4 +33,5 @@ def complement(p: Any) -> Any:
     import numpy as np
 
     decimals = np.rint(left * _DECIMALS) / _DECIMALS
-    return np.where(1.0 - decimals == p, decimals, left)
+    # The difference is exact where the decimal is the right one. This is a choice without branches.
+    return left + (decimals - left) * (1.0 - decimals == p)
