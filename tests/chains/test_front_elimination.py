@@ -50,7 +50,7 @@ def of_kind(kind, rng):
 def test_equal_to_plain_elimination(monkeypatch, kind, small):
     if small:
         monkeypatch.setattr(dissection, "_LEAF", 8)
-        for name, value in [("_ONE_BY_ONE", 3), ("_TERMS", 5), ("_FEW", 2), ("_SMALL", 200)]:
+        for name, value in [("_ONE_BY_ONE", 3), ("_TERMS", 5), ("_FEW", 20), ("_SMALL", 200)]:
             monkeypatch.setattr(dense_elimination, name, value)
     rng = np.random.default_rng(5)
     T = of_kind(kind, rng)

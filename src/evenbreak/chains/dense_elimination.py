@@ -134,7 +134,7 @@ def solved(block: Matrix, B: Matrix, part: str, *, transposed: bool = False) -> 
     B = np.asfortranarray(B)
     lower, columns = part == "L", B.shape[1]
     few = _FEW // max(len(block), 1)
-    step = few if few and block.size * columns < _LARGE else columns
+    step = few if few and block.size * columns < _LARGE else max(columns, 1)
     for k in range(0, columns, step):
         right = B[:, k : k + step]
         dtrsm(1.0, block, right, lower=lower, diag=not lower, trans_a=transposed, overwrite_b=1)
