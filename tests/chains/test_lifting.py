@@ -8,6 +8,7 @@ import pytest
 from evenbreak.chains import chain_of, exact, lifting, steps_to_absorption, stochastic_limit
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.lifting import Lifting
+from evenbreak.errors import AccuracyError
 from tries import tries
 
 COMMON = [1, 97, 10**17, 2**1074]
@@ -84,3 +85,12 @@ def test_the_law_of_many_dense_states_balances():
     assert sum(law.values()) == 1
     for i in (0, n - 1):
         assert sum(law[j] * rows[j][i] for j in range(n)) == law[i]
+
+
+def test_too_many_states_are_refused(monkeypatch):
+    monkeypatch.setattr(lifting, "_MOST_STATES", 30)
+    weights = np.random.default_rng(3).integers(1, 10, (40, 40)).tolist()
+    rows = [[Fraction(w, sum(row)) for w in row] for row in weights]
+    chain = chain_of([(j, i, p) for j, row in enumerate(rows) for i, p in enumerate(row)], start=0)
+    with pytest.raises(AccuracyError, match=r"39 states have too many arcs .* leave exact out"):
+        stochastic_limit(chain, exact=True)

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 Rows = list[dict[int, Any]]
 Core = Callable[[Rows, list[Any]], Any]
 
-_FILL = 32
+_FILL = 8
 """States are eliminated in fractions as long as that makes no more than so many arcs a state."""
 
 

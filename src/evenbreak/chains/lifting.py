@@ -23,6 +23,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evenbreak.errors import AccuracyError
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -30,6 +32,12 @@ if TYPE_CHECKING:
 
 _BITS = 24
 """Primes and parts of entries have so many: 2^15 products of two of them fit 64 bits."""
+
+
+_STEP = 16
+"""So many products of two numbers of `_BITS` bits add up to a whole number that a float holds."""
+_MOST_STATES = 1000
+"""More are refused. So many take 5 to 15 seconds."""
 
 
 class Lifting:
@@ -41,10 +49,20 @@ class Lifting:
         `arcs[j][i]`: the probability of i, given j, for i other than j.
     leaks
         `leaks[j]`: the probability of leaving for good, given j.
+
+    Raises
+    ------
+    AccuracyError
+        if there are more than 1000 states.
     """
 
     def __init__(self, arcs: Sequence[Mapping[int, Fraction]], leaks: Sequence[Fraction]) -> None:
         n = len(leaks)
+        if n > _MOST_STATES:
+            raise AccuracyError(
+                f"{n} states have too many arcs among them for an answer in fractions; leave exact "
+                f"out, or split the chain until at most {_MOST_STATES} are left"
+            )
         A = np.zeros((n, n), dtype=object)
         self._whole = []
         for j, (row, leak) in enumerate(zip(arcs, leaks, strict=True)):
@@ -109,19 +127,30 @@ def _parts(A: NDArray[np.object_]) -> Iterator[Ints]:
 def _inverse(A: NDArray[np.object_]) -> tuple[int, Ints]:
     """Return a prime, and the inverse of A modulo that prime."""
     for prime in _primes():
-        W = (A % prime).astype(np.int64)
         try:
-            for k in range(len(W)):
-                row = W[k] * (d := pow(int(W[k, k]), -1, prime)) % prime
-                row[k] = d
-                column = W[:, k].copy()
-                column[k] = W[:, k] = 0
-                W = (W - column[:, None] * row) % prime
-                W[k] = row
+            return prime, _inverse_modulo(prime, (A % prime).astype(np.int64))
         except ValueError:  # a pivot is 0 modulo this prime
             continue
-        return prime, W
     raise AssertionError("unreachable")
+
+
+def _inverse_modulo(prime: int, W: Ints) -> Ints:
+    """Return the inverse of W modulo a prime, by Gauss-Jordan elimination of blocks."""
+    n = len(W)
+    if n == 1:
+        return np.array([[pow(int(W[0, 0]), -1, prime)]])
+    step = _STEP if n > _STEP else 1
+    for first in range(0, n, step):
+        block = slice(first, first + step)
+        inner = _inverse_modulo(prime, W[block, block].copy())
+        rows = inner @ W[block] % prime
+        rows[:, block] = inner
+        columns = W[:, block].astype(np.float64)
+        columns[block] = 0.0
+        W[:, block] = 0
+        W = (W - (columns @ rows.astype(np.float64)).astype(np.int64)) % prime
+        W[block] = rows
+    return W
 
 
 def _primes() -> Iterator[int]:

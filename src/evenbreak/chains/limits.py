@@ -184,15 +184,16 @@ def stochastic_limit(
         whether to calculate in fractions and return them, by state. A chance that `chain_of`
         got as a `Fraction` or as text is taken as it is, a float as the decimal that it
         prints. Matches, series and one-ball games keep a `Fraction`; drills and ladders hold
-        floats. Time and the length of the fractions grow with the number of states: for some
-        hundreds of states in a line, or some thousands of scores of a race.
+        floats. Time and the length of the fractions grow with the number of states: a thousand
+        states take a second or two, and so do some thousands of scores of a race.
 
     Raises
     ------
     AccuracyError
         if the limit cannot be guaranteed: it spans more decades than floats do in a class too
         large for decimal numbers, or a class is too large and mixes too slowly. By
-        eigenvectors, if the sum of the absolute errors may be above 1e-12.
+        eigenvectors, if the sum of the absolute errors may be above 1e-12. With `exact`, if more
+        than 1000 states have many arcs among them.
     ChainError
         if the start is neither a state nor a density, or the chain has no kernel; with
         `exact`, if the arcs of a state do not sum to exactly 1.
