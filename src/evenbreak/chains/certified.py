@@ -30,7 +30,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import LinearOperator, bicgstab, splu
 
 from evenbreak.chains.aggregation import Aggregation
-from evenbreak.chains.double_double import ROUND, Pair, Rows, halves, product, two_product, two_sum
+from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,7 +52,6 @@ _PLAIN, _AGGREGATED = 64, 60
 _ROUNDS, _TRIES, _STALLS = 40, 6, 2
 _UNSEEN, _NEAR_ONE = -32, 3
 """An unknown below this power of 2 is not seen in a round; one up to this power is near 1."""
-_TINY = 2.0**-1000
 _SPREAD = 64
 """So many steps find the part of a class where it spends most of its time."""
 
@@ -237,28 +236,16 @@ class _Scaled:
         unit = np.frexp(system.outflow.high)[1]
         self._power, self.shift = power, power + unit
         shift = power[arcs.indices] - np.repeat(self.shift, np.diff(arcs.indptr))
-        self._diagonal = Pair(*(np.ldexp(part, -unit) for part in system.outflow))
-        self._arcs = csr_array(
+        outflow = Pair(*(np.ldexp(part, -unit) for part in system.outflow))
+        scaled = csr_array(
             (np.ldexp(arcs.data, shift), arcs.indices, arcs.indptr), shape=arcs.shape
         )
-        self._halves = halves(self._arcs.data)
+        self._balance = Balance(scaled, outflow, system.rows)
         self._system, self._about = system, about
 
     def missed(self, y: Pair, b: Floats) -> tuple[Floats, float]:
         """Return b - A y for y >= 0, and at least its largest size."""
-        at, terms = self._arcs.indices, self._system.rows.terms
-        parts = halves(y.high)
-        flow = product(
-            self._arcs.data, self._halves, y.high[at], Pair(parts.high[at], parts.low[at])
-        )
-        into = self._system.rows.sum(flow.high, flow.low + self._arcs.data * y.low[at])
-        out = two_product(self._diagonal.high, y.high)
-        below = self._diagonal.high * y.low + self._diagonal.low * y.high
-        whole, lost = two_sum(into.high, b)
-        rest, more = two_sum(whole, -out.high)
-        residual = rest + ((lost + more) + (into.low - (out.low + below)))
-        rounding = 2.0 * (ROUND * (terms + 8)) ** 2 * (into.high + out.high + b)
-        size = (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + (terms + 8) * _TINY
+        residual, size = self._balance.missed(y, b)
         return residual, float(size.max())
 
     def witness(self) -> Floats:
@@ -298,7 +285,7 @@ class _Scaled:
         return size * y
 
     def _times(self, y: Floats) -> Floats:
-        return np.asarray(self._diagonal.high * y - self._arcs @ y)
+        return np.asarray(self._balance.outflow.high * y - self._balance.arcs @ y)
 
     def _aggregated(self, b: Floats) -> Floats:
         return self._about * self._aggregation(self._weight * b)
@@ -309,7 +296,7 @@ class _Scaled:
 
     @cached_property
     def _aggregation(self) -> Aggregation:
-        A = diags_array(self._diagonal.high) - self._arcs
+        A = diags_array(self._balance.outflow.high) - self._balance.arcs
         try:
             return Aggregation(csr_array(diags_array(self._weight) @ A @ diags_array(self._about)))
         except RuntimeError:

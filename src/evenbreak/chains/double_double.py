@@ -9,13 +9,13 @@ sum and dot product", theorem 5.1). No longer type of the platform is needed.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from scipy.sparse import csr_array
 
     from evenbreak.chains.arcs import Places
 
@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
 ROUND = 2.0**-53
 _SPLITTER = 2.0**27 + 1.0
-_FEW_ROWS = 16
-"""Rows with more terms than all but so few others are summed one by one."""
+_BITS = 3
+"""Numbers of terms are rounded up to so many binary digits."""
+_TINY = 2.0**-1000
+"""More than underflow takes from a product."""
 
 
 class Pair(NamedTuple):
@@ -71,8 +73,8 @@ def product(a: Floats, of_a: Pair, b: Floats, of_b: Pair) -> Pair:
 class Rows:
     """Sums over the rows of a sparse matrix, in twice the precision of doubles.
 
-    The k-th terms of all rows are added at once; the few rows with many more terms than the others
-    are added up by `math.fsum`.
+    Rows of about the same number of terms are added up together, one half of their terms to the
+    other half, again and again.
 
     Parameters
     ----------
@@ -81,26 +83,64 @@ class Rows:
     """
 
     def __init__(self, indptr: Places) -> None:
-        degree = np.diff(indptr)
-        self.terms = degree
-        self._rows = np.argsort(-degree, kind="stable")
-        most = np.arange(degree.max(initial=0))
-        counts = len(degree) - np.searchsorted(np.sort(degree), most, side="right")
-        self._counts = counts[counts >= min(_FEW_ROWS, len(degree))].tolist()
-        first = indptr[:-1][self._rows]
-        self._layers = [first[:count] + k for k, count in enumerate(self._counts)]
-        heavy = self._rows[: counts[len(self._counts)] if len(self._counts) < len(counts) else 0]
-        self._heavy = [(i, slice(indptr[i], indptr[i + 1])) for i in heavy.tolist()]
+        self.terms = np.diff(indptr)
+        unit = np.left_shift(1, np.maximum(np.frexp(self.terms)[1] - _BITS, 0))
+        width = -(-self.terms // unit) * unit
+        order = np.argsort(width, kind="stable")
+        ends = np.flatnonzero(np.diff(width[order], append=-1)) + 1
+        self._blocks = []
+        for rows in np.split(order, ends[:-1]):
+            term = np.arange(width[rows[0]] if len(rows) else 0)[:, None]
+            # What is missing in a row is a term that is 0, kept after the last entry.
+            entries = np.where(term < self.terms[rows], indptr[:-1][rows] + term, indptr[-1])
+            self._blocks.append((rows, entries))
 
     def sum(self, terms: Floats, errors: Floats) -> Pair:
         """Return the sum of the terms and of the errors beside them, by row; shapes (entries,)."""
-        high, low = np.zeros(len(self._rows)), np.zeros(len(self._rows))
-        for layer, count in zip(self._layers, self._counts, strict=True):
-            high[:count], lost = two_sum(high[:count], terms[layer])
-            low[:count] += lost + errors[layer]
-        sums = Pair(np.empty_like(high), np.empty_like(low))
-        sums.high[self._rows], sums.low[self._rows] = two_sum(high, low)
-        for i, row in self._heavy:
-            sums.high[i] = math.fsum(terms[row])
-            sums.low[i] = math.fsum((*terms[row].tolist(), -sums.high[i])) + math.fsum(errors[row])
-        return sums
+        terms, errors = np.append(terms, 0.0), np.append(errors, 0.0)
+        high, low = np.zeros(len(self.terms)), np.zeros(len(self.terms))
+        for rows, entries in self._blocks:
+            some, lost = terms[entries], errors[entries]
+            while len(some) > 1:
+                half = len(some) // 2
+                added, more = two_sum(some[:half], some[half : 2 * half])
+                more += lost[:half] + lost[half : 2 * half]
+                some = np.concatenate((added, some[2 * half :]))
+                lost = np.concatenate((more, lost[2 * half :]))
+            if len(some):
+                high[rows], low[rows] = two_sum(some[0], lost[0])
+        return Pair(high, low)
+
+
+class Balance:
+    """The equations A x = b, A = diag(outflow) - arcs, and by how much they are missed.
+
+    Parameters
+    ----------
+    arcs
+        sparse, shape (m, m), nonnegative, no diagonal.
+    outflow
+        shape (m,) each: the diagonal of A.
+    rows
+        the sums over the rows of `arcs`.
+    """
+
+    def __init__(self, arcs: csr_array, outflow: Pair, rows: Rows) -> None:
+        self.arcs, self.outflow, self._rows = arcs, outflow, rows
+        self._halves = halves(arcs.data)
+
+    def missed(self, x: Pair, b: Floats) -> tuple[Floats, Floats]:
+        """Return b - A x for x >= 0, and at least the size of each."""
+        at, terms = self.arcs.indices, self._rows.terms + 8
+        parts = halves(x.high)
+        flow = product(
+            self.arcs.data, self._halves, x.high[at], Pair(parts.high[at], parts.low[at])
+        )
+        into = self._rows.sum(flow.high, flow.low + self.arcs.data * x.low[at])
+        out = two_product(self.outflow.high, x.high)
+        below = self.outflow.high * x.low + self.outflow.low * x.high
+        whole, lost = two_sum(into.high, b)
+        rest, more = two_sum(whole, -out.high)
+        residual = rest + ((lost + more) + (into.low - (out.low + below)))
+        rounding = 2.0 * (ROUND * terms) ** 2 * (into.high + out.high + b)
+        return residual, (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + terms * _TINY

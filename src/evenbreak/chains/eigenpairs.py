@@ -1,18 +1,14 @@
-"""Eigenvectors of a transition matrix: inverse iteration, LAPACK (small) and ARPACK (large).
+"""Eigenpairs of a transition matrix: LAPACK (small) and ARPACK (large).
 
-The structure says how often eigenvalue 1 occurs and where its vectors live: once for each
-closed class, whose right vector is the stationary law and whose left vector is the chance
-of ending there. Each is computed separately, so other eigenvalues may be as close to 1 as
-they like without mixing in, and each comes with a bound on its error (see `certified_lu`).
-A closed class of period d also has the other d-th roots of 1. All other vectors are
-projected off these and made biorthogonal,
+The pairs of eigenvalue 1 are known (see `unit_pairs`), and a closed class of period d also has the
+other d-th roots of 1. All other vectors are projected off these and made biorthogonal,
 
     L = (Y R)^-1 Y for left vectors Y and right vectors R,
 
 which exists if neither set is defective and both belong to the same eigenvalues.
 
-References: Golub and Van Loan, Matrix Computations, chapter 7, for inverse iteration and
-LAPACK's QR algorithm; Lehoucq, Sorensen and Yang 1998 for ARPACK.
+References: Golub and Van Loan, Matrix Computations, chapter 7, for LAPACK's QR algorithm;
+Lehoucq, Sorensen and Yang 1998 for ARPACK.
 """
 
 from __future__ import annotations
@@ -20,13 +16,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
+from scipy.linalg.lapack import dgeev, dgeev_lwork
 from scipy.sparse import csc_array, diags_array
 
-from evenbreak.chains.certified_lu import CertifiedLU
 from evenbreak.chains.powers import evened
+from evenbreak.chains.unit_pairs import EPS, SHIFT, UnitPairs
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
@@ -39,106 +35,6 @@ DENSE = 1000
 """Up to this many states LAPACK finds all eigenvalues at once."""
 TOLERANCE = 1e-8
 """Residuals and error estimates above this are refused."""
-SHIFT = 1.0 + 1e-10
-"""As close to eigenvalue 1 as a factorisation can be made."""
-EPS = float(np.finfo(float).eps)
-_WIDE_EPS = float(np.finfo(np.longdouble).eps)
-_FLOOR = 1e-3
-
-
-class UnitPairs:
-    """The vectors of eigenvalue 1, and the inverse of SHIFT I - M on all the rest.
-
-    Attributes
-    ----------
-    right
-        shape (n, closed classes): the stationary laws.
-    left
-        shape (closed classes, n): the chances of ending in each class.
-    error
-        a bound on the sum of the absolute errors of the limit that they give, from any
-        state; inf if no bound was found.
-    """
-
-    def __init__(self, chain: Chain) -> None:
-        self._chain = chain
-        structure = chain.structure
-        closed = np.flatnonzero(structure.closed)
-        n = len(chain)
-        self.right, self.left = np.zeros((n, len(closed))), np.zeros((len(closed), n))
-        worst = 0.0
-        with np.errstate(all="ignore"):  # what overflows gets no bound, and is refused
-            for i, label in enumerate(closed.tolist()):
-                states = structure.members(label)
-                self.left[i, states] = 1.0
-                self.right[states, i], error = _law(chain, np.sort(states))
-                worst = max(worst, error)
-            self.error = float(worst + self._set_chances() + rounding_of_limit(n))
-
-    def _set_chances(self) -> float:
-        """Fill in the chances from the transient states; return a bound on their error."""
-        chain = self._chain
-        states = np.flatnonzero(~chain.structure.recurrent)
-        if not len(states):
-            return 0.0
-        solves = CertifiedLU.of_states(chain.arcs, states)
-        into = (chain.arcs.matrix().astype(np.longdouble)[:, states]).tocsr()
-        missed = np.zeros(len(states), dtype=np.longdouble)
-        for row in self.left:
-            entered = into.T @ row.astype(np.longdouble)
-            row[states] = solves.solve(entered.astype(np.float64), transposed=True)
-            missed += solves.missed(row[states], entered, transposed=True)
-        return float(solves.error(missed, transposed=True, floor=_FLOOR).max())
-
-
-def limit_by(
-    right: NDArray[Any], left: NDArray[Any], v: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the limit R (L v) by the vectors of eigenvalue 1; see `rounding_of_limit`.
-
-    >>> limit_by(np.eye(2), np.array([[1.0, 0.25], [0.0, 0.75]]), np.array([0.5, 0.5]))
-    array([0.625, 0.375])
-    """
-    chances = [float(row.real.astype(np.longdouble) @ v) for row in left]
-    return np.asarray(right.real @ np.array(chances))
-
-
-def rounding_of_limit(n: int) -> float:
-    """Return a bound on the sum of the rounding errors of `limit_by`, over n states.
-
-    A chance L v of ending in a class is a sum in extended precision of terms that are not negative,
-    rounded once to a float. A state is in one closed class at most, so that R times the chances has
-    one product for it, rounded once more, and beside it only zeros. All are relative errors of
-    numbers that sum to 1.
-    """
-    return 2.0 * EPS + (n + 2) * _WIDE_EPS
-
-
-def _shifted(M: csc_array, n: int) -> csc_array:
-    return csc_array(SHIFT * scipy.sparse.eye_array(n) - M)
-
-
-def _law(chain: Chain, states: Places) -> tuple[NDArray[np.float64], float]:
-    """Return the stationary law of a closed class and a bound on its sum of errors.
-
-    A likely state, found by one step of inverse iteration, is cut out; the others then solve
-    A x = the arcs out of it. If x misses these equations by m and a = A^-1 m, the law is off
-    by a - law sum(a), which is no more than 2 sum |a|.
-    """
-    m = len(states)
-    if m == 1:
-        return np.ones(1), 0.0
-    M = evened(chain)[:, states][states]
-    guess = scipy.sparse.linalg.splu(_shifted(M, m)).solve(np.full(m, 1.0 / m))
-    cut = int(np.argmax(guess))
-    rest = np.delete(np.arange(m), cut)
-    solves = CertifiedLU.of_states(chain.arcs, states[rest])
-    out = chain.arcs.matrix()[:, [int(states[cut])]].toarray()[states[rest], 0]
-    law = np.ones(m)
-    law[rest] = solves.solve(out)
-    law /= law.sum()
-    missed = solves.missed(law[rest], out.astype(np.longdouble) * law[cut])
-    return law, 2.0 * float(solves.error(missed, floor=_FLOOR).sum()) + m * EPS
 
 
 class Eigenpairs(NamedTuple):
@@ -167,10 +63,10 @@ class Eigenpairs(NamedTuple):
             np.hstack((self.right, more.right)),
         )
 
-    def first(self, k: int, order: Places) -> Eigenpairs:
-        """Return the first k in an order, or one more, so that no conjugate pair is parted."""
-        order = order[: k + int(k > 0 and self.values[order[k - 1]].imag > 0.0)]
-        return Eigenpairs(self.values[order], self.left[order], self.right[:, order])
+    def first(self, k: int) -> Eigenpairs:
+        """Return the first k, or one more, so that no conjugate pair is parted."""
+        k += int(self.values[k - 1].imag > 0.0)
+        return Eigenpairs(self.values[:k], self.left[:k], self.right[:, :k])
 
     def missed(self, M: NDArray[Any] | csc_array) -> float:
         """Return the largest entry of M R - R diag(values), L M - diag(values) L and L R - I."""
@@ -195,10 +91,11 @@ class Eigenpairs(NamedTuple):
         return self.values, left, right
 
 
-def _of_real_matrix(
-    values: NDArray[Any], left: NDArray[Any], right: NDArray[Any], order: Places, k: int
-) -> Eigenpairs:
-    """Return the first k pairs in an order in which conjugate ones stand together."""
+def _whole_pairs(values: NDArray[Any], order: Places, k: int) -> Places:
+    """Return the first k places, or one more, of an order in which conjugate ones stand together.
+
+    One without its conjugate is left out.
+    """
     ordered = values[order]
     whole = ordered.imag == 0.0
     upper = np.flatnonzero((ordered.imag[:-1] > 0.0) & (ordered[:-1].conj() == ordered[1:]))
@@ -206,13 +103,7 @@ def _of_real_matrix(
     order = order[whole]
     if len(order) < k:
         raise no_basis(k)
-    values, left, right = values[order], left[order], right[:, order]
-    upper = np.flatnonzero(values.imag > 0.0)
-    rows, columns = left.real.copy(), right.real.copy()
-    rows[upper] *= 2.0
-    rows[upper + 1] = -2.0 * left[upper].imag
-    columns[:, upper + 1] = right[:, upper].imag
-    return Eigenpairs(values, rows, columns).first(k, np.arange(len(order)))
+    return order[: k + int(values[order[k - 1]].imag > 0.0)]
 
 
 def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, float]:
@@ -226,29 +117,25 @@ def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, f
         if there are no k independent vectors, or the iteration does not converge.
     """
     n, ones = units.right.shape
-    M = evened(chain)
+    M = chain.matrix
     known = Eigenpairs(np.ones(ones), units.left, units.right)
     known = known.and_then(roots_of_one(chain, units, k - ones))
     missing = k - (len(known.values) if n <= DENSE else ones)
-    pairs, order = known, np.arange(len(known.values))
     if missing > 0:
-        others = (_dense_others if n <= DENSE else _sparse_others)(M, known, missing)
+        found = (_dense_others if n <= DENSE else _sparse_others)(M, known, missing)
         # The known vectors are exact; only the others are adjusted.
-        left = others.left - (others.left @ known.right) @ known.left
-        right = others.right - known.right @ (known.left @ others.right)
+        left = found.left - (found.left @ known.right) @ known.left
+        right = found.right - known.right @ (known.left @ found.right)
         try:
             left = np.asarray(np.linalg.solve(left @ right, left), dtype=np.float64)
         except np.linalg.LinAlgError:
             raise no_basis(k, ones) from None
-        pairs = known.and_then(Eigenpairs(others.values, left, right))
-        order = np.arange(len(pairs.values))
+        known = known.and_then(Eigenpairs(found.values, left, right))
         if n > DENSE:
-            order = np.argsort(np.abs(pairs.values - 1.0), kind="stable")
-    pairs = pairs.first(k, order)
-    missed = pairs.missed(M.toarray() if n <= DENSE else M)
-    if not missed <= TOLERANCE:
-        raise no_basis(k, ones, missed)
-    return pairs, missed
+            order = np.argsort(np.abs(known.values - 1.0), kind="stable")
+            known = Eigenpairs(known.values[order], known.left[order], known.right[:, order])
+    pairs = known.first(k)
+    return pairs, pairs.missed(M.toarray() if n <= DENSE else M)
 
 
 def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
@@ -322,17 +209,25 @@ def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> Accur
 
 
 def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
-    values, left, right = scipy.linalg.eig(M.toarray(), left=True, right=True)
-    # Moduli that differ only by rounding are ties; LAPACK has conjugate pairs together.
-    order = np.lexsort((-np.abs(values.imag), -values.real, -np.abs(values).round(10)))
+    """Return k other pairs, as LAPACK has them: with conjugate ones together, in real parts."""
+    n = M.shape[0]
+    real, imaginary, left, right, failed = dgeev(
+        M.toarray(order="F"), lwork=int(dgeev_lwork(n)[0]), overwrite_a=True
+    )
+    if failed:
+        raise no_basis(k)
+    values = real + 1j * imaginary
+    # Moduli that differ only by rounding are ties.
+    order: Places = np.lexsort((-np.abs(imaginary), -real, -np.abs(values).round(10)))
     for value in known.values:
         order = np.delete(order, np.argmin(np.abs(values[order] - value)))
-    return _of_real_matrix(values, left.conj().T, right, order, k)
+    order = _whole_pairs(values, order, k)
+    return Eigenpairs(values[order], left.T[order], right[:, order])
 
 
 def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     n = M.shape[0]
-    factors: Any = scipy.sparse.linalg.splu(_shifted(M, n))
+    factors: Any = scipy.sparse.linalg.splu(csc_array(SHIFT * scipy.sparse.eye_array(n) - M))
     found = []
     for way, one, other in (("N", known.left, known.right), ("T", known.right.T, known.left.T)):
 
@@ -353,5 +248,10 @@ def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     # The two runs may list the eigenvalues in different orders.
     partner = [int(np.argmin(np.abs(turned - value))) for value in values]
     values = SHIFT - 1.0 / values
-    order = np.lexsort((-values.imag, np.abs(values.imag), -values.real))
-    return _of_real_matrix(values, left.T[partner], right, order, k)
+    order: Places = np.lexsort((-values.imag, np.abs(values.imag), -values.real))
+    order = _whole_pairs(values, order, k)
+    values, left, right = values[order], left.T[partner][order], right[:, order]
+    lower = np.flatnonzero(values.imag < 0.0)
+    rows, columns = left.real.copy(), right.real.copy()
+    rows[lower], columns[:, lower] = left[lower].imag, -right[:, lower].imag
+    return Eigenpairs(values, rows, columns)

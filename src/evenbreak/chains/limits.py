@@ -268,28 +268,16 @@ def _limit_in_line(chain: Chain, at: int | None) -> Limit:
 
 
 def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
-    """Return the limit as sum R_i (L_i v) over the eigenvalues 1.
+    """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
+    from evenbreak.chains.unit_pairs import UnitPairs
 
-    The vectors are solved for from the matrix. Those of reversible classes, which `spectrum` has
-    in closed form, serve where the others are not accurate enough.
-    """
-    from evenbreak.chains.eigenpairs import UnitPairs, limit_by
-    from evenbreak.chains.spectrum import check_room, spectrum
-
-    v, units = chain.density(start), int(chain.structure.closed.sum())
-    check_room(units, len(chain))
-    pairs = UnitPairs(chain)
-    error, right, left = pairs.error, pairs.right, pairs.left
-    if not error <= _ERROR_BY_EIGENVECTORS:
-        found = spectrum(chain, k=units)
-        error, right, left = found.limit_error, found.right, found.left
+    limit, error = UnitPairs(chain).limit(chain.density(start))
     if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
             f"the limit by eigenvectors is only proved to {error:.1e}, which is above "
             f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1; use elimination, "
             "which loses no digits there"
         )
-    limit = limit_by(right, left, v)
     missed = float(np.abs(chain.matrix @ limit - limit).max())
     return Limit(chain, limit, _period_reached(chain, start), missed)
 

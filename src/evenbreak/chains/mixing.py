@@ -23,11 +23,12 @@ import scipy.sparse.linalg
 from scipy.sparse import csc_array, diags_array
 
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.eigenpairs import DENSE, EPS
+from evenbreak.chains.eigenpairs import DENSE
 from evenbreak.chains.limit_matrix import limit_matrix
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.chains.stationary import laws_of
+from evenbreak.chains.unit_pairs import EPS
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 

@@ -9,8 +9,17 @@ is symmetric, so all eigenvalues are real and there are n orthonormal eigenvecto
 many decades the law spans. M has the right vectors D Q and the left vectors Q^T D^-1. States in
 a line are always reversible, and S is then tridiagonal.
 
-The weights come from a tree of arcs that reaches the whole class, as sums of logarithms in
-extended precision; the arcs off the tree must agree with them (Kolmogorov's criterion).
+The weights come from a tree of arcs that reaches the whole class, as products of pairs of doubles
+with their exponents apart; the arcs off the tree must agree with them (Kolmogorov's criterion).
+
+All pairs of a chain are put together from those of its classes, if it has no transient states or
+one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
+within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of M
+are
+
+    R = (D q, B D q / (lambda - 1)),    L = (q^T D^-1, 0);
+
+the pairs of eigenvalue 1 are the absorbing states and the chances of ending there.
 
 References: Kelly 1979, Reversibility and Stochastic Networks, chapter 1; Cuppen 1981 for
 LAPACK's divide and conquer (through scipy).
@@ -19,7 +28,6 @@ LAPACK's divide and conquer (through scipy).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,6 +35,9 @@ import scipy.linalg
 import scipy.sparse.linalg
 from scipy.sparse import csc_array, csgraph, diags_array
 
+from evenbreak.chains.double_double import two_product, two_sum
+from evenbreak.chains.eigenpairs import DENSE as ALL_FOUND
+from evenbreak.chains.eigenpairs import Eigenpairs
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.errors import AccuracyError
 
@@ -35,19 +46,20 @@ if TYPE_CHECKING:
 
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
+    from evenbreak.chains.unit_pairs import UnitPairs
 
-    Wide = NDArray[np.longdouble]
+    Floats = NDArray[np.float64]
 
 DENSE = 2000
 """Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""
 _BALANCED = 1e-12
-_WIDE_EPS = float(np.finfo(np.longdouble).eps)
+_SAMPLE = 1000
 _SHIFT = 1.0 + 1e-10
 
 
 @dataclass(frozen=True, eq=False)
 class SymmetricForm:
-    """One reversible class: S and the logarithms of D.
+    """One reversible class: S and D.
 
     Parameters
     ----------
@@ -55,31 +67,17 @@ class SymmetricForm:
         positions of the m states in the chain, increasing.
     matrix
         S, sparse, shape (m, m), in the order of `states`.
-    height
-        shape (m,): log2 of the weight of each state, the largest being 0.
-    height_error
-        a bound on the errors of `height`; None if arcs off the tree might disagree with them.
+    roots
+        shape (m,): the diagonal of D, the square roots of weights that sum to 1 (the stationary
+        law, if the class is closed); 0 where it is smaller than any float.
     line
         the order in which the states stand in a line, or None.
     """
 
     states: Places
     matrix: csc_array
-    height: Wide
-    height_error: float | None
+    roots: Floats
     line: Places | None
-
-    @cached_property
-    def law(self) -> NDArray[np.float64]:
-        """The weights scaled to sum to 1: the stationary law if the class is closed."""
-        weights = np.exp2(self.height)
-        return np.asarray(weights / weights.sum(), dtype=np.float64)
-
-    @cached_property
-    def roots(self) -> Wide:
-        """The diagonal of D, the square root of the law; it may span what floats cannot hold."""
-        total = np.log2(np.exp2(self.height).sum())
-        return np.asarray(np.exp2((self.height - total) / 2))
 
     def pairs(self, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return k eigenvalues of S, ascending, and their orthonormal vectors as columns.
@@ -133,47 +131,150 @@ def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
     >>> from evenbreak.chains import chain_of
     >>> walk = chain_of([(0, 1, 1.0), (1, 0, 0.2), (1, 2, 0.8), (2, 1, 1.0)])
     >>> form = symmetric_form(walk, np.arange(3))
-    >>> form.law, abs(form.pairs(3)[0].round(12))
+    >>> (form.roots**2).round(15), abs(form.pairs(3)[0].round(12))
     (array([0.1, 0.5, 0.4]), array([1., 0., 1.]))
     """
-    inner, _ = chain.arcs.among(states)
-    there = csc_array(inner.matrix())
+    there = csc_array(chain.arcs.matrix()[:, states][states])
     there.sort_indices()
     back = csc_array(there.T)
     back.sort_indices()
     if there.nnz != back.nnz or (there.indices != back.indices).any():
         return None
-    logs = np.log2(there.data.astype(np.longdouble)), np.log2(back.data.astype(np.longdouble))
-    rise = logs[0] - logs[1]
-    height = _heights(there, rise)
+    weight, power = _weights(there, back.data)
     sources = np.repeat(np.arange(len(states)), np.diff(there.indptr))
-    if (np.abs(height[there.indices] - height[sources] - rise) > _BALANCED).any():
-        return None
+    for some in (slice(_SAMPLE), slice(_SAMPLE, None)):  # most chains are not reversible
+        source, target = sources[some], there.indices[some]
+        (out, up), (home, down) = np.frexp(there.data[some]), np.frexp(back.data[some])
+        there_and_back = np.ldexp(
+            (weight[target] * home) / (weight[source] * out),
+            (power[target] + down - power[source] - up).clip(-99, 99),
+        )
+        if (np.abs(there_and_back - 1.0) > _BALANCED).any():
+            return None
     beside = csc_array(
         (np.sqrt(there.data) * np.sqrt(back.data), there.indices, there.indptr), shape=there.shape
     )
     loops = chain.matrix.diagonal()[states]
-    error = None
-    if there.nnz == 2 * (len(states) - 1):
-        largest = float(max((np.abs(part).max() for part in logs if len(part)), default=0.0))
-        error = 4.0 * _WIDE_EPS * len(states) * (largest + 1.0)
-    return SymmetricForm(
-        states, csc_array(beside + diags_array(loops)), height, error, line_order(there)
-    )
+    power -= power.max()
+    total = np.ldexp(weight, power).sum()
+    roots = np.ldexp(np.sqrt(np.ldexp(weight, power % 2) / total), power // 2)
+    return SymmetricForm(states, csc_array(beside + diags_array(loops)), roots, line_order(there))
 
 
-def _heights(T: csc_array, rise: Wide) -> Wide:
-    """Return log2 of the weights along a tree; entry k of T leads up by `rise[k]`."""
+def _weights(T: csc_array, back: Floats) -> tuple[Floats, Places]:
+    """Return the weights along a tree of arcs, as numbers near 1 and whole exponents of 2.
+
+    Entry k of `back` is the arc opposite to that of entry k of T.
+    """
     size = T.shape[0]
+    high, low, power = np.ones(size), np.zeros(size), np.zeros(size, dtype=np.int64)
+    if size == 1:
+        return high, power
     _, parent = csgraph.breadth_first_order(T, 0)
-    height = np.zeros(size, dtype=np.longdouble)
     number = csc_array((np.arange(1, T.nnz + 1), T.indices, T.indptr), shape=T.shape)
-    below = np.arange(1, size)
-    if size > 1:
-        height[1:] = rise[np.asarray(number[below, parent[1:]]).reshape(-1) - 1]
-        parent[0] = 0
-        # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
-        while parent.any():
-            height += height[parent]
-            parent = parent[parent]
-    return np.asarray(height - height.max())
+    entry = np.asarray(number[np.arange(1, size), parent[1:]]).reshape(-1) - 1
+    (above, more), (below, less) = np.frexp(T.data[entry]), np.frexp(back[entry])
+    high[1:], power[1:] = above / below, more - less
+    exact = two_product(high[1:], below)
+    low[1:] = ((above - exact.high) - exact.low) / below
+    parent[0] = 0
+    # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
+    while parent.any():
+        exact = two_product(high, high[parent])
+        cross = high * low[parent] + low * high[parent]
+        high, low = two_sum(exact.high, exact.low + cross)
+        high, shift = np.frexp(high)
+        low, power = np.ldexp(low, -shift), power + power[parent] + shift
+        parent = parent[parent]
+    return high, power
+
+
+def reversible_classes(chain: Chain) -> list[SymmetricForm] | None:
+    """Return the symmetric forms of the classes, or None if this module does not serve the chain.
+
+    >>> from evenbreak.chains import chain_of
+    >>> reversible_classes(chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])) is None
+    True
+    """
+    structure = chain.structure
+    sizes = np.diff(structure.offsets)
+    open_classes = structure.count - int(structure.closed.sum())
+    if open_classes > 1 or (open_classes and (sizes[structure.closed] > 1).any()):
+        return None
+    forms = []
+    for label in range(structure.count):
+        form = symmetric_form(chain, np.sort(structure.members(label)))
+        if form is None:
+            return None
+        forms.append(form)
+    return sorted(forms, key=lambda form: not structure.recurrent[form.states[0]])
+
+
+def reversible_pairs(
+    chain: Chain, units: UnitPairs, forms: list[SymmetricForm], k: int
+) -> tuple[Eigenpairs, Floats, float]:
+    """Return k eigenpairs of a chain from the symmetric forms of its classes, closed ones first.
+
+    Returns
+    -------
+    (pairs, orthonormal, missed)
+        the pairs, in which an entry of a left vector that no float can hold is infinite; the
+        vectors Q of the symmetric forms, shape (n, k); and the largest entry of
+        S Q - Q diag(values) and of Q^T Q - I.
+
+    Raises
+    ------
+    AccuracyError
+        if the iteration for a large class does not converge.
+    """
+    n = len(chain)
+    recurrent, periods = chain.structure.recurrent, chain.structure.periods
+    values, vectors, known, missed = [], [], [], 0.0
+    scale = np.ones(n)
+    for form in forms:
+        states = form.states
+        scale[states] = form.roots
+        period = int(periods[chain.structure.label[states[0]]])
+        found, Q = form.pairs(min(k, len(states)))
+        if recurrent[states[0]]:
+            found, Q = _with_known(form, found, Q, period, chain.structure.phases[states])
+        missed = max(missed, form.missed(found, Q))
+        spread = np.zeros((n, len(found)))
+        spread[states] = Q
+        values.append(found)
+        vectors.append(spread)
+        known.append(np.arange(len(found)) == (0 if recurrent[states[0]] else -1))
+    value, Q, ones = np.concatenate(values), np.hstack(vectors), np.concatenate(known)
+    size = np.abs(value).round(10) if k == n or n <= ALL_FOUND else value
+    order = np.lexsort((-value, -size, ~ones))[:k]
+    value, Q, ones = value[order], Q[:, order], ones[order]
+    right = scale[:, None] * Q
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        left = np.where(Q == 0.0, 0.0, Q / scale[:, None]).T
+    into = chain.arcs.matrix()[:, ~recurrent]
+    turning = ~ones & (np.abs(Q[~recurrent]).max(axis=0, initial=0.0) > 0.0)
+    flow = into @ right[~recurrent][:, turning] / (value[turning] - 1.0)
+    right[np.ix_(recurrent, turning)] = flow[recurrent]
+    right[:, ones], left[ones] = units.right, units.left
+    return Eigenpairs(value, left, right), Q, missed
+
+
+def _with_known(
+    form: SymmetricForm, values: Floats, Q: Floats, period: int, phases: Places
+) -> tuple[Floats, Floats]:
+    """Put in what the structure knows of a closed class, the pair of eigenvalue 1 first.
+
+    Its vector is D itself; in a class of period 2 that of eigenvalue -1 is D with the signs of
+    the phases. The others are made orthogonal to these, which matters only where an eigenvalue
+    is very close.
+    """
+    known, places = [form.roots], [len(values) - 1]
+    if period == 2 and len(values) == len(form.roots) > 1:
+        known.append(np.where(phases % 2, -form.roots, form.roots))
+        places.append(0)
+    others = np.delete(np.arange(len(values)), places)
+    K, rest = np.stack(known, axis=1), Q[:, others]
+    rest = rest - K @ (K.T @ rest)
+    rest /= np.linalg.norm(rest, axis=0)
+    ends = np.array([1.0, -1.0])[: len(known)]
+    return np.concatenate((ends, values[others])), np.hstack((K, rest))

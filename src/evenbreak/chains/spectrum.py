@@ -9,10 +9,10 @@ vectors the chances of ending there, so that the stochastic limit is
 (the source text's derivation after P5.22). This is the second route to the limit. It shares
 only the chain's arcs and structure with the eliminations of `stochastic_limit`, and loses
 digits where they do not: in chains that are slow or nearly fall apart. Every answer comes
-with a proved bound on its error (see `certified_lu`) and is refused if the bound is too large.
+with a proved bound on its error (see `unit_pairs`) and is refused if the bound is too large.
 
 Where the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
-symmetric matrices instead (see `reversible_pairs`): all of them, and all real.
+symmetric matrices instead (see `reversible`): all of them, and all real.
 """
 
 from __future__ import annotations
@@ -27,15 +27,14 @@ from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import (
     DENSE,
     TOLERANCE,
-    UnitPairs,
     leading_pairs,
-    limit_by,
     no_basis,
     within_unit_disc,
 )
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
-from evenbreak.chains.reversible_pairs import reversible_classes, reversible_pairs
+from evenbreak.chains.reversible import reversible_classes, reversible_pairs
+from evenbreak.chains.unit_pairs import UnitPairs, limit_by
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
@@ -43,7 +42,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from evenbreak.chains.chain import Chain
-    from evenbreak.chains.reversible import SymmetricForm
 
 MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they would fill the memory."""
@@ -72,7 +70,7 @@ class Spectrum:
     limit_error
         a bound on the sum of the absolute errors of `limit`, from any start.
     orthonormal
-        shape (n, k) for a chain of reversible classes (see `reversible_pairs`), otherwise None:
+        shape (n, k) for a chain of reversible classes (see `reversible`), otherwise None:
         the eigenvectors Q of the symmetric matrices S = D^-1 M D of the classes. In a closed
         class D holds the square roots of the stationary law.
     """
@@ -198,14 +196,17 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     if k > n:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
     check_room(k, n)
-    if forms is not None:
-        return _of_reversible(chain, forms, k, units)
-    pairs = UnitPairs(chain)
-    _check_bound(pairs.error)
-    found, residual = leading_pairs(chain, pairs, k)
-    values, left, right = found.in_complex()
+    ones = UnitPairs(chain)
+    if forms is None:
+        pairs, residual = leading_pairs(chain, ones, k)
+        vectors = None
+    else:
+        pairs, vectors, residual = reversible_pairs(chain, ones, forms, k)
+    if not residual <= TOLERANCE:
+        raise no_basis(k, units, residual)
+    values, left, right = pairs.in_complex()
     values, left, right = within_unit_disc(values[:k]), left[:k], right[:, :k]
-    return Spectrum(chain, values, units, residual, pairs.error, None, right, left)
+    return Spectrum(chain, values, units, residual, ones.error, vectors, right, left)
 
 
 def check_room(k: int, n: int) -> None:
@@ -214,29 +215,4 @@ def check_room(k: int, n: int) -> None:
         raise ChainError(
             f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
             "the limit by elimination (stochastic_limit)"
-        )
-
-
-def _of_reversible(chain: Chain, forms: list[SymmetricForm], k: int, units: int) -> Spectrum:
-    pairs = reversible_pairs(chain, forms, k)
-    _check_bound(pairs.limit_error)
-    if not pairs.missed <= TOLERANCE:
-        raise no_basis(k, units, pairs.missed)
-    return Spectrum(
-        chain,
-        within_unit_disc(pairs.values),
-        units,
-        pairs.missed,
-        pairs.limit_error,
-        pairs.orthonormal,
-        pairs.right,
-        pairs.left,
-    )
-
-
-def _check_bound(error: float) -> None:
-    if not np.isfinite(error):
-        raise AccuracyError(
-            "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
-            "slow or too close to falling apart; use stochastic_limit, by elimination"
         )
