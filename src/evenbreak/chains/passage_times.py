@@ -288,27 +288,36 @@ def approach(
 
 
 def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
-    n, arcs = len(chain), chain.arcs
+    arcs = chain.arcs
     before = ~ends[arcs.sources]
-    met = reachable(n, arcs.sources[before], arcs.targets[before], v > 0.0) & ~ends
+    met = reachable(len(chain), arcs.sources[before], arcs.targets[before], v > 0.0) & ~ends
     states, part, leak = approach(chain, ends, met)
     lost = met.copy()
     lost[states] = False
-    visits = part.visits(v[states])
     certain = not lost.any()
-    if certain:
-        p_reached, p_never, hope = 1.0, 0.0, np.ones(len(states), dtype=np.float64)
-    else:
-        p_reached, hope = float(v[ends].sum() + (visits * leak).sum()), part.values(leak)
+    # Of each state: the visits to it, the chance of the target from it, and the steps left then.
+    visits, hope, left = np.zeros((3, len(chain)))
+    visits[states] = part.visits(v[states])
+    hope[ends] = 1.0
+    hope[states] = 1.0 if certain else part.values(leak)
+    hopeful = states[hope[states] > 0.0]
+    left[states] = part.values(hope[states])
+    left[hopeful] /= hope[hopeful]
+    at_once, p_reached, p_never = float(v[ends].sum()), 1.0, 0.0
+    if not certain:
+        p_reached = at_once + float((visits[states] * leak).sum())
         vanish = lost[arcs.targets]
-        flow = _spread(n, states, visits)[arcs.sources[vanish]]
-        p_never = float(v[lost].sum() + (flow * arcs.chances[vanish]).sum())
+        p_never = float(v[lost].sum())
+        p_never += float((visits[arcs.sources[vanish]] * arcs.chances[vanish]).sum())
     mean = variance = None
     if p_reached > 0.0:
-        left = np.divide(part.values(hope), hope, out=np.zeros_like(hope), where=hope > 0.0)
         with np.errstate(over="ignore", invalid="ignore"):
             mean = float((visits * hope).sum() / p_reached)
-            variance = _variance(chain, v, ends, states, visits, hope, left, mean) / p_reached
+            i, j = arcs.targets, arcs.sources
+            begun = v * hope * (left - mean) ** 2
+            moved = visits[j] * arcs.chances * hope[i] * (left[i] - left[j] + 1.0) ** 2
+            stayed = visits * chain.matrix.diagonal() * hope
+            variance = float(begun.sum() + moved.sum() + stayed.sum()) / p_reached
         if mean == np.inf:
             raise AccuracyError("the mean number of steps is larger than any float")
         # A mean this large comes from a state that is hard to leave; the variance is its square.
@@ -319,38 +328,10 @@ def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> P
         mean_if_reached=mean,
         variance_if_reached=variance,
         certain=certain,
-        _at_once=float(v[ends].sum()),
+        _at_once=at_once,
         _v=v[states],
         _chain=chain,
         _states=states,
         _leak=leak,
-        _hope=hope,
+        _hope=hope[states],
     )
-
-
-def _variance(
-    chain: Chain,
-    v: NDArray[np.float64],
-    ends: NDArray[np.bool_],
-    states: Places,
-    visits: NDArray[np.float64],
-    hope: NDArray[np.float64],
-    left: NDArray[np.float64],
-    mean: float,
-) -> float:
-    """Return P(reached) times the variance of the steps, given that the target is reached."""
-    n, arcs = len(chain), chain.arcs
-    flow, hope, left = (_spread(n, states, values) for values in (visits, hope, left))
-    hope[ends] = 1.0
-    i, j = arcs.targets, arcs.sources
-    begun = v * hope * (left - mean) ** 2
-    moved = flow[j] * arcs.chances * hope[i] * (left[i] - left[j] + 1.0) ** 2
-    stayed = flow * chain.matrix.diagonal() * hope
-    return float(begun.sum() + moved.sum() + stayed.sum())
-
-
-def _spread(n: int, states: Places, values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return `values` of `states` as a vector over all n states, 0 elsewhere."""
-    spread = np.zeros(n)
-    spread[states] = values
-    return spread
