@@ -83,6 +83,8 @@ def owned(value: Any) -> Any:
         for part in (copy.data, copy.indices, copy.indptr):
             frozen(part)
         return copy
+    if isinstance(value, tuple) and all(map(_is_frozen, value)):
+        return value
     if isinstance(value, (tuple, list)) and _holds(value):
         own = {id(one): owned(one) for one in value}
         parts = [own[id(one)] for one in value]  # what is one array stays one
@@ -100,12 +102,12 @@ def _holds(value: Any) -> bool:
 
 
 def _is_frozen(array: Any) -> bool:
-    """Return whether nobody can write to an array, nor to the one that it is a view of."""
-    while isinstance(array, np.ndarray):
-        if array.flags.writeable:
-            return False
+    """Return whether this is an array and nobody can write to it, nor to one that it views."""
+    while isinstance(array, np.ndarray) and not array.flags.writeable:
+        if array.base is None:
+            return True
         array = array.base
-    return array is None
+    return False
 
 
 def frozen(array: Array) -> Array:

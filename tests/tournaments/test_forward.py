@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from evenbreak.tournaments import consolation, double_elimination
-from evenbreak.tournaments.odds import forward
+from evenbreak.tournaments.odds import forward, plan, planning
 from evenbreak.tournaments.odds.plan import MatchStep
-from evenbreak.tournaments.odds.planning import plan_of
 
 BRACKETS = {
     "double of 8": double_elimination(8, drops="straight"),
@@ -18,9 +17,12 @@ BRACKETS = {
 
 
 @pytest.mark.parametrize("name", BRACKETS)
-def test_parts_summed_apart_have_the_chances_of_their_joint_states(name: str) -> None:
+def test_parts_summed_apart_have_the_chances_of_their_joint_states(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plan, "_FEW", 0)
     rng, apart = np.random.default_rng(1), 0
-    for step in plan_of(BRACKETS[name]).steps:
+    for step in planning._built(BRACKETS[name], (), np.inf).steps:
         assert isinstance(step, MatchStep)
         parts = [10.0 ** rng.uniform(-140, 0, size) for size in step.sizes]
         p = rng.choice([0.0, 0.1, 0.5, 0.8, 1.0], len(step.first))

@@ -98,21 +98,21 @@ def played(step: MatchStep, parts: list[Floats], p: Floats) -> tuple[Floats, Flo
             np.bincount(branch.winner, part) for branch, part in zip(step.apart, parts, strict=True)
         )
         table = p.reshape(len(first), len(second))
-        after = _passed_on_apart(step.apart[0], parts[0], parts[1], table)
-        after += _passed_on_apart(step.apart[1], parts[1], parts[0], 1.0 - table.T)
-        return np.multiply.outer(first, second).ravel(), after
+        one, other = step.apart
+        won = parts[0][:, None] * _beaten(one, parts[1], table).T[one.winner]
+        lost = _beaten(other, parts[0], 1.0 - table.T)[:, other.winner] * parts[1]
+        return np.multiply.outer(first, second).ravel(), np.append(won, lost)
     mass = joined(parts)
     return pairs(step, mass), passed_on(step, mass, p)
 
 
-def _passed_on_apart(branch: Apart, winner: Floats, loser: Floats, win: Floats) -> Floats:
-    """Return what a branch adds to the states after a match, given the chances of its parts.
+def _beaten(branch: Apart, loser: Floats, win: Floats) -> Floats:
+    """Return the chance of what is kept of the loser's part, for each player who can win.
 
     win[i, j] is the chance that the winner is i of his slot's players, if the other is j.
     """
-    beaten = branch.kept @ (loser * win[:, branch.loser]).T
-    moved: Floats = branch.moved @ (winner[:, None] * beaten.T[branch.winner]).ravel()
-    return moved
+    beaten: Floats = branch.kept @ (win[:, branch.loser] * loser).T
+    return beaten
 
 
 def joined(parts: list[Floats]) -> Floats:
@@ -129,6 +129,10 @@ def joined(parts: list[Floats]) -> Floats:
 def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
     """Return the probabilities of the states after a match."""
     won, whole = won_of(step, mass, p)
+    if step.distinct:
+        after = np.concatenate([won, won])
+        np.subtract(whole, won, out=after[len(won) :])
+        return after
     after = gathered(step, 0, won)
     after += gathered(step, 1, np.subtract(whole, won, out=won))
     return after

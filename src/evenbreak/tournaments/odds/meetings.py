@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, frozen
 from evenbreak.tournaments.brackets.bracket import Bracket, GoesOn, Match, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
 from evenbreak.tournaments.odds.chances import Chances
@@ -48,7 +48,7 @@ def plan_meetings(plan: Plan, through: ForwardPass) -> dict[str, Meeting]:
             meet, p = meet[there], p[there]
         if p.ndim > meet.ndim:
             meet = np.broadcast_to(meet[:, None], p.shape)
-        found[name] = Meeting(first, second, meet, p)
+        found[name] = Meeting(first, second, frozen(meet), frozen(p))
     return found
 
 

@@ -6,6 +6,7 @@ so one plan serves many samples of the ratings.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
@@ -16,6 +17,8 @@ from scipy.sparse import csc_array, csr_array
 
 from evenbreak.arrays import Floats, frozen
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Source
+
+_FEW = 2_000  # states, which take less time together than in parts
 
 Players: TypeAlias = NDArray[np.int16]
 Index: TypeAlias = NDArray[np.int32]
@@ -49,15 +52,11 @@ class Apart:
         which of his slot's players loses, in each state of the loser's part.
     kept
         the sparse matrix that sums the states of the loser's part that are one without the loser.
-    moved
-        the sparse matrix from the states of the winner's part and what is kept of the loser's,
-        in this order, to the states after the match.
     """
 
     winner: Index
     loser: Index
     kept: csc_array
-    moved: csc_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,15 +97,15 @@ class MatchStep:
     columns: tuple[Players, ...]
 
     @cached_property
-    def scatter(self) -> tuple[csc_array, csc_array]:
+    def scatter(self) -> tuple[csr_array, csr_array]:
         """The two branches as sparse matrices from states before to states after."""
-        one, other = (adding_up(branch.to, self.size) for branch in self.branches)
+        one, other = (by_rows(adding_up(branch.to, self.size)) for branch in self.branches)
         return one, other
 
     @cached_property
     def meeting(self) -> csr_array | None:
         """The sparse matrix that sums states by pair; None if states and pairs are the same."""
-        return None if self.pair is None else adding_up(self.pair, len(self.first)).tocsr()
+        return None if self.pair is None else by_rows(adding_up(self.pair, len(self.first)))
 
     @cached_property
     def apart(self) -> tuple[Apart, Apart] | None:
@@ -115,19 +114,33 @@ class MatchStep:
         A loser who is out leaves behind states of his part that differ in nothing else. They are
         summed, for each winner, before the parts are joined.
         """
-        if len(self.sizes) < 2 or self.pair is None:
+        if len(self.sizes) < 2 or self.pair is None or len(self.pair) < _FEW:
             return None
-        if any(branch.rows is not None for branch in self.branches):
+        if not self.open:
             return None
+        ones, others = self.sizes
         one, other = (branch.to.reshape(self.sizes) for branch in self.branches)
-        second = len(np.unique(self.second))  # all pairs are possible, slot 1's player first
-        seats = self.pair[:: self.sizes[1]] // second, self.pair[: self.sizes[1]] % second
-        apart = (
-            _apart(one, seats[0], seats[1], self.size),
-            _apart(other.T, seats[1], seats[0], self.size),
+        of_other, of_one = _kept(one[0]), _kept(other[:, 0])
+        first = np.arange(ones)[:, None] * (of_other.max() + 1) + of_other
+        second = first[-1, -1] + 1 + of_one[:, None] * others + np.arange(others)
+        if not (np.array_equal(one, first) and np.array_equal(other, second)):
+            return None
+        many = len(np.unique(self.second))  # all pairs are possible, slot 1's player first
+        seats = self.pair[::others] // many, self.pair[:others] % many
+        return (
+            Apart(seats[0], seats[1], adding_up(of_other, int(of_other.max()) + 1)),
+            Apart(seats[1], seats[0], adding_up(of_one, int(of_one.max()) + 1)),
         )
-        joined = sum(branch.moved.shape[1] for branch in apart)
-        return apart if joined < len(self.pair) else None
+
+    @cached_property
+    def distinct(self) -> bool:
+        """Whether every state and result leads to a state of its own after the match."""
+        return self.open and self.size == 2 * math.prod(self.sizes)
+
+    @property
+    def open(self) -> bool:
+        """Whether either player can win in every state."""
+        return all(branch.rows is None for branch in self.branches)
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,17 +211,22 @@ class Plan:
         return sum(held)
 
 
-def _apart(to: Index, winner: Index, loser: Index, size: int) -> Apart:
-    """Return a branch by where it leads, to[state of the winner's part, of the loser's part]."""
-    _, kept_as, kept = np.unique(to[0], return_index=True, return_inverse=True)
-    moved = adding_up(to[:, kept_as].ravel(), size)
-    return Apart(winner, loser, adding_up(kept.astype(np.int32), len(kept_as)), moved)
+def _kept(to: Index) -> Index:
+    """Return which states lead to the same, as numbers from 0 on."""
+    return np.unique(to, return_inverse=True)[1].astype(np.int32)
 
 
 def adding_up(index: Index, size: int) -> csc_array:
     """Return the sparse matrix that sums rows with the same index."""
     ones, starts = _ones_and_starts(len(index))
     return csc_array((ones, index, starts), shape=(size, len(index)))
+
+
+def by_rows(sums: csc_array) -> csr_array:
+    """Return a matrix of `adding_up` in the form that multiplies fastest."""
+    rows = sums.tocsr()
+    rows.data = sums.data  # ones all the same, which all such matrices share
+    return rows
 
 
 _SHARED = [(np.ones(0), np.arange(1, dtype=np.int32))]

@@ -202,7 +202,7 @@ def match_step(
             after[k][slot] = _taken(column, rows[k])
     keys, top = _keys(after, [size if part is None else len(part) for part in rows], nobody + 1)
     states, to = _numbered(keys, top)
-    kept = _representatives(to, len(states))
+    to, kept = _in_order(to, len(states))
     slots = tuple(after[0])
     return MatchStep(
         match.name,
@@ -286,9 +286,12 @@ def _numbered(
     return distinct, [part.astype(np.int32) for part in np.split(place, cuts)]
 
 
-def _representatives(to: list[Index], states: int) -> NDArray[np.int64]:
-    """Return for each state after a match the row of one state that leads to it."""
-    kept = np.empty(states, dtype=np.int64)
-    kept[to[1]] = np.arange(len(to[0]), len(to[0]) + len(to[1]))
-    kept[to[0]] = np.arange(len(to[0]))
-    return kept
+def _in_order(to: list[Index], states: int) -> tuple[list[Index], NDArray[np.int64]]:
+    """Return the states after a match, numbered as they first come up, and where they do."""
+    every = np.concatenate(to)
+    first = np.empty(states, dtype=np.int64)
+    first[every[::-1]] = np.arange(len(every))[::-1]
+    new = np.zeros(len(every), dtype=bool)
+    new[first] = True
+    number = np.cumsum(new, dtype=np.int32) - 1
+    return [number[first[part]] for part in to], np.flatnonzero(new)
