@@ -43,21 +43,26 @@ def test_the_limit_is_the_same_when_read_back(tmp_path, game: Game, form: str) -
     names = None
     if form == "mtx":
         names = tmp_path / "states.csv"
-        nodes = road.graph.nodes(data="kind")
-        names.write_text("state,kind\n" + "".join(f'"{s}",{kind}\n' for s, kind in nodes))
+        nodes = road.graph.nodes.items()
+        names.write_text(
+            "state,kind,winner\n"
+            + "".join(f'"{s}",{n["kind"]},{n["winner"] or ""}\n' for s, n in nodes)
+        )
     file = read_chain(path, states=names)
     assert (file.states, file.start, file.warnings) == (
         list(road.chain.states),
         road.chain.start,
         (),
     )
-    chain = chain_in(file, file.start)
+    chain = file.chain()
     assert (chain.matrix != road.chain.matrix).nnz == 0
     limit = stochastic_limit(chain).probability
     np.testing.assert_allclose(limit, road.limit.probability, rtol=0, atol=1e-15)
     np.testing.assert_allclose(
         limit, stochastic_limit(chain_of(game)).probability, rtol=0, atol=1e-15
     )
+    # Nothing that a form holds gets lost.
+    assert nx.utils.graphs_equal(file.graph(), road.graph)
 
 
 def matrix_file(folder, rows):
@@ -121,6 +126,8 @@ def test_a_bad_matrix(tmp_path, rows, part) -> None:
         ("%%MatrixMarket matrix coordinate real general\n1 2 1\n1 1 1.0\n", "1 x 2"),
         ("%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1.0 0.5\n", "complex"),
         ("%%MatrixMarket matrix coordinate real general\n1 1 2\n1 1 0.5\n1 1 0.5\n", "twice"),
+        ("%%MatrixMarket matrix coordinate real general\n9999999999 9999999999 1\n", "not hold"),
+        ("%%MatrixMarket matrix array real general\n99999 99999\n1\n", "not hold"),
     ],
 )
 def test_what_is_no_square_matrix(tmp_path, text, part) -> None:
@@ -143,8 +150,8 @@ def test_states_and_rows_are_for_matrices(tmp_path) -> None:
 
 
 def json_file(folder, edges, **more):
-    nodes = sorted({end for edge in edges for end in (edge["source"], edge["target"])})
-    data = {"directed": True, "nodes": [{"id": node} for node in nodes], "edges": edges, **more}
+    nodes = sorted({edge[end] for edge in edges for end in ("source", "target") if end in edge})
+    data = {"directed": True, "nodes": [{"id": node} for node in nodes], "edges": edges} | more
     path = folder / "graph.json"
     path.write_text(json.dumps(data))
     return path
@@ -160,26 +167,87 @@ def edge(source, target, **attributes):
         ([edge("S", "W", probability=0.5)], {}, "'S' sum to 0.5"),
         ([edge("S", "W")], {}, "'S' -> 'W' has probability None"),
         ([edge("S", "W", probability=1.5)], {}, "1.5"),
-        ([edge("S", "W", probability="1")], {}, "'1'"),
+        ([edge("S", "W", probability="1\x1b[2J")], {}, "'1\\x1b[2J'"),
+        ([edge("S", "W", probability=10**400)], {}, "'S' -> 'W' has probability 1000"),
+        ([edge("S", "W", probability=True)], {}, "'S' -> 'W' has probability True"),
+        ([edge("S", "W", probability=0.5), edge("S", "W", probability=1.0)], {}, "listed twice"),
+        ([edge("S", "W", weight=3.0)], {}, "'S' -> 'W' has probability 3.0"),
+        ([edge("S", "W", p=1.0)], {"nodes": [{"id": "S"}]}, "'W', which is not among the nodes"),
+        ([{"source": "S"}], {"nodes": [{"id": "S"}]}, "arc 1 has no source or no target"),
+        ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has winner 'Ann'; give the"),
+        ([], {"nodes": [{"id": k, "kind": "start"} for k in "AB"]}, "2 nodes of the kind start"),
         ([edge("S", "W", probability=1.0)], {"directed": False}, "directed"),
         ([edge("S", "W", probability=1.0)], {"multigraph": True}, "one arc"),
-        ([edge("1", 1, probability=1.0)], {"nodes": [{"id": 1}, {"id": "1"}]}, "alike"),
+        ([edge("1", "1", p=1.0)], {"nodes": [{"id": 1}, {"id": "1"}]}, "alike"),
         ([], {}, "no states"),
     ],
 )
 def test_a_bad_graph(tmp_path, edges, more, part) -> None:
-    nodes = {} if "nodes" not in more else more
-    if nodes:
-        path = tmp_path / "graph.json"
-        path.write_text(json.dumps({"directed": True, "edges": edges, **more}))
-    else:
-        path = json_file(tmp_path, edges, **more)
-    assert part in problem(path)
+    assert part in problem(json_file(tmp_path, edges, **more))
 
 
 def test_probabilities_may_have_the_names_that_columns_have(tmp_path) -> None:
     path = json_file(tmp_path, [edge("S", "W", p=0.25), edge("S", "L", p=0.75)])
     assert read_chain(path).probabilities.tolist() == [0.25, 0.75]
+
+
+def test_a_weight_counts_where_there_is_no_probability(tmp_path) -> None:
+    path = json_file(tmp_path, [edge("S", "W", weight=0.25), edge("S", "L", weight=0.75)])
+    assert read_chain(path).probabilities.tolist() == [0.25, 0.75]
+    path = json_file(tmp_path, [edge("S", "W", weight=9, probability=1.0)])
+    assert read_chain(path).probabilities.tolist() == [1.0]
+    path = tmp_path / "arcs.csv"
+    path.write_text("Source,Target,Type,Weight\nS,W,Directed,0.25\nS,L,Directed,0.75\n")
+    assert read_chain(path).probabilities.tolist() == [0.25, 0.75]
+    path.write_text("source,target,weight,p\nS,W,9,0.25\nS,L,9,0.75\n")
+    assert read_chain(path).probabilities.tolist() == [0.25, 0.75]
+    path.write_text("source,target\nS,W\n")
+    assert "no column 'probability'" in problem(path)
+
+
+GRAPHML = """<graphml xmlns="http://graphml.graphdrawing.org/xmlns">
+<key id="p" for="edge" attr.name="probability" attr.type="double"/>
+<graph edgedefault="directed"><node id="S"/><node id="W"/>
+<edge source="S" target="W"><data key="p">{}</data></edge></graph></graphml>"""
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+@pytest.mark.parametrize(
+    "definition",
+    [
+        '<!ENTITY a "1"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">',
+        '<!ENTITY b SYSTEM "file:///etc/hostname">',
+        '<!ENTITY % b SYSTEM "http://localhost/b"> %b;',
+    ],
+)
+def test_a_graph_that_defines_entities_is_refused_unread(tmp_path, definition, encoding) -> None:
+    path = tmp_path / "graph.graphml"
+    path.write_text(f"<!DOCTYPE graphml [{definition}]>" + GRAPHML.format("&b;"), encoding)
+    assert "defines entities" in problem(path)
+    path.write_text(GRAPHML.format("1"), encoding)
+    assert read_chain(path).probabilities.tolist() == [1.0]
+
+
+def test_a_graph_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("evenbreak.files.chain_forms.MOST_MEGABYTES", 0)
+    path = json_file(tmp_path, [edge("S", "W", probability=1.0)])
+    assert "larger than 0 MB; write its arcs as CSV" in problem(path)
+
+
+def test_json_that_is_nested_without_end_is_refused(tmp_path) -> None:
+    path = tmp_path / "graph.json"
+    path.write_text("[" * 100_000)
+    assert "cannot be read as node-link JSON" in problem(path)
+
+
+def test_who_has_won_is_read_from_every_form(tmp_path) -> None:
+    nodes = [{"id": "S", "winner": None}, {"id": "W", "winner": 2}]
+    path = json_file(tmp_path, [edge("S", "W", p=1.0)], nodes=nodes)
+    file = read_chain(path)
+    assert file.winners == {"W": 2}
+    assert dict(file.graph("S").nodes(data="winner")) == {"S": None, "W": 2}
+    with pytest.raises(DataError, match="start 'X' is not a state; the first states are 'S', 'W'"):
+        file.chain("X")
 
 
 def test_links_as_older_programs_write_them(tmp_path) -> None:

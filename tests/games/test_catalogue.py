@@ -39,10 +39,18 @@ def test_each_name_means_its_game(name):
         ("series loser", (0.9, 0.5), Series(Rack(0.9, 0.5), breaks=loser_breaks)),
         ("race of one-ball", (0.3, 0.6), Race(3, 2, OneBall(0.3, 0.6))),
         ("3:1 match", (0.6,), Race(3, 1, Race(3, 3, Rack(0.6)))),
+        ("One_Ball", (0.3, 0.6), OneBall(0.3, 0.6)),
+        ("oneball", (0.3, 0.6), OneBall(0.3, 0.6)),
+        ("Drill-9ball", (0.5,), Drill.progressive(0.5)),
     ],
 )
 def test_other_chances(words, chances, game):
     assert game_of_catalogue(words, *chances)[1] == game
+
+
+def test_a_slip_gets_the_nearest_name():
+    with pytest.raises(InputError, match=r"give one of: one-ball$"):
+        game_of_catalogue("onebal")
 
 
 @pytest.mark.parametrize("words", ["", "drill", "winner breaks", "chess"])

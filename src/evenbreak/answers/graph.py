@@ -169,10 +169,7 @@ def _spectrum_words(road: Road) -> str:
 
 def _gap_words(road: Road) -> str:
     if road.gap is None:
-        return (
-            " The distance to the limit falls too slowly to measure: an eigenvalue lies next to "
-            "the unit circle."
-        )
+        return f" How fast the distance to the limit falls is not certain: {road.refused['gap']}."
     if road.gap > 1.0 - SAME and road.limit.is_cesaro:
         return " After a fixed number of steps the chain only goes round (the gap is 1)."
     if road.gap > 1.0 - SAME:

@@ -70,8 +70,15 @@ class Road:
         }
 
 
-def road_of(game: Game) -> Road:
+def road_of(game: Game | nx.DiGraph[Any], *, start: str | None = None) -> Road:
     """Return the road of a game.
+
+    Parameters
+    ----------
+    game
+        the game, or the graph of one as `graph_of` returns it.
+    start
+        the state in which to begin, if it is not that of the game or graph.
 
     Raises
     ------
@@ -87,8 +94,8 @@ def road_of(game: Game) -> Road:
     >>> list(road.refused)
     []
     """
-    graph = _adding_up(_named(graph_of(game)))
-    chain = chain_of(graph)
+    graph = _adding_up(_named(graph_of(game) if isinstance(game, Game) else game))
+    chain = chain_of(graph, start=start)
     limits: dict[str, Limit] = {}
     refused: dict[str, str] = {}
 

@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.errors import DataError
 from evenbreak.files.cells import numbers
 from evenbreak.files.problems import quoted
 from evenbreak.files.text_table import Texts, TextTable, read_table
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+    from evenbreak.chains.chain import Chain
 
 COLUMNS = {
     "source": ("from", "state", "source state"),
     "target": ("to", "next", "next state", "target state"),
     "probability": ("p", "prob", "chance"),
 }
+WEIGHT = "weight"
+"""What networkx and others call a probability; it counts where there is none of that name."""
+
 SUM_TOLERANCE = 1e-9
 
 
@@ -26,7 +35,8 @@ class ArcsFile(NamedTuple):
 
     `sources[k]` and `targets[k]` are positions in `states`, which come in the order in
     which the file first names them; `probabilities[k]` is that of the target, given the
-    source. `start` is where the chain begins, if the file says so.
+    source. `start` is where the chain begins, if the file says so, and `winners` has the number of
+    the player who has won in a state, where it does.
     """
 
     states: list[str]
@@ -36,6 +46,38 @@ class ArcsFile(NamedTuple):
     source: str
     warnings: tuple[str, ...]
     start: str | None = None
+    winners: Mapping[str, int] = {}
+
+    def chain(self, start: str | None = None) -> Chain:
+        """Return the chain from a state, or else from where the file begins, or its first state.
+
+        Raises
+        ------
+        DataError
+            if there is no such state.
+        """
+        from evenbreak.chains.explore import chain_from_arrays
+
+        if start is None:
+            start = self.start or self.states[0]
+        elif start not in self.states:
+            known = ", ".join(map(quoted, self.states[:5]))
+            raise DataError(
+                [
+                    f"{self.source}: start {quoted(start)} is not a state; the first states are "
+                    f"{known}"
+                ]
+            )
+        return chain_from_arrays(
+            self.states, self.sources, self.targets, self.probabilities, start=start
+        )
+
+    def graph(self, start: str | None = None) -> nx.DiGraph[Any]:
+        """Return the chain as a graph, as `evenbreak.game.graph_of` returns that of a game."""
+        graph = self.chain(start).to_networkx()
+        for state, node in graph.nodes.items():
+            node["winner"] = self.winners.get(state)
+        return graph
 
 
 def read_arcs(path: str | Path) -> ArcsFile:
@@ -58,11 +100,13 @@ def read_arcs(path: str | Path) -> ArcsFile:
     >>> arcs.states, arcs.sources, arcs.targets, arcs.probabilities
     (['S', 'W', 'L'], array([0, 0]), array([1, 2]), array([0.6, 0.4]))
     """
-    table = read_table(path, COLUMNS, rows="arcs")
+    instead = {"probability": [{WEIGHT}]}
+    table = read_table(path, COLUMNS, {WEIGHT: ()}, instead, rows="arcs")
     whole = len(table.problems) == 0
     remedy = "write a probability such as 0.25"
-    p = numbers(table, "probability", at_least=0, at_most=1, remedy=remedy).values
-    if all(column in table for column in COLUMNS):
+    name = WEIGHT if WEIGHT in table and "probability" not in table else "probability"
+    p = numbers(table, name, at_least=0, at_most=1, remedy=remedy).values
+    if all(column in table for column in ("source", "target", name)):
         for column in ("source", "target"):
             _refuse_empty(table, column)
         states, sources, targets = _states(table)

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
+from evenbreak.chains.matrices import sums_to_1
 from evenbreak.errors import DataError
-from evenbreak.files.arcs import COLUMNS, ArcsFile, read_arcs, sum_problems
+from evenbreak.files.arcs import COLUMNS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
 from evenbreak.files.encoding import content_of
-from evenbreak.files.problems import quoted
+from evenbreak.files.problems import printable, quoted
 from evenbreak.files.text_table import read_table
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import networkx as nx
     from scipy.sparse import csc_array
 
@@ -24,7 +27,10 @@ if TYPE_CHECKING:
 STATES = {"state": ("name", "node")}
 """The column of a list of states, with its other names."""
 MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period", "limit"), ())
-"""Columns that it may have; `kind` says which state is the start."""
+"""Columns that it may have; `kind` says which state is the start, `winner` who has won there."""
+
+MOST_MEGABYTES = 64
+"""The largest graph: some 200,000 states with three arcs each, or a gigabyte of memory."""
 
 
 def read_chain(
@@ -72,8 +78,16 @@ def read_chain(
 
 
 def _graphml(content: bytes) -> nx.Graph[Any]:
+    from xml.parsers import expat
+
     import networkx as nx
 
+    def refuse(*_: object) -> None:
+        raise ValueError("it defines entities, which could expand to more than the file holds")
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = refuse
+    parser.Parse(content, True)
     return nx.read_graphml(io.BytesIO(content))
 
 
@@ -81,43 +95,80 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
     import networkx as nx
 
     data = json.loads(content.decode("utf-8-sig"))
-    arcs = "links" if "links" in data else "edges"  # networkx before 3.6 wrote links
-    return nx.node_link_graph({"multigraph": False, **data}, edges=arcs)
+    if not isinstance(data, dict) or not isinstance(data.get("nodes"), list):
+        raise TypeError("it has no list of nodes")
+    name = "links" if "links" in data else "edges"  # networkx before 3.6 wrote links
+    for k, arc in enumerate(data.get(name, ()), 1):
+        if not isinstance(arc, dict) or not {"source", "target"} <= arc.keys():
+            raise TypeError(f"arc {k} has no source or no target")
+    graph = nx.node_link_graph({"multigraph": False, **data}, edges=name)
+    if len(graph) > len(data["nodes"]):
+        stray = list(graph)[len(data["nodes"])]
+        raise ValueError(f"an arc leads from or to {stray!r}, which is not among the nodes")
+    if graph.number_of_edges() < len(data.get(name, ())) and graph.is_directed():
+        raise ValueError("an arc is listed twice")
+    return graph
 
 
 def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     source, content = content_of(path)
+    if len(content) > MOST_MEGABYTES << 20:
+        _refuse(source, f"is larger than {MOST_MEGABYTES} MB; write its arcs as CSV")
     try:
         graph = parsed(content)
     except Exception as error:
         form = "GraphML" if parsed is _graphml else "node-link JSON, with nodes and edges"
-        raise DataError([f"{source}: cannot be read as {form} ({error}); check the file"]) from None
+        reason = printable(" ".join(str(error).split()))
+        _refuse(source, f"cannot be read as {form} ({reason}); check the file")
     if not graph.is_directed() or graph.is_multigraph():
         _refuse(source, "is not a directed graph with one arc from each state to each other")
     if not len(graph):
         _refuse(source, "has no states; write a node for each")
-    names = ("probability", *COLUMNS["probability"])
+    names = ("probability", *COLUMNS["probability"], WEIGHT)
     problems, triples = [], []
     position = {state: k for k, state in enumerate(graph)}
     for j, i, attributes in graph.edges(data=True):
-        given = next((attributes[name] for name in names if name in attributes), None)
-        chance = float(given) if isinstance(given, int | float) else np.nan
-        if not 0.0 <= chance <= 1.0:
+        chance: Any = next((attributes[name] for name in names if name in attributes), None)
+        if type(chance) not in (int, float) or not 0.0 <= chance <= 1.0:
             problems.append(
                 f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has probability "
-                f"{given!r}; give each arc a number from 0 to 1, named probability"
+                f"{chance!r:.40}; give each arc a number from 0 to 1, named probability"
             )
         triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]
     if len(set(states)) < len(states):
         _refuse(source, "has two states that are written alike; give each a name of its own")
+    _raise_any(problems)
     ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
     sources, targets = ends.T
-    p = np.array([triple[2] for triple in triples])
-    _raise_any(problems)
+    p = np.array([triple[2] for triple in triples], dtype=np.float64)
     _raise_any(f"{source}: {text}" for text in sum_problems(states, sources, p).values())
-    starts = [str(state) for state, kind in graph.nodes(data="kind") if kind == "start"]
-    return ArcsFile(states, sources, targets, p, source, (), starts[0] if starts else None)
+    nodes = dict(zip(states, graph.nodes.values(), strict=True))
+    starts = [state for state, node in nodes.items() if node.get("kind") == "start"]
+    if len(starts) > 1:
+        _refuse(source, f"has {len(starts)} nodes of the kind start; leave one")
+    start = starts[0] if starts else None
+    winners = _winners({state: node.get("winner") for state, node in nodes.items()}, source)
+    return ArcsFile(states, sources, targets, p, source, (), start, winners)
+
+
+def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
+    """Return the players who have won, without the states in which nobody has."""
+    found = {}
+    for state, winner in winners.items():
+        if winner is None or winner == "":
+            continue
+        try:
+            found[state] = int(str(winner))
+        except ValueError:
+            found[state] = 0
+        if found[state] < 1:
+            _refuse(
+                source,
+                f"state {quoted(state)} has winner {quoted(str(winner))}; give the number of the "
+                "player who has won there, 1, 2, ...",
+            )
+    return found
 
 
 def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -> ArcsFile:
@@ -126,10 +177,7 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     wrong = np.flatnonzero(~((matrix.data >= 0.0) & (matrix.data <= 1.0)))
     if wrong.size:
         _refuse(source, f"has the entry {matrix.data[wrong[0]]:.12g}; give numbers from 0 to 1")
-    by_columns, by_rows = (
-        bool((np.abs(np.asarray(matrix.sum(axis=axis)).ravel() - 1.0) <= 1e-9).all())
-        for axis in (0, 1)
-    )
+    by_columns, by_rows = (sums_to_1(matrix, axis=axis) for axis in (0, 1))
     warnings: tuple[str, ...] = ()
     if rows is None and by_rows and not by_columns:
         _refuse(
@@ -146,8 +194,9 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
         matrix = matrix.T.tocsc()
     n = matrix.shape[0]
     names, start = [str(k + 1) for k in range(n)], None
+    winners: dict[str, int] = {}
     if states is not None:
-        names, start, more = _states(states, n)
+        names, start, winners, more = _states(states, n)
         warnings += more
     sources = np.repeat(np.arange(n), np.diff(matrix.indptr))
     targets = matrix.indices.astype(np.int64)
@@ -156,20 +205,24 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     _raise_any(
         f"{source}: {line} {k + 1} sums to {sums[k]:.12g}, not 1; give probabilities out of each "
         "state, with a 1 on the diagonal for a state that is never left"
-        for k in np.flatnonzero(np.abs(sums - 1.0) > 1e-9).tolist()
+        for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist()
     )
-    return ArcsFile(names, sources, targets, matrix.data, source, warnings, start)
+    return ArcsFile(names, sources, targets, matrix.data, source, warnings, start, winners)
 
 
 def _square(content: bytes, source: str) -> csc_array[np.float64]:
     """Return the square matrix of real numbers in a Matrix Market file."""
-    from scipy.io import mmread
+    from scipy.io import mminfo, mmread
     from scipy.sparse import coo_array, csc_array, issparse
 
     try:
+        *shape, entries, _, _, _ = mminfo(io.BytesIO(content))
+        if max(shape) > 2 * entries or entries > len(content):  # room would be made for them all
+            raise ValueError(f"it does not hold the {entries:,} entries of {max(shape):,} states")
         read: Any = mmread(io.BytesIO(content))
     except Exception as error:
-        _refuse(source, f"cannot be read as a Matrix Market file ({error}); check the file")
+        reason = printable(" ".join(str(error).split()))
+        _refuse(source, f"cannot be read as a Matrix Market file ({reason}); check the file")
     found = coo_array(read)
     if found.dtype.kind not in "iuf" or found.shape[0] != found.shape[1] or not found.shape[0]:
         kind = "complex " if found.dtype.kind == "c" else ""
@@ -181,8 +234,10 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
     return matrix
 
 
-def _states(path: str | Path, n: int) -> tuple[list[str], str | None, tuple[str, ...]]:
-    """Return the names of n states, the one of the kind 'start', and warnings."""
+def _states(
+    path: str | Path, n: int
+) -> tuple[list[str], str | None, dict[str, int], tuple[str, ...]]:
+    """Return the names of n states, the one of the kind 'start', who has won, and warnings."""
     table = read_table(path, STATES, MORE_OF_STATES, rows="states")
     table.problems.raise_any()
     names = table.cells("state")
@@ -194,7 +249,8 @@ def _states(path: str | Path, n: int) -> tuple[list[str], str | None, tuple[str,
         )
     kinds = table.cells("kind") if "kind" in table else []
     start = next((name for name, kind in zip(names, kinds, strict=False) if kind == "start"), None)
-    return names, start, table.warnings
+    winners = dict(zip(names, table.cells("winner"), strict=True))
+    return names, start, _winners(winners, table.source), table.warnings
 
 
 def _refuse(source: str, text: str) -> NoReturn:

@@ -47,6 +47,12 @@ MOST_MISSING = 20
 """The most missing pairs of levels listed one by one."""
 
 
+def is_chart(path: str | Path) -> bool:
+    """Return whether a table has a column that charts have and other tables have not."""
+    own = {"stronger_needs": DIFFERENCES["stronger_needs"], **LEVELS, **POINTS}
+    return bool({"stronger_needs", "opponent_level", "points"} & read_table(path, {}, own).found)
+
+
 @dataclass(frozen=True)
 class ChartFile:
     """The content of a chart file, even if it is not a valid chart yet.

@@ -70,11 +70,13 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
     'drill, progressive 9-ball'
     """
     words = _words(name)
-    found = [known for known in CATALOGUE if _words(known) == words] or [
+    joined = {"".join(_words(known)): known for known in CATALOGUE}
+    found = [known for text, known in joined.items() if text == "".join(words)] or [
         known for known in CATALOGUE if words and set(words) <= set(_words(known))
     ]
     if len(found) != 1:
-        near = found or get_close_matches(name.lower(), CATALOGUE, n=3) or list(CATALOGUE)
+        close = get_close_matches("".join(words), joined, n=3)
+        near = found or [joined[text] for text in close] or list(CATALOGUE)
         which = "names several games" if found else "is not a game of the catalogue"
         raise InputError(f"{name!r} {which}; give one of: {'; '.join(near)}")
     game = CATALOGUE[found[0]]
@@ -86,7 +88,12 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
 
 
 def _words(name: str) -> list[str]:
-    return re.findall(r"[^\s,]+", name.lower())
+    """Return the words and numbers of a name, however they are joined.
+
+    >>> _words("Drill, progressive 9_ball"), _words("race 9:5")
+    (['drill', 'progressive', '9', 'ball'], ['race', '9:5'])
+    """
+    return re.findall(r"\d+(?::\d+)?|[^\W\d_]+", name.lower())
 
 
 def _with_chances(game: Any, chances: tuple[float, ...]) -> Any:

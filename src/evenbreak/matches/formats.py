@@ -20,7 +20,7 @@ LONGEST = 1000
 """The most games that a race, a lead or a score can have."""
 
 _WAYS = (
-    "9:5, '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
+    "9:5, 'race to 7', '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
     "perhaps followed by 'winner breaks'"
 )
 _BREAKS = {
@@ -30,8 +30,19 @@ _BREAKS = {
     "a": "player 1",
     "b": "player 2",
 }
+WORDS = ("ahead", "best", "breaks", "by", "first", "of", "race", "to", "win", *_BREAKS)
+"""The words of a match format."""
+
 _BEST_OF = re.compile(r"\bbest of (\d{1,9})\b", re.ASCII)
-_ONE = re.compile(r"(race |ahead )?(\d{1,9}):(\d{1,9})(?:,? win[- ]by (\d{1,9}))?", re.ASCII)
+_ONE = re.compile(
+    r"(?:(?:(?P<race>race|race to|first to) |(?P<ahead>(?:n )?ahead(?: by)? ))?)"
+    r"(?P<m>\d{1,9})(?::(?P<n>\d{1,9}))?(?P<lead> ahead)?(?:,? win by (?P<by>\d{1,9}))?",
+    re.ASCII,
+)
+_JOINED = re.compile(r"(?<!\d)[_\-–—−]|[_\-–—−](?!\d)")
+_NUMBERS = (("m", "m"), ("n", "m"), ("by", "by"))
+"""The numbers of a format, each with the one that stands for it where it is left out."""
+
 _TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
 
 
@@ -142,8 +153,10 @@ def match_format(text: str) -> MatchFormat:
     text
         `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
         `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
-        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`. The break format may follow:
-        `winner breaks`, or loser, alternate, A or B. Each number is from 1 to 1000.
+        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`; `race to 7` or `first to 7` means
+        `7:7`, and `3 ahead` or `n-ahead 3` means `ahead 3:3`. Words may be joined by hyphens or
+        underscores. The break format may follow: `winner breaks`, or loser, alternate, A or B.
+        Each number is from 1 to 1000.
 
     Raises
     ------
@@ -162,13 +175,16 @@ def match_format(text: str) -> MatchFormat:
     ('9:5', '3:1 of 3:3')
     >>> str(match_format("best of 5 of 3:3"))
     '3:3 of 3:3'
+    >>> str(match_format("race to 7")), str(match_format("n-ahead 3"))
+    ('7:7', 'ahead 3:3')
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, '7:7 win by 2', ...
+    evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, 'race to 7', ...
     """
     words = " ".join(str(text).lower().split())
     words = re.sub(rf"(?<=\d) ?{BETWEEN} ?(?=\d)", ":", words)
+    words = " ".join(_JOINED.sub(" ", words).split())
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
@@ -182,16 +198,17 @@ def match_format(text: str) -> MatchFormat:
     parts = [_ONE.fullmatch(part) for part in words.split(" of ")]
     found: MatchFormat | None = None
     for part in reversed(parts):
-        if part is None:
+        kinds = [] if part is None else [part[kind] for kind in ("race", "ahead", "lead")]
+        if part is None or kinds.count(None) < 2 or not (part["n"] or any(kinds)):
             raise InputError(f"{text!r} is not a match format; write {_WAYS}")
-        kind, *numbers = part.groups(default="")
-        m, n, win_by = (int(number or 1) for number in numbers)
+        ahead = bool(part["ahead"] or part["lead"])
+        m, n, win_by = (int(part[name] or part[other] or 1) for name, other in _NUMBERS)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:
             raise InputError(f"{text!r} has a number that is not from 1 to {LONGEST}; correct it")
-        if kind == "ahead " and win_by > 1:
+        if ahead and win_by > 1:
             raise InputError(f"{text!r}: 'ahead' does not go with 'win by'; leave one out")
         innermost = found is None
-        found = MatchFormat(m, n, kind == "ahead ", win_by, found, breaks if innermost else None)
+        found = MatchFormat(m, n, ahead, win_by, found, breaks if innermost else None)
     assert found is not None  # noqa: S101  a split has at least one part
     return found
 

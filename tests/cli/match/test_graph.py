@@ -40,6 +40,9 @@ GAMES = {
     "ahead 3:2 --p 0.6": Ahead(3, 2, Rack(0.6)),
     "race 9:5": Race(9, 5, Rack(2 / 3)),
     "7:5 loser breaks --p1 0.6 --p2 0.5": Race(7, 5, Rack(0.6, 0.5), breaks=loser_breaks),
+    "race to 4 --p 0.6": Race(4, 4, Rack(0.6)),
+    "n-ahead 3 --p 0.6": Ahead(3, 3, Rack(0.6)),
+    "one_ball --p1 0.3 --p2 0.6": OneBall(0.3, 0.6),
     "npl_20": Ladder(chart("npl_20")),
 }
 
@@ -64,6 +67,59 @@ def test_the_limit_is_read_back_from_every_form(write, run, words, game) -> None
         assert read["limit"] == pytest.approx(limit, rel=0, abs=1e-15), name
     written = {row["state"]: float(row["elimination"]) for row in rows_of(folder / "limit.csv")}
     assert written == pytest.approx(limit, rel=0, abs=1e-15)
+
+
+@pytest.mark.parametrize("words", ["one-ball", "series, alternate breaks"])
+def test_what_is_written_can_be_written_again(write, run, tmp_path, words) -> None:
+    answer, folder = write(words)
+    for name, more in (
+        ("graph.graphml", ()),
+        ("graph.json", ()),
+        ("matrix.mtx", ("--states", str(folder / "states.csv"))),
+        ("arcs.csv", ()),
+    ):
+        again = tmp_path / "again"
+        result = run("graph", str(folder / name), *more, "--json", "--out", str(again))
+        assert result.exit_code == 0, result.stderr
+        read = json.loads(result.stdout)
+        assert read["heading"] == f"From graph to limit: the chain in {name}"
+        for key in ("states", "arcs", "start", "all_eigenvalues", "period"):
+            assert read[key] == answer[key], (name, key)
+        for file in FILES:
+            if name == "arcs.csv" and file != "arcs.csv":
+                assert (again / file).exists()  # states come in another order, and nobody wins
+            elif not file.endswith((".svg", ".png")):  # whose title is the game's
+                one, other = ((place / file).read_text() for place in (folder, again))
+                assert sorted(one.split("\n")) == sorted(other.split("\n")), (name, file)
+
+
+def test_a_graph_of_ones_own(run, tmp_path) -> None:
+    graph = nx.DiGraph()
+    graph.add_weighted_edges_from([("A", "B", 1), ("B", "A", 0.5), ("B", "C", 0.5), ("D", "C", 1)])
+    path = tmp_path / "mine.graphml"
+    nx.write_graphml(graph, path)
+    result = run("graph", str(path), "--start", "B", "--json", "--out", str(tmp_path / "out"))
+    answer = json.loads(result.stdout)
+    assert (answer["states"], answer["arcs"], answer["start"]) == (4, 4, "B")
+    assert [row["kind"] for row in answer["classes"]].count("absorbing") == 1
+    assert answer["mean_steps"] == pytest.approx(3.0)
+    assert (tmp_path / "out" / "graph.svg").read_bytes().startswith(b"<?xml")
+    result = run("graph", str(path), "--start", "C", "--json", "--out", str(tmp_path / "out"))
+    assert json.loads(result.stdout)["limit"][2]["elimination"] == 1.0
+
+
+def test_a_graph_too_large_to_write_is_refused_with_the_remedy(run, tmp_path) -> None:
+    path = tmp_path / "arcs.csv"
+    path.write_text("source,target,p\n" + "".join(f"{k},{k + 1},1\n" for k in range(5000)))
+    result = run("graph", str(path), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 3
+    assert "arcs.csv: has 5,001 states; evenbreak graph writes up to 5,000" in result.stderr
+
+
+@pytest.mark.parametrize("name", ["nowhere.csv", "nowhere.graphml", "nowhere.mtx"])
+def test_a_missing_file_is_not_taken_for_a_game(run, tmp_path, name) -> None:
+    result = run("graph", str(tmp_path / name), "--out", str(tmp_path / "out"))
+    assert (result.exit_code, "no such file" in result.stderr) == (3, True)
 
 
 def test_other_programs_open_the_files(write) -> None:
@@ -152,6 +208,12 @@ def test_a_chart_file_makes_a_ladder(run, tmp_path) -> None:
         ("npl_10 --p 0.5", "leave --p"),
         ("apa_8ball", "'apa_8ball'"),
         ("7:5 --p1 0.6 --p2 0.5", "break"),
+        ("rcae to 7 --p 0.6", "did you mean 'race to 7'?"),
+        ("drlil 9-ball", "did you mean 'drill 9-ball'?"),
+        ("nlp_10", "did you mean 'npl_10'?"),
+        ("one-ball --start S2", "--start is for a chain in a file"),
+        ("one-ball --rows from", "--rows is for a chain in a file"),
+        ("mine.json --p 0.5", "leave --p, --p1 and --p2 out"),
     ],
 )
 def test_wrong_options_end_with_2_and_write_nothing(run, tmp_path, words, part) -> None:

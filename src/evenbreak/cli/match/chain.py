@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak import chains, files
+from evenbreak import files
 from evenbreak.answers.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import via_option
-from evenbreak.errors import DataError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from evenbreak.chains.matrices import Rows
 
 EXAMPLES = """\b
@@ -27,29 +28,35 @@ Examples:
 """
 
 
+def file_options(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """Add the options that say how a file of a chain is read."""
+    start = click.option(
+        "--start",
+        metavar="STATE",
+        help="Where to begin.  [default: the start that the file names, else the first state]",
+    )
+    states = click.option(
+        "--states",
+        metavar="STATES.csv",
+        help="The names of the states of a matrix, in its order.  [default: 1, 2, ...]",
+    )
+    rows = click.option(
+        "--rows",
+        type=click.Choice(["from", "to"]),
+        help="What a row of a matrix holds: the chances out of its state, or into it.  [default: "
+        "to, so that columns sum to 1]",
+    )
+    return start(states(rows(function)))
+
+
 @click.command("chain", epilog=EXAMPLES)
 @click.argument("path", metavar="FILE")
-@click.option(
-    "--start",
-    metavar="STATE",
-    help="Where to begin.  [default: the start that the file names, else the first state]",
-)
+@file_options
 @click.option(
     "--steps",
     type=click.IntRange(0),
     metavar="N",
     help="Also give the probabilities after N steps; CSV then has only these.",
-)
-@click.option(
-    "--states",
-    metavar="STATES.csv",
-    help="The names of the states of a matrix, in its order.  [default: 1, 2, ...]",
-)
-@click.option(
-    "--rows",
-    type=click.Choice(["from", "to"]),
-    help="What a row of a matrix holds: the chances out of its state, or into it.  [default: to, "
-    "so that columns sum to 1]",
 )
 @via_option
 @faces()
@@ -71,14 +78,4 @@ def command(
     from evenbreak.answers.chain import chain_answer
 
     file = files.read_chain(path, states=states, rows=rows)
-    if start is None:
-        start = file.start or file.states[0]
-    elif start not in file.states:
-        known = ", ".join(repr(state) for state in file.states[:5])
-        raise DataError(
-            [f"{file.source}: start {start!r} is not a state; the first states are {known}"]
-        )
-    chain = chains.chain_from_arrays(
-        file.states, file.sources, file.targets, file.probabilities, start=start
-    )
-    return chain_answer(chain, steps=steps, warnings=file.warnings, via=via)
+    return chain_answer(file.chain(start), steps=steps, warnings=file.warnings, via=via)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,15 +15,26 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import Decorator, out_option
 from evenbreak.cli.kit.terminal import write_folder
 from evenbreak.cli.kit.values import CHANCE, refuse
-from evenbreak.errors import InputError
+from evenbreak.cli.match.chain import file_options
+from evenbreak.errors import DataError, InputError
 
 if TYPE_CHECKING:
+    import networkx as nx
+
     from evenbreak.answers.road import Road
+    from evenbreak.chains.matrices import Rows
+    from evenbreak.files.arcs import ArcsFile
     from evenbreak.game import Game
     from evenbreak.matches.formats import MatchFormat
 
 MOST_STATES = 5_000
-"""The most states of a game, so that every file is written in seconds."""
+"""The most states, so that every file is written in seconds."""
+
+MOST_ARCS = 100_000
+"""The most arcs, for the same reason."""
+
+FORMS = (".csv", ".graphml", ".json", ".mtx", ".ods", ".tsv", ".txt", ".xlsx", ".xml")
+"""How the names of files end; what ends so is not a game."""
 
 MOST_WITH_VECTORS = 200
 """The most states whose eigenvectors are written."""
@@ -48,6 +61,8 @@ Examples:
   evenbreak graph ahead 5:3 --p 0.6 --out ahead
   evenbreak graph 7:5 alternate breaks --p1 0.6 --p2 0.5 --out race
   evenbreak graph npl_10 --out ladder
+  evenbreak graph arcs.csv --out mine
+  evenbreak graph matrix.mtx --states states.csv --out mine
 """
 
 
@@ -56,22 +71,32 @@ def _chance(name: str, what: str) -> Decorator[Any]:
 
 
 @click.command("graph", epilog=EXAMPLES)
-@click.argument("game", metavar="GAME", nargs=-1, required=True)
+@click.argument("game", metavar="GAME|FILE", nargs=-1, required=True)
 @_chance("p", "Chance that A wins a game, or in a drill the chance of making a shot.")
 @_chance("p1", "Chance that A wins a game that A breaks, or makes the one ball.")
 @_chance("p2", "Chance that B wins a game that B breaks, or makes the one ball.")
+@file_options
 @out_option("Where the files go; created if it does not exist.")
 @faces(page=False, always_text=True)
 def command(
-    game: tuple[str, ...], p: float | None, p1: float | None, p2: float | None, out: str
+    game: tuple[str, ...],
+    p: float | None,
+    p1: float | None,
+    p2: float | None,
+    start: str | None,
+    states: str | None,
+    rows: Rows | None,
+    out: str,
 ) -> Answer:
-    """Write a game as graph, transition matrix, eigenvalues and limit.
+    """Write a game, or a graph of your own, as graph, matrix, eigenvalues and limit.
 
     GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
-    a match, such as 9:5, "7:7 win by 2" or ahead 5:3; another game of the catalogue; or a chart,
-    such as npl_10, for the ladder of rating errors that it makes. Without --p, or --p1 and --p2,
-    a game has example chances. The graph is written as GraphML and node-link JSON, the matrix in
-    Matrix Market form, all else as CSV and as a picture; evenbreak chain reads them back.
+    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalogue; or
+    a chart, such as npl_10, for the ladder of rating errors that it makes. Without --p, or --p1 and
+    --p2, a game has example chances. FILE is any chain that evenbreak chain reads: a CSV file of
+    arcs, GraphML (.graphml), node-link JSON (.json) or a matrix in Matrix Market form (.mtx). The
+    graph is written as GraphML and node-link JSON, the matrix in Matrix Market form, all else as
+    CSV and as a picture; both commands read them back.
     """
     from evenbreak.answers.graph import graph_answer
     from evenbreak.answers.road import road_of
@@ -82,10 +107,25 @@ def command(
     if (p1 is None) != (p2 is None):
         refuse("--p1 and --p2 go together; give both")
     chances = tuple(chance for chance in (p, p1, p2) if chance is not None)
-    title, played = _game(" ".join(game), chances)
+    name = " ".join(game)
     check_folder(out)
-    road = road_of(played)
-    written, doubts = _files(played, road, title)
+    if _is_file(name):
+        if chances:
+            refuse("a chain in a file has chances of its own; leave --p, --p1 and --p2 out")
+        file = files.read_chain(name, states=states, rows=rows)
+        _check_size(file)
+        title = f"The chain in {file.source if name == '-' else Path(name).name}"
+        chain = file.chain(start)
+        road = road_of(file.graph(start), start=str(chain.start))
+        written, doubts = _files(road.graph, road, title)
+        doubts = [*file.warnings, *doubts]
+    else:
+        for option, given in (("start", start), ("states", states), ("rows", rows)):
+            if given is not None:
+                refuse(f"--{option} is for a chain in a file; leave it out")
+        title, played = _game(name, chances)
+        road = road_of(played)
+        written, doubts = _files(played, road, title)
     doubts += [
         f"{Path(out, name)} is from an earlier run and of another game; remove it"
         for name in FILES
@@ -93,6 +133,30 @@ def command(
     ]
     write_folder(out, written)
     return graph_answer(title, road, warnings=doubts)
+
+
+def _is_file(name: str) -> bool:
+    """Return whether a name is that of a file with a chain, and not with a chart."""
+    from evenbreak.files.chart import is_chart
+
+    form = Path(name).suffix.lower()
+    if name == "-" or form in (".graphml", ".json", ".mtx", ".xml"):
+        return True
+    return (form in FORMS or Path(name).is_file()) and not is_chart(name)
+
+
+def _check_size(file: ArcsFile) -> None:
+    for what, count, most in (
+        ("states", len(file.states), MOST_STATES),
+        ("arcs", len(file.sources), MOST_ARCS),
+    ):
+        if count > most:
+            raise DataError(
+                [
+                    f"{file.source}: has {count:,} {what}; evenbreak graph writes up to {most:,}, "
+                    "and evenbreak chain finds the limit of more"
+                ]
+            )
 
 
 def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
@@ -110,11 +174,39 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     try:
         title, played = game_of_catalogue(name, *chances)
     except InputError as error:
+        if meant := _meant(name):
+            refuse(f"{name!r} is not a game; did you mean {meant!r}?")
         if chances:
             refuse(str(error))
         refuse(f"{error}; or a match, such as 7:5; or a chart: {', '.join(CHARTS)}")
     shown = chances or _example_chances(played)
     return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
+
+
+def _meant(name: str) -> str | None:
+    """Return the game, match or chart whose words are spelled nearly so, if there is one.
+
+    >>> _meant("rcae to 7"), _meant("drlil 9-ball"), _meant("nlp_10"), _meant("chess")
+    ('race to 7', 'drill 9-ball', 'npl_10', None)
+    """
+    from difflib import get_close_matches
+
+    from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
+    from evenbreak.handicaps.charts.chart import CHARTS
+    from evenbreak.matches.formats import WORDS
+
+    words = {*WORDS, *re.findall(r"[a-z]+", " ".join(CATALOGUE))}
+    near = re.sub(
+        r"[^\W\d_]{3,}",
+        lambda word: next(iter(get_close_matches(word[0], words, 1, 0.7)), word[0]),
+        name.lower(),
+    )
+    if near != name.lower():
+        if _format(near):
+            return near
+        with suppress(InputError):
+            return game_of_catalogue(near) and near
+    return next(iter(get_close_matches(name.lower(), CHARTS, 1, 0.7)), None)
 
 
 def _example_chances(game: Any) -> tuple[float, ...]:
@@ -181,7 +273,9 @@ def _with(chances: tuple[float, ...]) -> str:
     return f" with p = {chances[0]:g}" if chances else ""
 
 
-def _files(played: Game, road: Road, title: str) -> tuple[dict[str, bytes], list[str]]:
+def _files(
+    played: Game | nx.DiGraph[Any], road: Road, title: str
+) -> tuple[dict[str, bytes], list[str]]:
     """Return the content of each file by its name, and what is not written, with the reason."""
     from evenbreak.answers import graph as tables
     from evenbreak.answers.faces.to_csv import table_lines
