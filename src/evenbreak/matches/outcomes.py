@@ -136,11 +136,11 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
     if winner is not None:
         return Outcomes({(winner, breaker): Outcome(1.0, 0.0, 0.0)}, 0.0)
     start = (*match.fold(*score), breaker)
-    units = unit_outcomes(match, lengths=lengths)
     if isinstance(match, Ahead) and not lengths:
-        closed = _in_closed_form(match, start, units)
+        closed = _in_closed_form(match, start)
         if closed is not None:
             return closed
+    units = unit_outcomes(match, lengths=lengths)
     arcs = score_arcs(match, start, {breaker: unit.by_result for breaker, unit in units.items()})
     chain = ScoreChain(
         {
@@ -158,17 +158,24 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
     return Outcomes(by_result, chain.solve({NEVER: 1.0})[start])
 
 
-def _in_closed_form(match: Ahead, start: _State, units: dict[int, Outcomes]) -> Outcomes | None:
+def _in_closed_form(match: Ahead, start: _State) -> Outcomes | None:
     """Return the chances in an n-ahead match; None if its units do not allow for a closed form."""
     a, b, breaker = start
-    racks, after = {}, {}
-    for first, unit in units.items():
-        never = unit.never if isinstance(unit.never, float) else unit.never.any()
-        if never or sorted(winner for winner, _ in unit.by_result) != [1, 2]:
-            return None
-        by_winner = sorted((result, outcome.chance) for result, outcome in unit.by_result.items())
-        ((_, then_1), chance_1), ((_, then_2), chance_2) = by_winner
-        racks[first], after[first] = (chance_1, chance_2), (then_1, then_2)
+    rack, after = match.rack, {1: (1, 1)}
+    if isinstance(rack, Rack):
+        racks = {1: (rack.p1, rack.q1), 2: (rack.q2, rack.p2)}
+        if match.breaks is not None and match.break_matters:
+            breaks = match.breaks
+            after = {first: (breaks(first, 1), breaks(first, 2)) for first in (1, 2)}
+    else:
+        racks = {}
+        for first, unit in unit_outcomes(match, lengths=False).items():
+            never = unit.never if isinstance(unit.never, float) else unit.never.any()
+            if never or sorted(winner for winner, _ in unit.by_result) != [1, 2]:
+                return None
+            one, two = sorted(unit.by_result)
+            racks[first] = unit.by_result[one].chance, unit.by_result[two].chance
+            after[first] = one[1], two[1]
     found = ahead_chances(match.m - a + b, match.n + a - b, breaker, racks, after)
     if found is None:
         return None
