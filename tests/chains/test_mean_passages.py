@@ -121,7 +121,7 @@ def test_one_target_at_a_time_gives_the_same() -> None:
 
 
 def test_no_target_needs_a_solve_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(mean_passages, "_means_to", lambda *_: pytest.fail("one solve a target"))
+    monkeypatch.setattr(mean_passages, "TransientPart", lambda *_: pytest.fail("a solve"))
     rare = [(0, 1, 1e-200), (0, 0, 1.0), *((k, (k + 1) % 60, 1.0) for k in range(1, 60))]
     assert mean_first_passages(chain_of(rare)).loc[59, 0] == pytest.approx(1e200, rel=1e-14)
 
@@ -157,6 +157,17 @@ def test_kemeny_constant_by_eigenvalues() -> None:
     chain = chain_of(draw / draw.sum(axis=0), rows="to")
     values = np.sort_complex(np.linalg.eigvals(chain.matrix.toarray()))[:-1]
     assert kemeny_constant(chain) == pytest.approx(np.sum(1 / (1 - values)).real, rel=1e-12)
+
+
+def test_means_near_the_largest_float() -> None:
+    rare = [("a", "a", 1.0), ("a", "b", 1e-300), ("b", "a", 1.0 - 2e-8), ("b", "door", 2e-8)]
+    ends = [("door", "won", 0.5), ("door", "a", 0.25), ("door", "lost", 0.25)]
+    means = mean_first_passages(chain_of([*rare, *ends]))
+    assert means.loc["b", "a"] == pytest.approx(1e300, rel=1e-15)
+    assert means.loc["door", "a"] == pytest.approx(5e307, rel=1e-7)
+    assert means.loc["a"].tolist() == [0.0, *[np.inf] * 4]
+    with pytest.raises(AccuracyError, match="larger than any float"):
+        mean_first_passages(chain_of([*rare[:2], ("b", "a", 1.0), ("b", "door", 1e-10), *ends]))
 
 
 def test_rare_steps_lose_no_digits() -> None:

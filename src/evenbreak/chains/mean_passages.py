@@ -45,7 +45,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable, tree_from
+from evenbreak.chains.arcs import tree_from
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.dense_elimination import factored, less, solved
 from evenbreak.chains.stationary import stationary_laws
@@ -194,7 +194,7 @@ def _certain_visits(chain: Chain) -> tuple[Places, NDArray[np.bool_]]:
     return transient, np.unpackbits(rows, axis=1, count=n, bitorder="little").astype(bool)
 
 
-def _means_among(chain: Chain, states: Places, root: int | None = None) -> Matrix:
+def _means_among(chain: Chain, states: Places, root: int = -1) -> Matrix:
     """Return the means among states none of which leaves the others, but for a root that may."""
     n = len(states)
     if n == 1:
@@ -206,13 +206,15 @@ def _means_among(chain: Chain, states: Places, root: int | None = None) -> Matri
     A = np.zeros((n + 1, n), order="F")
     A[targets[own], sources[own]] = -chain.arcs.chances[own]
     A[n] = -1.0
-    if root is not None:
+    if root >= 0:
         A[:n, place[root]] = -1.0 / n
     A *= 1.0 + np.random.default_rng(0).random(n)
     with np.errstate(all="ignore"):
         means = _by_halves(A)
     for k in np.flatnonzero(~(means.max(axis=1) < _LARGEST)):
-        means[k] = _means_to(chain, int(states[k]))[states]
+        others = np.flatnonzero((states != states[k]) & (states != root))
+        part = TransientPart(chain.arcs, states[others])
+        means[k, others] = part.values(np.ones(len(others)))
     return means
 
 
@@ -257,18 +259,4 @@ def _one_by_one(A: Matrix) -> Matrix:
         copies[k + 1 :, k] = onward
     means = np.zeros((n, n))
     means[np.arange(n), others] = copies[-1]
-    return means
-
-
-def _means_to(chain: Chain, target: int) -> NDArray[np.float64]:
-    """Return the mean number of steps to one target from each state; shape (n,)."""
-    n, arcs = len(chain), chain.arcs
-    ends = np.arange(n) == target
-    before = ~ends[arcs.sources]
-    j, i = arcs.sources[before], arcs.targets[before]
-    hopeless = ~reachable(n, i, j, ends)
-    certain = ~reachable(n, i, j, hopeless)
-    states = np.flatnonzero(certain & ~ends)
-    means = np.where(ends, 0.0, np.inf)
-    means[states] = TransientPart(arcs, states).values(np.ones(len(states)))
     return means
