@@ -1,5 +1,6 @@
 """The vectors of eigenvalue 1 and their limit: against fractions, within bounds that are sharp."""
 
+import time
 from fractions import Fraction
 
 import numpy as np
@@ -142,6 +143,22 @@ def test_what_cannot_be_bounded_is_refused_by_name() -> None:
     chain = chain_of(OneBall(1e-17, 1e-17))
     with pytest.raises(AccuracyError, match="use elimination"):
         UnitPairs(chain).limit(chain.density())
+
+
+def test_what_would_take_too_long_is_refused_at_once() -> None:
+    """Three arcs at random out of each of 30,000 states: nothing cuts them in two."""
+    n, draw = 30_000, np.random.default_rng(0)
+    source, target = np.repeat(np.arange(n), 3), draw.integers(0, n, (n, 3))
+    target[:, 0] = np.roll(np.arange(n), -1)
+    arcs = np.unique(source * n + target.ravel())
+    chances = 1.0 / np.bincount(arcs // n)[arcs // n]
+    chain = chain_from_arrays(range(n), arcs // n, arcs % n, chances, 0)
+    begun = time.process_time()
+    with pytest.raises(
+        AccuracyError, match=r"30,000 states that nothing cuts in two .*use elimination"
+    ):
+        stochastic_limit(chain, via="eigen")
+    assert time.process_time() - begun < 3.0
 
 
 def test_only_what_the_start_reaches_must_be_certain() -> None:

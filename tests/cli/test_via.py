@@ -12,6 +12,8 @@ COMMANDS = (
     "odds 612 521 --scale fargo --race 5:4 --score 2:1",
     "odds --p1 0.6 --p2 0.5 --breaks winner --ahead 3:2",
     "odds --p 0.66 --race 3:1 --set 3:3",
+    "odds --p1 0.55 --p2 0.5 --breaks winner --race 150:150",
+    "odds --p 0.5001 --ahead 100:100",
     "fair --p1 0.6 --p2 0.5 --breaks alternate --games 5..9",
     "oneball 0.4 0.8 0.5 0.2 --or 0.3:0.3",
     "breaks 0.9 0.5 --win 1 --lose 2",
@@ -92,7 +94,8 @@ def test_a_race_is_defective_and_a_single_rack_is_not(ask) -> None:
     [
         ("odds --p 0.6 --race 5:4 --exact --via eigen", "--exact"),
         ("odds --p 0.6 --race 5:4 --via power", "'power'"),
-        ("odds --p 0.6 --race 200 --via eigen", "10,000"),
+        ("odds --p 0.6 --race 200 --via eigen", "25,000"),
+        ("odds --p 0.6 --race 101 --win-by 2 --via eigen", "10,000"),
         ("fair --p 0.6 --race-to 60 --via eigen", "99"),
         ("drill --log data/drill_log.csv --via eigen", "--log"),
         ("ladder --compare --via eigen", "--via"),

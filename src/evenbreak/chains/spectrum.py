@@ -7,9 +7,9 @@ vectors the chances of ending there, so that the stochastic limit is
     sum over the eigenvalues 1 of R_i (L_i v)
 
 (the source text's derivation after P5.22). This is the second route to the limit. It shares
-only the chain's arcs and structure with the eliminations of `stochastic_limit`, and loses
-digits where they do not: in chains that are slow or nearly fall apart. Every answer comes
-with a proved bound on its error (see `unit_pairs`) and is refused if the bound is too large.
+only the chain's arcs and structure with the eliminations of `stochastic_limit`. Every answer comes
+with a proved bound on its error (see `unit_pairs`); what cannot be proved, in chains that nearly
+fall apart, is refused.
 
 Where the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
 symmetric matrices instead (see `reversible`): all of them, and all real.

@@ -31,6 +31,7 @@ from scipy.sparse import csc_array, csr_array, eye_array
 from scipy.sparse.linalg import splu
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.dissection import dissect, neighbours
 from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 from evenbreak.errors import AccuracyError
 
@@ -49,6 +50,8 @@ SHIFT = 1.0 + 1e-10
 """As close to eigenvalue 1 as a factorisation can be made."""
 _DENSE = 0.2
 """A matrix with this share of entries is factored as a dense one."""
+_FEW, _MUCH_WORK = 1000, 1e11
+"""So few states are factored whatever their graph; others, with up to so many multiplications."""
 _TRIES = 6
 
 
@@ -254,6 +257,13 @@ def _factored(T: csc_array, outflow: Floats, *, transposed: bool) -> Callable[[F
         def solve(b: Floats, way: str) -> Any:
             return dgetrs(lu, pivots, b, trans=int(way == "T"))[0]
     else:
+        work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
+        if work > _MUCH_WORK:
+            raise AccuracyError(
+                f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
+                "factor, which is too much for eigenvectors; use elimination, as stochastic_limit "
+                "does"
+            )
         shares = T.data / np.repeat(outflow, np.diff(T.indptr))
         sparse = csc_array(eye_array(m) - csc_array((shares, T.indices, T.indptr), T.shape))
         try:

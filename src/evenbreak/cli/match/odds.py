@@ -10,7 +10,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, form_option, via_option
 from evenbreak.cli.kit.players import player_options, refuse_uncertain
 from evenbreak.cli.kit.values import refuse
-from evenbreak.cli.match.what_is_played import match_of, match_options, refuse_giants
+from evenbreak.cli.match.what_is_played import MOST_BY_WAY, match_of, match_options, refuse_giants
 
 EXAMPLES = """\b
 Examples:
@@ -58,11 +58,9 @@ def command(*, exact: bool, via: Way | None, **asked: Any) -> Answer:
         )
     if via is not None:
         refuse_uncertain(players)
-    if (
-        exact
-        or via is not None
-        or getattr(match, "win_by", 0) != 1
-        or match.rack is not players.rack
-    ):
-        refuse_giants(match)  # all but plain races in plain numbers
+    is_plain = getattr(match, "win_by", 0) == 1 and match.rack is players.rack
+    if exact or not is_plain:
+        refuse_giants(match)
+    elif via is not None:
+        refuse_giants(match, MOST_BY_WAY)
     return odds_answer(players, match, exact=exact, via=via)

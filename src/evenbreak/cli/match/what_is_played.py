@@ -14,6 +14,8 @@ from evenbreak.matches.formats import LONGEST
 
 MOST_SCORES = 10_000
 """The most scores that a match may still come to, so that every answer takes seconds."""
+MOST_BY_WAY = 25_000
+"""The most scores of a race of games, if its graph is solved in floats: a race 158:158."""
 
 
 def match_options(command: Command) -> Command:
@@ -83,7 +85,7 @@ def match_of(
     )
 
 
-def refuse_giants(match: Match) -> None:
+def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     """Refuse a match that can still come to so many scores that it would take minutes."""
     from evenbreak.answers.odds import match_words
 
@@ -94,8 +96,8 @@ def refuse_giants(match: Match) -> None:
     ]
     scores = left[0] * left[1] if win_by else match.m + match.n
     scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
-    if scores > MOST_SCORES:
+    if scores > most:
         refuse(
             f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
-            f"with at most {MOST_SCORES:,}"
+            f"with at most {most:,}"
         )
