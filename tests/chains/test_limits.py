@@ -137,7 +137,7 @@ def test_a_large_class_carries_a_proved_bound(monkeypatch, much):
     chain = torus(16, np.random.default_rng(2))
     exact = stochastic_limit(chain)
     assert exact.bound is None
-    monkeypatch.setattr(factorisation, "_LITTLE_WORK", -1.0)
+    monkeypatch.setattr(factorisation, "_FEW", 0)
     monkeypatch.setattr(factorisation, "_MUCH_WORK", much)
     proved = stochastic_limit(Chain(chain.states, chain.matrix, 0))
     assert 0.0 < proved.bound < 5e-16

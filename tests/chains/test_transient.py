@@ -35,12 +35,12 @@ ALL = {"_DENSE": 0, "_NARROW": 0, "SMALL": 1}
 METHODS = {
     "plain Python": {"plain": 10**6},
     "one substitution": {"SMALL": 64},
-    "small classes up to 3": {**ALL, "SMALL": 3, "_LITTLE_WORK": np.inf},
+    "small classes up to 3": {**ALL, "SMALL": 3, "_FEW": 99},
     "decimal numbers": {**ALL, "_NARROW": 100, "CertifiedSolve": Refused},
-    "fronts": {**ALL, "_LITTLE_WORK": np.inf},
-    "fronts, since nothing is proved": {**ALL, "_LITTLE_WORK": -1, "CertifiedSolve": Refused},
-    "factors, proved": {**ALL, "_LITTLE_WORK": -1},
-    "iterations, proved": {**ALL, "_LITTLE_WORK": -1, "_MUCH_WORK": -1},
+    "fronts": {**ALL, "_FEW": 99},
+    "fronts, since nothing is proved": {**ALL, "_FEW": 0, "CertifiedSolve": Refused},
+    "factors, proved": {**ALL, "_FEW": 0},
+    "iterations, proved": {**ALL, "_FEW": 0, "_MUCH_WORK": -1},
 }
 
 

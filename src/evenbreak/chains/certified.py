@@ -47,8 +47,9 @@ _SHARP = 2.0 * ROUND
 _NEAR = 2.0**-50
 """What is missed when a bound is worth the work."""
 _SHARE = 1e-10
-_PLAIN, _AGGREGATED = 64, 60
+_PLAIN, _AGGREGATED = 64, 200
 """Iterations before aggregates are made, and with them."""
+_PROGRESS = 0.1
 _ROUNDS, _TRIES, _STALLS = 40, 6, 2
 _UNSEEN, _NEAR_ONE = -32, 3
 """An unknown below this power of 2 is not seen in a round; one up to this power is near 1."""
@@ -281,7 +282,9 @@ class _Scaled:
                 return size * y
             self._system.plain = False
         M = LinearOperator((m, m), matvec=self._aggregated, dtype=np.float64)
-        y, _ = bicgstab(A, b, y, rtol=share, maxiter=_AGGREGATED, M=M)
+        y, unfinished = bicgstab(A, b, y, rtol=share, maxiter=_AGGREGATED, M=M)
+        if unfinished and not np.abs(b - self._times(y)).max() <= _PROGRESS:
+            raise NotCertifiedError
         return size * y
 
     def _times(self, y: Floats) -> Floats:

@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 SMALL = 64
 _MOST_ENTRIES = 40_000_000
 """Of factors in fronts: those of some 6,000 states with arcs to all others, or a 500 x 500 grid."""
-_LITTLE_WORK, _MUCH_WORK = 2e7, 1e10
-"""Multiplications that fronts do at once, and from which on a factorisation is too slow."""
+_FEW, _MUCH_WORK = 500, 1e10
+"""States that are eliminated at once, and multiplications that a factorisation is worth."""
 _DENSE = 4
 """A class is dense if it has an arc for one in so many pairs of states."""
 _NARROW = 4
@@ -88,10 +88,12 @@ class _Piece:
         order = line_order(self._arcs)
         if order is not None:
             return LineElimination(self._arcs, self._leaks, order)
-        work = sum(front.work for front in self._fronts[1])
+        work = float(size * self._bandwidth**2)
         is_dense = size * size <= _DENSE * self._arcs.nnz
-        if (work <= _LITTLE_WORK or is_dense) and not self._is_narrow:
+        if (size <= _FEW or is_dense) and self._bandwidth > _NARROW:
             return self._eliminated()
+        if work > _MUCH_WORK:  # in this order; perhaps not in a better one
+            work = sum(front.work for front in self._fronts[1])
         return CertifiedSolve(self._arcs, self._leaks, factored=work <= _MUCH_WORK)
 
     def solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
@@ -116,8 +118,8 @@ class _Piece:
         return csc_array((chances, (targets, sources)), shape=(size, size))
 
     @cached_property
-    def _is_narrow(self) -> bool:
-        return bandwidth(neighbours(self._arcs)) <= _NARROW
+    def _bandwidth(self) -> int:
+        return bandwidth(neighbours(self._arcs))
 
     @cached_property
     def _fronts(self) -> tuple[Places, list[Front]]:
@@ -131,9 +133,9 @@ class _Piece:
         AccuracyError
             if they would be too many.
         """
-        order, fronts = self._fronts
-        if self._is_narrow:
+        if self._bandwidth <= _NARROW:
             return DecimalElimination(arcs_of(self._arcs), self._leaks)
+        order, fronts = self._fronts
         entries = sum(front.entries for front in fronts)
         if entries > _MOST_ENTRIES:
             raise AccuracyError(
