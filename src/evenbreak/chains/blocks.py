@@ -1,14 +1,16 @@
-"""Elimination within many small classes at once.
+"""Elimination within many small classes, or of many chains with one graph, at once.
 
-Classes of the same size s are stacked into one array, and each step of the elimination of
-Grassmann, Taksar and Heyman (1985) is one vector operation over the whole stack, so that no
-Python loop runs per class:
+Graphs of the same size are stacked into one array, the last axis of which counts them, and each
+step of the elimination of Grassmann, Taksar and Heyman (1985) is one vector operation over the
+whole stack, so that no Python loop runs per graph. The arcs out of state k and into it are
+finished in its turn, from those of the states before, which touches memory least:
 
-    W[c, i, j] += W[c, i, k] W[c, k, j] / d[c, k],   i, j > k,   d[c, k] = sum of W[c, i, k], i > k.
+    A[i, k] += sum of A[i, l] A[l, k] over l < k,   i > k,   d[k] = sum of A[i, k] over i > k,
+    A[k, j] = (A[k, j] + sum of A[k, l] A[l, j] over l < k) / d[k],   j > k.
 
-The result is the arcs of a larger graph without cycles, in which each state of such a class
-appears twice: as it is entered and as it is left. A flow through the classes is then found
-by one forward substitution (see `triangular_solve`).
+For classes, the result is the arcs of a larger graph without cycles, in which each state of such
+a class appears twice: as it is entered and as it is left. A flow through the classes is then
+found by one forward substitution (see `triangular_solve`).
 """
 
 from __future__ import annotations
@@ -60,15 +62,40 @@ def eliminate_stack(W: NDArray[np.float64], first: Places) -> Factors:
     first
         shape (classes,): the number of the first state of each class.
     """
-    count, _, size = W.shape
-    pivot = np.empty((count, size))
-    for k in range(size):
-        pivot[:, k] = W[:, k + 1 :, k].sum(axis=1)
-        W[:, k, k + 1 :] /= pivot[:, k, None]
-        W[:, k + 1 :, k + 1 :] += W[:, k + 1 :, k, None] * W[:, k, None, k + 1 :]
-    square = W[:, :size]
+    size = W.shape[2]
+    A = np.ascontiguousarray(np.moveaxis(W, 0, 2))
+    pivot = eliminate_together(A, size)
+    square = np.moveaxis(A[:size], 2, 0)
     lower = np.tril(np.ones((size, size), dtype=bool), -1)
     c, i, j = np.nonzero(square * lower)
-    onward = (first[c] + j, first[c] + i, square[c, i, j] / pivot[c, j])
+    onward = (first[c] + j, first[c] + i, square[c, i, j] / pivot[j, c])
     c, i, j = np.nonzero(square * lower.T)
-    return Factors(pivot.reshape(-1), onward, (first[c] + j, first[c] + i, square[c, i, j]))
+    back = (first[c] + j, first[c] + i, square[c, i, j])
+    return Factors(pivot.T.reshape(-1), onward, back)
+
+
+def eliminate_together(A: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Eliminate the first states of all graphs of a stack in place; return the pivots.
+
+    Parameters
+    ----------
+    A
+        shape (m, n, graphs), m >= n >= size: A[i, j] is the arc from the j-th to the i-th state; a
+        leak may be the last row. It becomes the arcs onward below the diagonal, and above it those
+        back divided by the pivot of their target.
+    size
+        the number of states to eliminate.
+
+    Returns
+    -------
+    numpy.ndarray
+        shape (size, graphs).
+    """
+    pivot = np.empty((size, A.shape[2]))
+    for k in range(size):
+        onward, back, done = A[k + 1 :, k], A[k, k + 1 :], slice(k)
+        onward += np.einsum("ilc,lc->ic", A[k + 1 :, done], A[done, k])
+        back += np.einsum("lc,ljc->jc", A[k, done], A[done, k + 1 :])
+        pivot[k] = onward.sum(axis=0)
+        back /= pivot[k]
+    return pivot

@@ -1,7 +1,7 @@
 """The limits of many chains with one graph: elimination of states over arrays of chances.
 
 The order of elimination depends on the graph alone. Each step is done for all chains at once,
-and free of subtraction, as for one chain (see `elimination` and `dense_elimination`).
+and free of subtraction, as for one chain (see `elimination` and `blocks`).
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 """
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.chains.blocks import eliminate_together
 from evenbreak.chains.elimination import Elimination
 
 if TYPE_CHECKING:
@@ -176,32 +177,25 @@ def _visits(rows: list[_Row]) -> tuple[list[Any], list[Any]]:
 
 
 def _dense_visits(rows: list[_Row], count: int) -> tuple[list[Any], list[Any]]:
-    """Return what `_visits` does, by elimination in arrays of (source, target, chain)."""
-    size = len(rows)
-    chances, absent = [], np.ones((size, size), dtype=bool)
+    """Return what `_visits` does, by elimination in arrays, from the last state to the second."""
+    last = len(rows) - 1
+    chances, absent = [], np.ones((last + 1, last + 1), dtype=bool)
     for j, row in enumerate(rows):
         for i, chance in row.items():
-            chances.append((j, i, np.broadcast_to(chance, count)))
-            absent[j, i] = False
-    law, pivots = np.empty((size, count)), np.ones((size, count))
-    workspace = np.empty((size, size, min(_AT_ONCE, count)))
+            chances.append((last - i, last - j, np.broadcast_to(chance, count)))
+            absent[last - i, last - j] = False
+    visits, pivots = np.ones((2, last + 1, count))
+    workspace = np.empty((last + 1, last + 1, min(_AT_ONCE, count)))
     for begin in range(0, count, _AT_ONCE):
         part = slice(begin, begin + _AT_ONCE)
-        A = workspace[:, :, : len(law[0, part])]
+        A = workspace[:, :, : len(visits[0, part])]
         A[absent] = 0.0
-        for j, i, chance in chances:
-            A[j, i] = chance[part]
-        # Each row and column is finished in its turn, from all that were finished before.
-        for k in range(size - 1, 0, -1):
-            out, back, done = A[k, :k], A[:k, k], slice(k + 1, size)
-            out += np.einsum("lc,lic->ic", A[k, done], A[done, :k])
-            back += np.einsum("jlc,lc->jc", A[:k, done], A[done, k])
-            pivots[k, part] = out.sum(axis=0)
-            back /= pivots[k, part]
-        law[0, part] = 1.0
-        for k in range(1, size):
-            np.einsum("jc,jc->c", law[:k, part], A[:k, k], out=law[k, part])
-    return list(law), list(pivots)
+        for i, j, chance in chances:
+            A[i, j] = chance[part]
+        pivots[:last, part] = eliminate_together(A, last)
+        for k in range(last - 1, -1, -1):
+            np.einsum("jc,jc->c", A[k, k + 1 :], visits[k + 1 :, part], out=visits[k, part])
+    return list(visits[::-1]), list(pivots[::-1])
 
 
 def _doubtful(x: Sequence[Any], pivots: Sequence[Any], count: int) -> Bools:
