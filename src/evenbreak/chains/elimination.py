@@ -17,10 +17,17 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from evenbreak.errors import AccuracyError
+
+if TYPE_CHECKING:
+    from evenbreak.chains.structure import Structure
+
+
+VisitsOf: TypeAlias = Callable[[list[int], list[Any]], list[Any]]
+Core: TypeAlias = Callable[[list[dict[int, Any]], list[Any]], Any]
 
 
 class Elimination:
@@ -48,7 +55,7 @@ class Elimination:
         arcs: Sequence[dict[int, Any]],
         leaks: Sequence[Any],
         most: float = math.inf,
-        core: Callable[[list[dict[int, Any]], list[Any]], Any] | None = None,
+        core: Core | None = None,
     ) -> None:
         into: list[dict[int, Any]] = [{} for _ in arcs]
         for j, row in enumerate(arcs):
@@ -136,11 +143,60 @@ class Elimination:
             x[j] = value
 
 
+def limit_in(
+    structure: Structure,
+    rows: Sequence[dict[int, Any]],
+    v: Mapping[int, Any],
+    visits_of: VisitsOf,
+) -> dict[int, Any]:
+    """Return the stochastic limit of the states that it reaches, in any kind of numbers.
+
+    Parameters
+    ----------
+    structure
+        the classes of the states.
+    rows
+        the arcs between different states, by source.
+    v
+        the start density, by position.
+    visits_of
+        returns the visits to some states, given the density on them, until they are left.
+    """
+    limit: dict[int, Any] = {}
+    for label, mass in masses_in(structure, rows, v, visits_of).items():
+        first, *rest = structure.members(label).tolist()
+        visits = visits_of(rest, [rows[first].get(i, 0) for i in rest])
+        limit[first] = share = mass / sum(visits, 1) if rest else mass
+        limit.update((state, share * visit) for state, visit in zip(rest, visits, strict=True))
+    return limit
+
+
+def masses_in(
+    structure: Structure,
+    rows: Sequence[dict[int, Any]],
+    v: Mapping[int, Any],
+    visits_of: VisitsOf,
+) -> dict[int, Any]:
+    """Return the probability of ending in each class that is reached; see `limit_in`."""
+    label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
+    inner = [state for state, inside in enumerate(recurrent) if not inside]
+    entered = [(state, chance) for state, chance in v.items() if recurrent[state]]
+    visits = visits_of(inner, [v.get(state, 0) for state in inner])
+    for state, visit in zip(inner, visits, strict=True):
+        if not _is_nothing(visit):
+            entered += [(i, visit * p) for i, p in rows[state].items() if recurrent[i]]
+    masses: dict[int, Any] = {}
+    for state, mass in entered:
+        k = label[state]
+        masses[k] = masses[k] + mass if k in masses else mass
+    return masses
+
+
 def eliminated(
     rows: Sequence[dict[int, Any]],
     states: Sequence[int],
     most: float = math.inf,
-    core: Callable[[list[dict[int, Any]], list[Any]], Any] | None = None,
+    core: Core | None = None,
 ) -> Elimination:
     """Return I - T factored, with T the arcs among some of the states; the rows are kept."""
     place = {state: k for k, state in enumerate(states)}

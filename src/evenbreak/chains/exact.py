@@ -12,16 +12,16 @@ Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
 from evenbreak.chains.decimal_elimination import rows_of
-from evenbreak.chains.elimination import Elimination, eliminated
+from evenbreak.chains.elimination import Elimination, eliminated, limit_in, masses_in
 from evenbreak.chains.lifting import Lifting, whole_numbers
 from evenbreak.errors import ChainError
 
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 Rows = list[dict[int, Any]]
-Core = Callable[[Rows, list[Any]], Any]
 
 _FILL = 8
 """States are eliminated in fractions as long as that makes no more than so many arcs a state."""
@@ -62,39 +61,16 @@ def exact_limit(chain: Chain, start: Any) -> dict[Any, Fraction]:
     ...                      start="sun"), None)
     {'rain': Fraction(3, 4), 'sun': Fraction(1, 4)}
     """
-    limit = limit_in(chain, exact_rows(chain), exact_start(chain, start), Lifting)
-    return dict(zip(chain.states, map(Fraction, limit), strict=True))
-
-
-def limit_in(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None = None) -> list[Any]:
-    """Return the stochastic limit of each state, in any kind of exact numbers.
-
-    Parameters
-    ----------
-    graph
-        a chain with the same arcs, whatever their chances.
-    rows
-        the arcs between different states, by source.
-    v
-        the start density, by position.
-    core
-        what solves the states whose elimination would make many arcs; None: elimination too.
-    """
-    limit: list[Any] = [0] * len(graph)
-    for label, mass in enumerate(_masses(graph, rows, v, core)):
-        if mass:
-            first, *rest = graph.structure.members(label).tolist()
-            visits = _factor(rows, rest, core).visits([rows[first].get(i, 0) for i in rest])
-            limit[first] = mass / sum(visits, 1)
-            for state, visit in zip(rest, visits, strict=True):
-                limit[state] = limit[first] * visit
-    return limit
+    rows, v = exact_rows(chain), exact_start(chain, start)
+    limit = limit_in(chain.structure, rows, v, partial(_visits, rows))
+    return {state: Fraction(limit.get(k, 0)) for k, state in enumerate(chain.states)}
 
 
 def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
     """Return the probability of ending in each class, given the start."""
-    masses = _masses(chain, exact_rows(chain), exact_start(chain, start), Lifting)
-    return np.array([Fraction(mass) for mass in masses], dtype=object)
+    rows, v = exact_rows(chain), exact_start(chain, start)
+    masses = masses_in(chain.structure, rows, v, partial(_visits, rows))
+    return np.array([Fraction(masses.get(k, 0)) for k in range(chain.structure.count)], object)
 
 
 def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPassage:
@@ -107,7 +83,7 @@ def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPas
     arcs = chain.arcs
     hopeful = reachable(len(chain), arcs.targets, arcs.sources, ends) & ~ends
     states = np.flatnonzero(hopeful).tolist()
-    factor = _factor(rows, states, Lifting)
+    factor = _factor(rows, states)
     hope = factor.values([sum(p for i, p in rows[j].items() if ends[i]) for j in states])
     steps = factor.values(hope)
     squares = factor.values(steps)
@@ -170,27 +146,13 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     return density
 
 
-def _masses(graph: Chain, rows: Rows, v: Mapping[int, Any], core: Core | None) -> list[Any]:
-    """Return the probability of ending in each class."""
-    structure = graph.structure
-    label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
-    masses: list[Any] = [0] * structure.count
-    for state, chance in v.items():
-        if recurrent[state]:
-            masses[label[state]] += chance
-    states = np.flatnonzero(~structure.recurrent).tolist()
-    visits = _factor(rows, states, core).visits([v.get(state, 0) for state in states])
-    for state, visit in zip(states, visits, strict=True):
-        if visit:
-            for i, chance in rows[state].items():
-                if recurrent[i]:
-                    masses[label[i]] += visit * chance
-    return masses
+def _visits(rows: Rows, states: list[int], b: list[Any]) -> list[Any]:
+    return _factor(rows, states).visits(b)
 
 
-def _factor(rows: Rows, states: list[int], core: Core | None) -> Elimination:
+def _factor(rows: Rows, states: list[int]) -> Elimination:
     """Return I - T factored, with T the arcs among the states."""
-    return eliminated(rows, states, _FILL * len(states) if core else math.inf, core)
+    return eliminated(rows, states, _FILL * len(states), Lifting)
 
 
 def _dot(x: Sequence[Fraction], y: Sequence[Fraction]) -> Fraction:

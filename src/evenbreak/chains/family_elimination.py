@@ -8,13 +8,13 @@ References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from evenbreak.chains.blocks import eliminate_together
-from evenbreak.chains.elimination import Elimination
+from evenbreak.chains.elimination import eliminated, limit_in
 
 if TYPE_CHECKING:
     from evenbreak.arrays import Bools, Floats
@@ -71,22 +71,22 @@ def family_limits(
     array([[0.66666667, 0.4       ],
            [0.33333333, 0.6       ]])
     """
-    rows = _rows(structure, sources, targets, chances)
+    rows, doubtful = _rows(structure, sources, targets, chances), np.zeros(count, dtype=bool)
+
+    def visits_of(states: list[int], b: list[Any]) -> list[Any]:
+        nonlocal doubtful
+        if _is_dense(rows, states):
+            visits, pivots = _dense_visits(rows, states, b, count)
+        else:
+            elimination = eliminated(rows, states)
+            visits, pivots = elimination.visits(b), elimination.pivots
+        doubtful |= _doubtful([1.0, *visits], [1.0, *pivots], count)
+        return visits
+
     with np.errstate(all="ignore"):
-        ends, visits, pivots = _ends(structure, rows)
-        doubtful = _doubtful(visits, pivots, count)
         limit = np.zeros((len(rows), count))
-        for members in _closed(structure):
-            mass = _mass(ends, members)
-            if len(members) == 1:
-                limit[members[0]] = mass
-                continue
-            among = [_among(rows[state], members) for state in members]
-            visits, pivots = _dense_visits(among, count) if _is_dense(among) else _visits(among)
-            law = np.array([np.broadcast_to(visited, count) for visited in visits])
-            law /= law.max(axis=0)  # first, against overflow
-            limit[members] = law / law.sum(axis=0) * mass
-            doubtful |= _doubtful(visits, pivots, count)
+        for state, share in limit_in(structure, rows, {0: 1.0}, visits_of).items():
+            limit[state] = share
     return limit, doubtful
 
 
@@ -97,22 +97,20 @@ def limits_in_numbers(
 
     None for a dense class, and where numbers leave the range in which nothing can underflow.
     """
-    rows = _rows(structure, sources, targets, chances)
-    ends, visits, pivots = _ends(structure, rows)
-    limit: dict[int, Any] = {}
-    for members in _closed(structure):
-        mass = _mass(ends, members)
-        if len(members) == 1:
-            limit[members[0]] = mass
-            continue
-        among = [_among(rows[state], members) for state in members]
-        if _is_dense(among):
-            return None
-        law, of_law = _visits(among)
-        visits, pivots = [*visits, *law], [*pivots, *of_law]
-        share = mass / sum(law, 0.0)
-        limit.update((state, visited * share) for state, visited in zip(members, law, strict=True))
-    safe = all(_LEAST < x < _MOST for x in visits) and all(x > _LEAST for x in pivots)
+    rows, safe = _rows(structure, sources, targets, chances), True
+
+    def visits_of(states: list[int], b: list[Any]) -> list[Any]:
+        nonlocal safe
+        safe = safe and not _is_dense(rows, states)
+        if not safe:
+            return b
+        elimination = eliminated(rows, states)
+        visits = elimination.visits(b)
+        safe = all(_LEAST < x < _MOST for x in visits)
+        safe = safe and all(x > _LEAST for x in elimination.pivots)
+        return visits
+
+    limit = limit_in(structure, rows, {0: 1.0}, visits_of)
     return limit if safe else None
 
 
@@ -126,76 +124,41 @@ def _rows(
     return rows
 
 
-def _closed(structure: Structure) -> Iterator[list[int]]:
-    """Yield the states of each closed class."""
-    for label in np.flatnonzero(structure.closed).tolist():
-        yield structure.members(label).tolist()
+def _is_dense(rows: list[_Row], states: list[int]) -> bool:
+    inside = set(states)
+    arcs = sum(len(rows[state].keys() & inside) for state in states)
+    return len(states) >= _DENSE_FROM and 4 * arcs >= len(states) ** 2
 
 
-def _mass(ends: dict[int, Any], members: list[int]) -> Any:
-    return sum((ends[state] for state in members if state in ends), 0.0)
+def _dense_visits(
+    rows: list[_Row], states: list[int], b: list[Any], count: int
+) -> tuple[list[Any], list[Any]]:
+    """Return the visits to states and their pivots, by elimination in arrays.
 
-
-def _is_dense(rows: list[_Row]) -> bool:
-    return len(rows) >= _DENSE_FROM and 4 * sum(map(len, rows)) >= len(rows) ** 2
-
-
-def _ends(structure: Structure, rows: list[_Row]) -> tuple[dict[int, Any], list[Any], list[Any]]:
-    """Return the chance of entering the closed classes at each of their states.
-
-    The visits to the states before, and the pivots there, come with it.
+    The last place is for all other states: what leaves goes there, and `b` comes from there.
     """
-    inner = np.flatnonzero(~structure.recurrent).tolist()
-    if 0 not in inner:
-        return {0: 1.0}, [], []
-    kept = set(inner)
-    leaks = [sum((p for i, p in rows[j].items() if i not in kept), 0.0) for j in inner]
-    elimination = Elimination([_among(rows[j], inner) for j in inner], leaks)
-    visits = elimination.visits([1.0 if j == 0 else 0.0 for j in inner])
-    ends: dict[int, Any] = {}
-    for j, visited in zip(inner, visits, strict=True):
-        for i, chance in rows[j].items():
-            if i not in kept:
-                ends[i] = ends.get(i, 0.0) + visited * chance
-    return ends, visits, elimination.pivots
-
-
-def _among(row: _Row, members: list[int]) -> _Row:
-    """Return the arcs to `members`, by their places among these."""
-    place = {state: k for k, state in enumerate(members)}
-    return {place[i]: chance for i, chance in row.items() if i in place}
-
-
-def _visits(rows: list[_Row]) -> tuple[list[Any], list[Any]]:
-    """Return the visits to the states of a closed class for each one to the first, and pivots."""
-    rest = list(range(1, len(rows)))
-    elimination = Elimination(
-        [_among(row, rest) for row in rows[1:]], [row.get(0, 0.0) for row in rows[1:]]
-    )
-    visits = elimination.visits([rows[0].get(i, 0.0) for i in rest])
-    return [1.0, *visits], [1.0, *elimination.pivots]
-
-
-def _dense_visits(rows: list[_Row], count: int) -> tuple[list[Any], list[Any]]:
-    """Return what `_visits` does, by elimination in arrays, from the last state to the second."""
-    last = len(rows) - 1
-    chances, absent = [], np.ones((last + 1, last + 1), dtype=bool)
-    for j, row in enumerate(rows):
-        for i, chance in row.items():
-            chances.append((last - i, last - j, np.broadcast_to(chance, count)))
-            absent[last - i, last - j] = False
+    last = len(states)
+    place = {state: k for k, state in enumerate(states)}
+    chances = {(k, last): chance for k, chance in enumerate(b)}
+    for j, state in enumerate(states):
+        for target, chance in rows[state].items():
+            at = place.get(target, last), j
+            chances[at] = chances[at] + chance if at in chances else chance
+    arcs = [(i, j, np.broadcast_to(chance, count)) for (i, j), chance in chances.items()]
+    absent = np.ones((last + 1, last + 1), dtype=bool)
+    absent[tuple(zip(*chances, strict=True))] = False
     visits, pivots = np.ones((2, last + 1, count))
     workspace = np.empty((last + 1, last + 1, min(_AT_ONCE, count)))
     for begin in range(0, count, _AT_ONCE):
         part = slice(begin, begin + _AT_ONCE)
         A = workspace[:, :, : len(visits[0, part])]
         A[absent] = 0.0
-        for i, j, chance in chances:
+        for i, j, chance in arcs:
             A[i, j] = chance[part]
         pivots[:last, part] = eliminate_together(A, last)
         for k in range(last - 1, -1, -1):
             np.einsum("jc,jc->c", A[k, k + 1 :], visits[k + 1 :, part], out=visits[k, part])
-    return list(visits[::-1]), list(pivots[::-1])
+    return list(visits[:last]), list(pivots[:last])
 
 
 def _doubtful(x: Sequence[Any], pivots: Sequence[Any], count: int) -> Bools:

@@ -113,7 +113,7 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
             raise Disagreement(None)
         if ufunc is np.add:  # sums begin with 0
             for one, other in (inputs, inputs[::-1]):
-                if isinstance(one, float) and one == 0.0:
+                if isinstance(one, (int, float)) and one == 0:
                     return other  # type: ignore[no-any-return]
         return self._made(ufunc, inputs)
 

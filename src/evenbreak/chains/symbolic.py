@@ -1,7 +1,7 @@
 """The stochastic limit as a formula, for diagrams whose probabilities are sympy expressions.
 
-It is the exact limit (see `exact`) with another kind of number: elements of the field of rational
-functions of the symbols.
+It is the limit by elimination (see `elimination`) with another kind of number: elements of the
+field of rational functions of the symbols.
 
 It needs sympy, which the extra `symbolic` installs.
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from evenbreak.chains.exact import limit_in
+from evenbreak.chains.elimination import eliminated, limit_in
 from evenbreak.chains.explore import chain_of
 from evenbreak.errors import ChainError
 
@@ -82,9 +82,14 @@ def symbolic_limit(
     arcs: list[dict[int, Any]] = [{} for _ in rows]
     for (j, i, _), chance in zip(listed, chances, strict=True):
         arcs[place[j]][place[i]] = chance
-    limit = limit_in(graph, arcs, {place[start]: one})
-    shown = (_readable(field.to_sympy(field.convert(share))) for share in limit)
-    return dict(zip(graph.states, shown, strict=True))
+    limit = limit_in(
+        graph.structure,
+        arcs,
+        {place[start]: one},
+        lambda states, b: eliminated(arcs, states).visits(b),
+    )
+    shares = (field.to_sympy(field.convert(limit.get(k, 0))) for k in range(len(graph)))
+    return dict(zip(graph.states, map(_readable, shares), strict=True))
 
 
 def _readable(formula: Any) -> Any:
