@@ -106,7 +106,7 @@ def test_the_weight_of_a_graph() -> None:
     assert chain_of(graph, weight="chance").matrix[1, 0] == 0.25
     with pytest.raises(ChainError, match="and has no probability; name what holds it"):
         chain_of(graph)
-    with pytest.raises(ChainError, match="has p None"):
+    with pytest.raises(ChainError, match="'a' -> 'b' carries 'chance' and has no p"):
         chain_of(graph, weight="p")
 
 
