@@ -19,7 +19,7 @@ from itertools import chain as chained
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array
+from scipy.sparse import csc_array
 
 from evenbreak.chains.chain import Chain, check_present
 from evenbreak.chains.matrices import is_matrix, read_matrix
@@ -166,18 +166,14 @@ def chain_from_arrays(
     j, i, p = _checked_arrays(states, sources, targets, chances)
     given = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
     n = len(states)
-    key = j * n + i
-    if not (key[1:] > key[:-1]).all():
-        # A sparse table of the arcs' numbers sorts them in linear time and adds duplicates up.
-        table = coo_array((np.arange(len(j)), (i, j)), shape=(n, n)).tocsc()
-        if table.nnz < len(j):
-            raise _listed_twice(states, key)
-        j, i, p = j[table.data], i[table.data], p[table.data]
-    listed = np.bincount(j, minlength=n)
-    made = p > 0.0
-    if not made.all():
-        j, i, p = j[made], i[made], p[made]
-    return Chain(states, _column_stochastic(n, j, i, p, absorbing=listed == 0), start, given)
+    absorbing = np.flatnonzero(np.bincount(j, minlength=n) == 0)
+    ends = np.concatenate((i, absorbing)), np.concatenate((j, absorbing))
+    # The conversion sorts the arcs in linear time and adds duplicates up.
+    matrix = csc_array((np.concatenate((p, np.ones(len(absorbing)))), ends), shape=(n, n))
+    if matrix.nnz < len(ends[0]):
+        raise _listed_twice(states, j * n + i)
+    matrix.eliminate_zeros()
+    return Chain(states, matrix, start, given)
 
 
 def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fraction]]:
@@ -235,33 +231,6 @@ def _positions(given: ArrayLike) -> NDArray[np.int64]:
             f"sources and targets have type {positions.dtype}; give positions in `states`"
         )
     return positions.astype(np.int64, copy=False)
-
-
-def _column_stochastic(
-    n: int,
-    j: NDArray[np.int64],
-    i: NDArray[np.int64],
-    p: NDArray[np.float64],
-    absorbing: NDArray[np.bool_],
-) -> csc_array:
-    """Build M from arcs sorted by source, then target, with a self-loop on absorbing states.
-
-    The columns are written where they belong; a conversion from triples would sort and
-    add up what is sorted and distinct already.
-    """
-    indptr = np.zeros(n + 1, dtype=np.int64)
-    np.cumsum(np.bincount(j, minlength=n) + absorbing, out=indptr[1:])
-    index_type: Any = np.int32 if max(n, int(indptr[-1])) < 2**31 else np.int64
-    indices = np.empty(int(indptr[-1]), dtype=index_type)
-    data = np.empty(int(indptr[-1]), dtype=np.float64)
-    own = np.repeat(absorbing, np.diff(indptr))
-    indices[own] = np.flatnonzero(absorbing)
-    data[own] = 1.0
-    indices[~own] = i
-    data[~own] = p
-    matrix = csc_array((data, indices, indptr.astype(index_type)), shape=(n, n))
-    matrix.has_canonical_format = True
-    return matrix
 
 
 def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> Chain:
