@@ -5,9 +5,12 @@ once. Where the chances of the batch lead to different graphs (a chance of 0 or 
 branches on a chance), the batch is split and each part is walked again. The limits are then
 calculated over arrays (see `family_elimination`).
 
-Nothing is taken on trust: at three members of each part the game is made again from plain floats
-and must have the same arcs. A part that fails this, or whose game needs plain floats, is calculated
-member by member.
+Of a large family the first part alone is walked: what was done for it is repeated for every batch
+that gives the same answers (see `family_numbers`).
+
+Nothing is taken on trust: at three members of each part, and at one of each batch, the game is
+made again from plain floats and must have the same arcs. A part that fails this, or whose game
+needs plain floats, is calculated member by member.
 """
 
 from __future__ import annotations
@@ -278,11 +281,13 @@ class _Family:
     def _together(self, members: Places) -> Places:
         """Work out the limits of members with one graph; return those that remain doubtful."""
         record = Record()
+        first, last = int(members[0]), int(members[-1])
+        part: Any = slice(first, last + 1) if last - first < len(members) else members
         # Where a float would raise ZeroDivisionError, arrays must not go on either.
         with np.errstate(divide="raise", invalid="raise"):
             game = self._game_of(
                 **{
-                    name: value if isinstance(value, float) else Numbers(value[members], record)
+                    name: value if isinstance(value, float) else Numbers(value[part], record)
                     for name, value in self._chances.items()
                 }
             )
@@ -296,7 +301,7 @@ class _Family:
         period = math.lcm(*structure.periods[structure.closed].tolist())
         chances = [p.values if isinstance(p, Numbers) else p for p in completed]
         limits, doubtful = family_limits(structure, sources, targets, chances, len(members))
-        self._found.add(members, states, enumerate(limits), period)
+        self._found.add(part, states, enumerate(limits), period)
         if self._count > _BATCH and len(self._programs) < _FEW:
             with suppress(Disagreement), np.errstate(all="ignore"):
                 found = limits_in_numbers(structure, sources, targets, completed)

@@ -13,6 +13,7 @@ another way, the same operations are right for any other numbers that give the s
 
 from __future__ import annotations
 
+import operator
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
@@ -158,12 +159,13 @@ _SHORTEST, _LONGEST = 4096, 16_000
 """Numbers at a time: few cost calls, and for more the system has to be asked for memory."""
 _LEAST, _MOST = np.minimum.reduce, np.maximum.reduce
 _EXTREMES: dict[Any, Any] = {
-    np.less: (_MOST, _LEAST),
-    np.less_equal: (_MOST, _LEAST),
-    np.greater: (_LEAST, _MOST),
-    np.greater_equal: (_LEAST, _MOST),
+    np.less: (operator.lt, _MOST, _LEAST),
+    np.less_equal: (operator.le, _MOST, _LEAST),
+    np.greater: (operator.gt, _LEAST, _MOST),
+    np.greater_equal: (operator.ge, _LEAST, _MOST),
 }
-"""Which entry answers for all that a comparison with a constant is true, or false."""
+"""Which entry answers for all that a comparison with a constant is true, and which that it is
+not."""
 
 
 class Program:
@@ -189,9 +191,8 @@ class Program:
             compared = step is not None and step.function in _EXTREMES
             x, limit = step.arguments if step and compared else (None, place)
             if step and isinstance(x, _Place) and not isinstance(limit, _Place):
-                self._tests[x].append(
-                    (_EXTREMES[step.function][not answer], step.function, limit, answer)
-                )
+                compare, true, false = _EXTREMES[step.function]
+                self._tests[x].append((true if answer else false, compare, limit, answer))
                 needed.add(x)
             else:
                 self._tests[place].append((np.all if answer else np.any, None, None, answer))
@@ -254,7 +255,9 @@ class Program:
         They are overwritten by the next run.
         """
         size = len(given[0])
-        held = [x[:size] if np.ndim(x) else x for x in self._registers]
+        held = list(self._registers)
+        if size != self.size:
+            held = [x[:size] if np.ndim(x) else x for x in held]
         for (register, tests), numbers in zip(self._given, given, strict=True):
             held[register] = numbers
             if not _passed(numbers, tests):
@@ -273,10 +276,10 @@ class Program:
 def _passed(numbers: Any, tests: Sequence[Any]) -> bool:
     """Return whether numbers answer as those before did."""
     found: dict[Any, Any] = {}
-    for extreme, comparison, limit, answer in tests:
-        if extreme not in found:
-            found[extreme] = extreme(numbers)
-        x = found[extreme]
-        if bool(x if comparison is None else comparison(x, limit)) != answer or x != x:
+    for extreme, compare, limit, answer in tests:
+        x = found.get(extreme)
+        if x is None:
+            x = found[extreme] = extreme(numbers).item()
+        if bool(x if compare is None else compare(x, limit)) != answer or x != x:
             return False
     return True
