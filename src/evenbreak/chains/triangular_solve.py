@@ -9,8 +9,10 @@ obeys
 upstream states first. This is a triangular system whose terms all have one sign, and the
 expected visits are f[j] over the sum of the arcs out of j. A small class of several states
 enters it with each state twice, as it is entered and as it is left, joined by the factors
-of `blocks`. So the whole is triangular, its size at most twice the number of states, and
-I - T and its transpose are each solved in one call.
+of `blocks`: what enters a state moves on to states eliminated later, divided by the pivot it is
+the visits to it, and visits to a state bring visits to states eliminated earlier. So the whole
+is triangular, its size at most twice the number of states, and I - T and its transpose are each
+solved in one call.
 """
 
 from __future__ import annotations
@@ -23,13 +25,16 @@ from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import spsolve_triangular
 
 from evenbreak.chains.arcs import sums
-from evenbreak.chains.blocks import eliminate_stack, stacks
+from evenbreak.chains.blocks import eliminate_together
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
 
+_ENTRIES = 2_000_000
 _FEW_TERMS = 256
 """More arcs into or out of a state are added up with a correction."""
 
@@ -84,18 +89,15 @@ class TriangularSolve:
         rows = [self._enter[targets[across]]]
         entries = [chances[across] / self._unit[sources[across]]]
         leaks = leak + sums(sources[across], chances[across], m)
-        inner = _Inner(sources[inside], targets[inside], chances[inside], label)
-        for size, classes in stacks(sizes):
-            first = offsets[classes]
-            factors = eliminate_stack(inner.stack(classes, first, size, leaks), first)
-            states = (first[:, None] + np.arange(size)).reshape(-1)
-            self.pivots[states] = factors.pivot
-            columns += [self._enter[states], self._enter[factors.onward[0]]]
-            rows += [self._leave[states], self._enter[factors.onward[1]]]
-            entries += [1.0 / factors.pivot, factors.onward[2]]
-            columns.append(self._leave[factors.back[0]])
-            rows.append(self._leave[factors.back[1]])
-            entries.append(factors.back[2])
+        inner = sources[inside], targets[inside], chances[inside]
+        for states, A in _stacks(offsets, label, *inner, leaks):
+            size = len(states)
+            self.pivots[states] = pivot = eliminate_together(A, size)
+            made, onward = A[:size] != 0.0, np.tri(size, k=-1, dtype=bool)[:, :, None]
+            enter, leave = self._enter[states], self._leave[states]
+            columns += [enter.ravel(), np.where(onward, enter, leave)[made]]
+            rows += [leave.ravel(), np.where(onward, enter[:, None], leave[:, None])[made]]
+            entries += [1.0 / pivot.ravel(), (A[:size] / np.where(onward, pivot, 1.0))[made]]
         self._system = _unit_lower(
             int(width.sum()), np.concatenate(columns), np.concatenate(rows), np.concatenate(entries)
         )
@@ -142,40 +144,39 @@ class TriangularSolve:
         return x if take is None else x[take]
 
 
-class _Inner:
-    """The arcs within classes, sorted by class, from which stacks are made."""
+def _stacks(
+    offsets: Places,
+    label: Places,
+    sources: Places,
+    targets: Places,
+    chances: NDArray[np.float64],
+    leaks: NDArray[np.float64],
+) -> Iterator[tuple[Places, NDArray[np.float64]]]:
+    """Yield the classes of several states, those of one size together, as memory allows.
 
-    def __init__(
-        self,
-        sources: Places,
-        targets: Places,
-        chances: NDArray[np.float64],
-        label: Places,
-    ) -> None:
-        home = label[sources]
-        by_class = np.argsort(home, kind="stable")
-        self._sources, self._targets = sources[by_class], targets[by_class]
-        self._chances = chances[by_class]
-        self._begin = np.searchsorted(home[by_class], np.arange(label[-1] + 2))
-
-    def stack(
-        self,
-        classes: Places,
-        first: Places,
-        size: int,
-        leaks: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
-        """Return the classes (all of `size` states) as one array, their leaks last."""
-        count = self._begin[classes + 1] - self._begin[classes]
-        layer = np.repeat(np.arange(len(classes)), count)
-        arcs = np.arange(count.sum()) + np.repeat(
-            self._begin[classes] - (np.cumsum(count) - count), count
-        )
-        W = np.zeros((len(classes), size + 1, size))
-        base = first[layer]
-        W[layer, self._targets[arcs] - base, self._sources[arcs] - base] = self._chances[arcs]
-        W[:, size] = leaks[first[:, None] + np.arange(size)]
-        return W
+    Each stack is the states, shape (size, classes), and their arcs, shape (size + 1, size,
+    classes): entry [i, j] is the arc from the j-th to the i-th state, and the last row the leaks.
+    """
+    by_size = np.argsort(np.diff(offsets), kind="stable")
+    sizes = np.diff(offsets)[by_size]
+    rank = np.empty(len(sizes), dtype=np.intp)
+    rank[by_size] = np.arange(len(sizes))
+    home = rank[label[sources]]
+    order = np.argsort(home, kind="stable")
+    home, sources, targets, chances = home[order], sources[order], targets[order], chances[order]
+    for size in np.unique(sizes[sizes > 1]).tolist():
+        first, last = np.searchsorted(sizes, (size, size + 1)).tolist()
+        step = max(1, _ENTRIES // (size * size))
+        for begin in range(first, last, step):
+            classes = slice(begin, min(begin + step, last))
+            arcs = slice(*np.searchsorted(home, (begin, classes.stop)).tolist())
+            layer, lowest = home[arcs] - begin, offsets[by_size[classes]]
+            A = np.zeros((size + 1, size, len(lowest)))
+            at = targets[arcs] - lowest[layer], sources[arcs] - lowest[layer], layer
+            A[at] = chances[arcs]
+            states = lowest + np.arange(size)[:, None]
+            A[size] = leaks[states]
+            yield states, A
 
 
 def _flow(system: csc_array | csr_array, x: NDArray[np.float64]) -> NDArray[np.float64]:
