@@ -1,6 +1,8 @@
 """A game written in every form and read back; and what is refused at the door."""
 
 import json
+import random
+from collections.abc import Iterator
 
 import networkx as nx
 import numpy as np
@@ -19,6 +21,7 @@ from evenbreak.files.arcs import ArcsFile
 from evenbreak.game import Game
 from evenbreak.games import CATALOGUE
 from evenbreak.handicaps import Ladder, chart
+from tries import tries
 
 GAMES = {**CATALOGUE, "npl_10": Ladder(chart("npl_10")), "npl_20": Ladder(chart("npl_20"))}
 
@@ -134,6 +137,50 @@ def test_what_is_no_square_matrix(tmp_path, text, part) -> None:
     path = tmp_path / "matrix.mtx"
     path.write_text(text)
     assert part in problem(path)
+
+
+@pytest.mark.parametrize("end", [b"", b" ", b" 7", b"x", b"e", b"\xff", b"\r"])
+def test_a_matrix_whose_last_line_has_no_end(tmp_path, end) -> None:
+    """scipy alone reads past the end of such files, and the program ends by a signal."""
+    path = tmp_path / "matrix.mtx"
+    path.write_bytes(b"%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1" + end)
+    for _ in range(20):
+        assert read_chain(path).probabilities.tolist() == [1.0]
+    path.write_bytes(path.read_bytes() + b"\0\n")
+    assert "holds a NUL byte" in problem(path)
+
+
+def mutants(content: bytes, seed: int, count: int) -> Iterator[bytes]:
+    """Yield the content with one to four wrong, missing, repeated or strange pieces each."""
+    draw = random.Random(seed)
+    strange = (
+        b"null 1e999 -1 [] {} x NaN true 99999999999999999999 < \0 \xff &x; undirected".split()
+    )
+    for _ in range(count):
+        mutant = bytearray(content)
+        for _ in range(draw.randint(1, 4)):
+            at, end = sorted(draw.choices(range(len(mutant) + 1), k=2))
+            piece = draw.choice([mutant[at : at + 30], b"", bytes([draw.randrange(256)]), *strange])
+            mutant[at : draw.choice([at, at + 1, min(end, at + 30)])] = piece
+        yield bytes(mutant)
+
+
+@pytest.mark.parametrize("form", ["graphml", "json", "mtx"])
+def test_damaged_graphs_and_matrices_are_read_or_refused_on_a_line(tmp_path, form) -> None:
+    road = road_of(CATALOGUE["one-ball"])
+    content = {
+        "graphml": graphml_bytes(road.graph),
+        "json": node_link_bytes(road.graph),
+        "mtx": matrix_market_bytes(road.chain),
+    }[form]
+    path = tmp_path / f"graph.{form}"
+    for mutant in mutants(content, 1, tries("damaged graphs and matrices", 60)):
+        path.write_bytes(mutant)
+        try:
+            read_chain(path).graph()
+        except DataError as error:
+            for text in error.problems:
+                assert text.isprintable(), mutant
 
 
 @pytest.mark.parametrize("names", ["a\n", "a\na\n", "a\nb\nc\n"])

@@ -216,6 +216,10 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
     from scipy.sparse import coo_array, csc_array, issparse
 
     try:
+        # The reader goes past the end of a line with a NUL byte, and of a last one without an end.
+        if b"\0" in content:
+            raise ValueError("it holds a NUL byte")
+        content += b"\n"
         *shape, entries, _, _, _ = mminfo(io.BytesIO(content))
         if max(shape) > 2 * entries or entries > len(content):  # room would be made for them all
             raise ValueError(f"it does not hold the {entries:,} entries of {max(shape):,} states")
