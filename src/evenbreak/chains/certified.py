@@ -81,7 +81,7 @@ class CertifiedSolve:
 
     def __init__(self, T: csc_array, leak: Floats, *, factored: bool) -> None:
         self._T = T
-        out = Rows(T.indptr).sum(T.data, np.zeros(len(T.data)))
+        out = Rows(T.indptr).sum(T.data)
         high, low = two_sum(out.high, leak)
         self._outflow = two_sum(high, low + out.low)
         self.pivots = self._outflow.high

@@ -25,6 +25,8 @@ ROUND = 2.0**-53
 _SPLITTER = 2.0**27 + 1.0
 _BITS = 3
 """Numbers of terms are rounded up to so many binary digits."""
+_DENSE = 0.2
+"""A matrix with more than this share of its entries is kept with zeros in place of the others."""
 _TINY = 2.0**-1000
 """More than underflow takes from a product."""
 
@@ -88,28 +90,36 @@ class Rows:
         width = -(-self.terms // unit) * unit
         order = np.argsort(width, kind="stable")
         ends = np.flatnonzero(np.diff(width[order], append=-1)) + 1
-        self._blocks = []
+        self.blocks = []
         for rows in np.split(order, ends[:-1]):
             term = np.arange(width[rows[0]] if len(rows) else 0)[:, None]
             # What is missing in a row is a term that is 0, kept after the last entry.
             entries = np.where(term < self.terms[rows], indptr[:-1][rows] + term, indptr[-1])
-            self._blocks.append((rows, entries))
+            self.blocks.append((rows, entries))
 
-    def sum(self, terms: Floats, errors: Floats) -> Pair:
-        """Return the sum of the terms and of the errors beside them, by row; shapes (entries,)."""
-        terms, errors = np.append(terms, 0.0), np.append(errors, 0.0)
+    def sum(self, terms: Floats) -> Pair:
+        """Return the sum of the terms, of shape (entries,), by row."""
         high, low = np.zeros(len(self.terms)), np.zeros(len(self.terms))
-        for rows, entries in self._blocks:
-            some, lost = terms[entries], errors[entries]
-            while len(some) > 1:
-                half = len(some) // 2
-                added, more = two_sum(some[:half], some[half : 2 * half])
-                more += lost[:half] + lost[half : 2 * half]
-                some = np.concatenate((added, some[2 * half :]))
-                lost = np.concatenate((more, lost[2 * half :]))
-            if len(some):
-                high[rows], low[rows] = two_sum(some[0], lost[0])
+        padded = np.append(terms, 0.0)
+        for rows, entries in self.blocks:
+            some = padded[entries]
+            high[rows], low[rows] = _added_up(some, np.zeros_like(some))
         return Pair(high, low)
+
+
+def _added_up(some: Floats, lost: Floats) -> Pair:
+    """Return the sums of columns, and of what has been lost of their terms."""
+    if not len(some):
+        return Pair(np.zeros(some.shape[1]), np.zeros(some.shape[1]))
+    while len(some) > 1:
+        half = len(some) // 2
+        added, more = two_sum(some[:half], some[half : 2 * half])
+        more += lost[:half]
+        more += lost[half : 2 * half]
+        odd = len(some) % 2
+        some = np.concatenate((added, some[-1:])) if odd else added
+        lost = np.concatenate((more, lost[-1:])) if odd else more
+    return two_sum(some[0], lost[0])
 
 
 class Balance:
@@ -126,21 +136,28 @@ class Balance:
     """
 
     def __init__(self, arcs: csr_array, outflow: Pair, rows: Rows) -> None:
-        self.arcs, self.outflow, self._rows = arcs, outflow, rows
-        self._halves = halves(arcs.data)
+        self.arcs, self.outflow, self._terms = arcs, outflow, rows.terms + 8
+        m = len(rows.terms)
+        if arcs.nnz > _DENSE * m * m:
+            states = np.arange(m)
+            blocks = [(states, states[:, None], np.ascontiguousarray(arcs.toarray().T))]
+        else:
+            data, at = np.append(arcs.data, 0.0), np.append(arcs.indices, 0)
+            blocks = [(some, at[entries], data[entries]) for some, entries in rows.blocks]
+        self._blocks = [(some, at, data, halves(data)) for some, at, data in blocks]
 
     def missed(self, x: Pair, b: Floats) -> tuple[Floats, Floats]:
         """Return b - A x for x >= 0, and at least the size of each."""
-        at, terms = self.arcs.indices, self._rows.terms + 8
-        parts = halves(x.high)
-        flow = product(
-            self.arcs.data, self._halves, x.high[at], Pair(parts.high[at], parts.low[at])
-        )
-        into = self._rows.sum(flow.high, flow.low + self.arcs.data * x.low[at])
+        into = Pair(np.zeros_like(b), np.zeros_like(b))
+        for rows, at, data, parts in self._blocks:
+            high = x.high[at]
+            flow = product(data, parts, high, halves(high))
+            added = _added_up(flow.high, flow.low + data * x.low[at])
+            into.high[rows], into.low[rows] = added
         out = two_product(self.outflow.high, x.high)
         below = self.outflow.high * x.low + self.outflow.low * x.high
         whole, lost = two_sum(into.high, b)
         rest, more = two_sum(whole, -out.high)
         residual = rest + ((lost + more) + (into.low - (out.low + below)))
-        rounding = 2.0 * (ROUND * terms) ** 2 * (into.high + out.high + b)
-        return residual, (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + terms * _TINY
+        rounding = 2.0 * (ROUND * self._terms) ** 2 * (into.high + out.high + b)
+        return residual, (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + self._terms * _TINY

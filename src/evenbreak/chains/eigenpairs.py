@@ -70,12 +70,15 @@ class Eigenpairs(NamedTuple):
 
     def missed(self, M: NDArray[Any] | csc_array) -> float:
         """Return the largest entry of M R - R diag(values), L M - diag(values) L and L R - I."""
-        above = self.values.imag.clip(0.0)[:-1]
-        turn: Any = diags_array(self.values.real) + diags_array(above, offsets=1)
-        turn = turn - diags_array(above, offsets=-1)
+        real, turn = self.values.real, self.values.imag.clip(0.0)[:-1]
+        right, left = self.right * real, self.left * real[:, None]
+        right[:, :-1] -= turn * self.right[:, 1:]
+        right[:, 1:] += turn * self.right[:, :-1]
+        left[:-1] += turn[:, None] * self.left[1:]
+        left[1:] -= turn[:, None] * self.left[:-1]
         return max(
-            float(np.abs(M @ self.right - self.right @ turn).max()),
-            float(np.abs(self.left @ M - turn @ self.left).max()),
+            float(np.abs(M @ self.right - right).max()),
+            float(np.abs(self.left @ M - left).max()),
             float(np.abs(self.left @ self.right - np.eye(len(self.values))).max()),
         )
 

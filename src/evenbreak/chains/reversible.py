@@ -134,7 +134,9 @@ def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
     >>> (form.roots**2).round(15), abs(form.pairs(3)[0].round(12))
     (array([0.1, 0.5, 0.4]), array([1., 0., 1.]))
     """
-    there = csc_array(chain.arcs.matrix()[:, states][states])
+    there = chain.arcs.matrix()
+    if len(states) < len(chain):
+        there = csc_array(there[:, states][states])
     there.sort_indices()
     back = csc_array(there.T)
     back.sort_indices()

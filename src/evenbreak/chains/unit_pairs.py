@@ -179,7 +179,7 @@ class UnitPairs:
     @cached_property
     def _outflow(self) -> Pair:
         arcs = self._chain.arcs
-        return Rows(arcs.indptr).sum(arcs.chances, np.zeros_like(arcs.chances))
+        return Rows(arcs.indptr).sum(arcs.chances)
 
     def _equations(self, states: Places) -> tuple[csc_array, Pair]:
         """Return the arcs T among some states and the diagonal D."""
