@@ -127,10 +127,13 @@ def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, f
     if missing > 0:
         found = (_dense_others if n <= DENSE else _sparse_others)(M, known, missing)
         # The known vectors are exact; only the others are adjusted.
-        left = found.left - (found.left @ known.right) @ known.left
         right = found.right - known.right @ (known.left @ found.right)
         try:
-            left = np.asarray(np.linalg.solve(left @ right, left), dtype=np.float64)
+            if k == n:
+                left = np.linalg.inv(np.hstack((known.right, right)))[len(known.values) :]
+            else:
+                left = found.left - (found.left @ known.right) @ known.left
+                left = np.asarray(np.linalg.solve(left @ right, left), dtype=np.float64)
         except np.linalg.LinAlgError:
             raise no_basis(k, ones) from None
         known = known.and_then(Eigenpairs(found.values, left, right))
@@ -212,10 +215,16 @@ def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> Accur
 
 
 def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
-    """Return k other pairs, as LAPACK has them: with conjugate ones together, in real parts."""
+    """Return k other pairs, as LAPACK has them: with conjugate ones together, in real parts.
+
+    If with these there are all, the left vectors are left out: they follow from the right ones.
+    """
     n = M.shape[0]
     real, imaginary, left, right, failed = dgeev(
-        M.toarray(order="F"), lwork=int(dgeev_lwork(n)[0]), overwrite_a=True
+        M.toarray(order="F"),
+        compute_vl=len(known.values) + k < n,
+        lwork=int(dgeev_lwork(n)[0]),
+        overwrite_a=True,
     )
     if failed:
         raise no_basis(k)
@@ -225,7 +234,8 @@ def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     for value in known.values:
         order = np.delete(order, np.argmin(np.abs(values[order] - value)))
     order = _whole_pairs(values, order, k)
-    return Eigenpairs(values[order], left.T[order], right[:, order])
+    left = left.T[order] if len(left) == n else right.T[:0]
+    return Eigenpairs(values[order], left, right[:, order])
 
 
 def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:

@@ -52,7 +52,8 @@ _DENSE = 0.2
 """A matrix with this share of entries is factored as a dense one."""
 _FEW, _MUCH_WORK = 1000, 1e11
 """So few states are factored whatever their graph; others, with up to so many multiplications."""
-_TRIES = 6
+_TRIES, _ENOUGH = 6, 4.0
+"""How often w is sought; so many times what no residual can show is missed by little enough."""
 
 
 class UnitPairs:
@@ -109,8 +110,10 @@ class UnitPairs:
         visits, lost = np.zeros(arcs.size), 0.0
         states = np.flatnonzero(seen & (self._class < 0))
         if len(states):
-            x, missed = _System(*self._equations(states)).solve(v[states])
-            visits[states], lost = x.high, float(missed.sum())
+            T, outflow = self._equations(states)
+            _refuse_giants(T)
+            x, missed = _System(T, outflow).solve(v[states])
+            visits[states], lost = x, float(missed.sum())
         entering = (self._class[arcs.sources] < 0) & (self._class[arcs.targets] >= 0)
         flow = arcs.chances[entering] * visits[arcs.sources[entering]]
         own = np.flatnonzero(self._class >= 0)
@@ -132,12 +135,13 @@ class UnitPairs:
         law = np.zeros(len(self._chain))
         here = self._class >= 0
         here[here] = wanted[self._class[here]]
-        alone = here & (self._chain.arcs.outflow == 0.0)
+        alone = here & (np.diff(self._chain.arcs.indptr) == 0)
         law[alone] = 1.0
         states = np.flatnonzero(here & ~alone)
         if not len(states):
             return law, 0.0
         T, outflow = self._equations(states)
+        _refuse_giants(T)
         guess = _factored(T, SHIFT * outflow.high, transposed=False)(np.ones(len(states)))
         order = np.lexsort((guess, self._class[states]))
         last = np.append(np.diff(self._class[states[order]]) > 0, True)
@@ -148,7 +152,7 @@ class UnitPairs:
         arcs = self._chain.arcs
         out = cut[arcs.sources]
         x, missed = system.solve(sums(arcs.targets[out], arcs.chances[out], arcs.size)[rest])
-        law[cut], law[rest] = 1.0, x.high
+        law[cut], law[rest] = 1.0, x
         total = sums(self._class[states], law[states], self.count)
         law[states] /= total[self._class[states]]
         return law, 2.0 * float(system.error(missed).sum()) + 4.0 * EPS
@@ -168,11 +172,13 @@ class UnitPairs:
             (arcs.chances[entering], (arcs.sources[entering], self._class[arcs.targets[entering]])),
             shape=(arcs.size, self.count),
         )
-        system = _System(*self._equations(states), transposed=True)
+        T, outflow = self._equations(states)
+        _refuse_giants(T)
+        system = _System(T, outflow, transposed=True)
         missed = np.zeros(len(states))
         for row, column in zip(left, into.T.toarray()[:, states], strict=True):
             x, more = system.solve(column)
-            row[states] = x.high
+            row[states] = x
             missed += more
         return left, float(system.error(missed).max()) + EPS
 
@@ -204,23 +210,32 @@ class _System:
         arcs: csr_array = T.T if transposed else T.tocsr()
         self._balance = Balance(arcs, outflow, Rows(arcs.indptr))
         self._back = _factored(T, outflow.high, transposed=transposed)
+        self._terms = np.diff(arcs.indptr) + 8
 
-    def solve(self, b: Floats) -> tuple[Pair, Floats]:
-        """Return A^-1 b for b >= 0, and at least by how much the equations are missed."""
-        nothing = np.zeros_like(b)
-        best = x = Pair(nothing, nothing)
-        least = residual = b
+    def solve(self, b: Floats) -> tuple[Floats, Floats]:
+        """Return A^-1 b for b >= 0, and at least by how much the equations are missed.
+
+        The miss is that of an x of which the answer is the rounding; where x is negative, it is 0,
+        which is nearer.
+        """
+        arcs, D = self._balance.arcs, self._balance.outflow.high
+        best, least = np.zeros_like(b), b
         with np.errstate(all="ignore"):  # what overflows is no better
-            while residual.any():
-                high, lost = two_sum(x.high, self._back(residual))
-                x = Pair(*(np.where(high > 0.0, part, 0.0) for part in two_sum(high, lost + x.low)))
+            x = Pair(np.maximum(self._back(b), 0.0), np.zeros_like(b))
+            while True:
                 residual, missed = self._balance.missed(x, b)
                 if not missed.max() < least.max() / 2.0:
-                    break
-                best, least = x, missed
-                if missed.max() > 2.0 * np.abs(residual).max():  # only rounding is seen
-                    break
-        return best, least
+                    return best, least
+                best, least, unseen = x.high, missed, missed - np.abs(residual)
+                more = self._back(residual)
+                high, lost = two_sum(x.high, more)
+                x = Pair(*(np.where(high > 0.0, part, 0.0) for part in two_sum(high, lost + x.low)))
+                # So small a change changes the residual by what doubles tell well enough.
+                out, into, size = D * more, arcs @ more, np.abs(D * more) + arcs @ np.abs(more)
+                rounding = 2.0 * ROUND * self._terms * (size + np.abs(residual))
+                missed = np.abs(residual - (out - into)) + rounding + unseen
+                if missed.max() < _ENOUGH * unseen.max():
+                    return x.high, missed
 
     def error(self, missed: Floats) -> Floats:
         """Return at least |A^-1| `missed`, by w >= 0 with A w >= D.
@@ -231,14 +246,13 @@ class _System:
             if no such w is found.
         """
         arcs, D = self._balance.arcs, self._balance.outflow.high
-        terms = np.diff(arcs.indptr) + 8
         w, residual = np.zeros_like(D), 2.0 * D
         with np.errstate(all="ignore"):
             for _ in range(_TRIES):
                 w = np.maximum(w + self._back(residual), 0.0)
                 out, into = D * w, arcs @ w
                 residual = 2.0 * D - (out - into)
-                rounding = 2.0 * ROUND * terms * (out + into + 2.0 * D)
+                rounding = 2.0 * ROUND * self._terms * (out + into + 2.0 * D)
                 if (np.abs(residual) + rounding <= D).all():
                     return np.asarray(w * (missed / D).max())
         raise _unbounded()
@@ -257,13 +271,6 @@ def _factored(T: csc_array, outflow: Floats, *, transposed: bool) -> Callable[[F
         def solve(b: Floats, way: str) -> Any:
             return dgetrs(lu, pivots, b, trans=int(way == "T"))[0]
     else:
-        work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
-        if work > _MUCH_WORK:
-            raise AccuracyError(
-                f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
-                "factor, which is too much for eigenvectors; use elimination, as stochastic_limit "
-                "does"
-            )
         shares = T.data / np.repeat(outflow, np.diff(T.indptr))
         sparse = csc_array(eye_array(m) - csc_array((shares, T.indices, T.indptr), T.shape))
         try:
@@ -279,6 +286,17 @@ def _factored(T: csc_array, outflow: Floats, *, transposed: bool) -> Callable[[F
     if transposed:
         return lambda b: np.asarray(solve(b / outflow, "T"))
     return lambda b: np.asarray(solve(b, "N") / outflow)
+
+
+def _refuse_giants(T: csc_array) -> None:
+    """Refuse states whose factors would take too long."""
+    m = T.shape[0]
+    work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
+    if work > _MUCH_WORK:
+        raise AccuracyError(
+            f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
+            "factor, which is too much for eigenvectors; use elimination, as stochastic_limit does"
+        )
 
 
 def _unbounded() -> AccuracyError:
