@@ -8,7 +8,7 @@ import pytest
 import oracle
 from evenbreak.chains import Chain, chain_of, dense_elimination, stationary_laws, stochastic_limit
 from evenbreak.chains.arcs import arcs_of
-from evenbreak.chains.stationary import dense_law, is_dense
+from evenbreak.chains.stationary import dense_law, suits_array
 
 
 def dense(size, decades, seed=1):
@@ -50,9 +50,9 @@ def test_a_valley_deeper_than_floats_is_left_to_others():
 
 def test_large_and_sparse_classes_are_not_dense():
     ring = chain_of([(i, (i + 1) % 100, 1.0) for i in range(100)])
-    assert not is_dense(ring.arcs)
-    assert is_dense(dense(100, 1).arcs)
-    assert is_dense(arcs_of(Chain([0], [[1.0]]).matrix))
+    assert not suits_array(ring.arcs)
+    assert suits_array(dense(100, 1).arcs)
+    assert suits_array(arcs_of(Chain([0], [[1.0]]).matrix))
 
 
 @pytest.mark.parametrize("kind", ["alike", "two kinds", "turning"])

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     Matrix = NDArray[np.float64]
 
+MOST_ENTRIES = 40_000_000
+"""Of an array or of factors: those of some 6,000 states with arcs to all others."""
 _ONE_BY_ONE = 64
 """So few states are eliminated one by one."""
 _TERMS = 128
@@ -48,6 +50,11 @@ class Factors(NamedTuple):
     block: Matrix
     onward: Matrix
     back: Matrix
+
+
+def is_dense(states: int, arcs: int) -> bool:
+    """Whether so many states have arcs between a quarter of their pairs, or more."""
+    return states * states <= 4 * arcs
 
 
 def split(A: Matrix, size: int) -> tuple[Factors, Matrix]:

@@ -26,6 +26,7 @@ from scipy.sparse import csc_array
 from evenbreak.chains.arcs import arcs_of, put_back, sums
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.decimal_elimination import DecimalElimination
+from evenbreak.chains.dense_elimination import MOST_ENTRIES, is_dense
 from evenbreak.chains.dissection import bandwidth, dissect, neighbours
 from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.line_elimination import LineElimination, line_order
@@ -40,12 +41,8 @@ if TYPE_CHECKING:
     from evenbreak.chains.dissection import Front
 
 SMALL = 64
-_MOST_ENTRIES = 40_000_000
-"""Of factors in fronts: those of some 6,000 states with arcs to all others, or a 500 x 500 grid."""
 _FEW, _MUCH_WORK = 500, 1e10
 """States that are eliminated at once, and multiplications that a factorisation is worth."""
-_DENSE = 4
-"""A class is dense if it has an arc for one in so many pairs of states."""
 _NARROW = 4
 
 
@@ -89,8 +86,8 @@ class _Piece:
         if order is not None:
             return LineElimination(self._arcs, self._leaks, order)
         work = float(size * self._bandwidth**2)
-        is_dense = size * size <= _DENSE * self._arcs.nnz
-        if (size <= _FEW or is_dense) and self._bandwidth > _NARROW:
+        dense = is_dense(size, self._arcs.nnz)
+        if (size <= _FEW or dense) and self._bandwidth > _NARROW:
             return self._eliminated()
         if work > _MUCH_WORK:  # in this order; perhaps not in a better one
             work = sum(front.work for front in self._fronts[1])
@@ -137,11 +134,11 @@ class _Piece:
             return DecimalElimination(arcs_of(self._arcs), self._leaks)
         order, fronts = self._fronts
         entries = sum(front.entries for front in fronts)
-        if entries > _MOST_ENTRIES:
+        if entries > MOST_ENTRIES:
             raise AccuracyError(
                 f"a class of {len(order):,} states is left too rarely to prove an answer in floats "
                 f"and no few states cut it apart: its factors would be {entries:,} numbers in "
-                f"{entries * 8e-9:.2g} GB, and {_MOST_ENTRIES:,} are allowed; join some of its "
+                f"{entries * 8e-9:.2g} GB, and {MOST_ENTRIES:,} are allowed; join some of its "
                 "states or split the chain"
             )
         return FrontElimination(self._arcs, self._leaks, order, fronts)

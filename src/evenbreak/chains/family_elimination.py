@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak.chains.blocks import eliminate_together
+from evenbreak.chains.dense_elimination import is_dense
 from evenbreak.chains.elimination import eliminated, limit_in
 
 if TYPE_CHECKING:
@@ -127,7 +128,7 @@ def _rows(
 def _is_dense(rows: list[_Row], states: list[int]) -> bool:
     inside = set(states)
     arcs = sum(len(rows[state].keys() & inside) for state in states)
-    return len(states) >= _DENSE_FROM and 4 * arcs >= len(states) ** 2
+    return len(states) >= _DENSE_FROM and is_dense(len(states), arcs)
 
 
 def _dense_visits(

@@ -25,7 +25,8 @@ from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.chains.certified import spread
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.decimal_elimination import decimal_law
-from evenbreak.chains.dense_elimination import factored
+from evenbreak.chains.dense_elimination import MOST_ENTRIES, factored, is_dense
+from evenbreak.chains.factorisation import SMALL
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 
@@ -36,8 +37,6 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 
-_SMALL, _MOST_ENTRIES = 64, 40_000_000
-"""A dense array is best for so few states, or if a quarter of its entries are arcs."""
 _LARGE = 500
 """Classes of so many states may be solved by iteration."""
 _FAR = 1e290
@@ -76,7 +75,7 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     are proportional to the law.
     """
     structure = chain.structure
-    if structure.count == 1 and classes[0] and is_dense(chain.arcs):
+    if structure.count == 1 and classes[0] and suits_array(chain.arcs):
         whole = dense_law(chain.arcs)
         if whole is not None:
             return whole, None
@@ -111,10 +110,10 @@ def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float6
     return law, bound
 
 
-def is_dense(arcs: Arcs) -> bool:
+def suits_array(arcs: Arcs) -> bool:
     """Whether the states are so few, or the arcs so many, that a dense array is best."""
-    entries = arcs.size**2
-    return arcs.size <= _SMALL or entries <= min(4 * len(arcs.chances), _MOST_ENTRIES)
+    n = arcs.size
+    return n <= SMALL or (n * n <= MOST_ENTRIES and is_dense(n, len(arcs.chances)))
 
 
 def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
@@ -125,7 +124,7 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     array([0.33333333, 0.66666667])
     """
     n = arcs.size
-    many = n > _SMALL
+    many = n > SMALL
     A = np.zeros((n, n), order="C" if many else "F")
     A[arcs.targets, arcs.sources] = -arcs.chances
     block = factored(np.asfortranarray(A))
