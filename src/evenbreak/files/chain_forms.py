@@ -121,7 +121,8 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
         reason = printable(" ".join(str(error).split()))
         _refuse(source, f"cannot be read as {form} ({reason}); check the file")
     if not graph.is_directed() or graph.is_multigraph():
-        _refuse(source, "is not a directed graph with one arc from each state to each other")
+        what = "is a multigraph" if graph.is_directed() else "is not directed"
+        _refuse(source, f"{what}; write a directed graph, with one arc from a state to another")
     if not len(graph):
         _refuse(source, "has no states; write a node for each")
     names = ("probability", *COLUMNS["probability"], WEIGHT)
