@@ -87,6 +87,21 @@ def test_the_bounds_hold_against_fractions_and_are_sharp(kind) -> None:
             assert missed <= bound <= SHARP, seed
 
 
+def test_many_ways_into_one_class_are_added_up_without_loss() -> None:
+    """From S to any of 300 states of a ring, or to W: what ends in the ring is a long sum."""
+    n, draw = 300, np.random.default_rng(0)
+    chances = draw.dirichlet(np.ones(n + 1))
+    arcs = [("S", k, p) for k, p in enumerate(chances[:n].tolist())]
+    chain = chain_of([*arcs, ("S", "W", chances[n]), *((k, (k + 1) % n, 1.0) for k in range(n))])
+    columns = oracle.columns_of(chain)
+    out = columns[chain.index("S")]
+    share = sum(p for i, p in out.items() if i != chain.index("W")) / sum(out.values())
+    exact = [share / n if isinstance(state, int) else Fraction(0) for state in chain.states]
+    exact[chain.index("W")] = 1 - share
+    for missed, bound in errors_from(chain, chain.density("S"), exact):
+        assert missed <= bound <= SHARP
+
+
 @pytest.mark.parametrize(("m", "n"), [(1, 1), (7, 5), (25, 25)])
 def test_the_bound_of_a_race_holds_against_fractions(m, n) -> None:
     """From the first rack, and from any score."""

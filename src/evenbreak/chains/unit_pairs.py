@@ -168,19 +168,20 @@ class UnitPairs:
         if not len(states):
             return left, 0.0
         entering = (self._class[arcs.sources] < 0) & (self._class[arcs.targets] >= 0)
-        into = csc_array(
-            (arcs.chances[entering], (arcs.sources[entering], self._class[arcs.targets[entering]])),
-            shape=(arcs.size, self.count),
-        )
+        ways = arcs.sources[entering] * np.int64(self.count) + self._class[arcs.targets[entering]]
+        ways, place = np.unique(ways, return_inverse=True)
+        chances = sums(place, arcs.chances[entering], len(ways))
+        into = np.zeros((self.count, arcs.size))
+        into[ways % self.count, ways // self.count] = chances
         T, outflow = self._equations(states)
         _refuse_giants(T)
         system = _System(T, outflow, transposed=True)
         missed = np.zeros(len(states))
-        for row, column in zip(left, into.T.toarray()[:, states], strict=True):
+        for row, column in zip(left, into[:, states], strict=True):
             x, more = system.solve(column)
             row[states] = x
             missed += more
-        return left, float(system.error(missed).max()) + EPS
+        return left, float(system.error(missed).max()) + 2.0 * EPS
 
     @cached_property
     def _outflow(self) -> Pair:
