@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 SMALL = 64
 _FEW, _MUCH_WORK = 500, 1e10
 """States that are eliminated at once, and multiplications that a factorisation is worth."""
+_HUB = 1000
+"""A state that so many arcs lead out of makes ordering take longer than the factorisation."""
 _NARROW = 4
 
 
@@ -91,7 +93,9 @@ class _Piece:
             return self._eliminated()
         if work > _MUCH_WORK:  # in this order; perhaps not in a better one
             work = sum(front.work for front in self._fronts[1])
-        return CertifiedSolve(self._arcs, self._leaks, factored=work <= _MUCH_WORK)
+        has_hub = np.diff(self._arcs.indptr).max() > _HUB
+        factored = work <= _MUCH_WORK and not has_hub
+        return CertifiedSolve(self._arcs, self._leaks, factored=factored)
 
     def solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
         """Return (I - T)^-1 b (transposed on request), for b >= 0 of shape (m, k)."""
