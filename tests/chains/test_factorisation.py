@@ -6,6 +6,7 @@ from scipy.sparse import csc_array
 
 from evenbreak.chains import factorisation
 from evenbreak.chains.arcs import arcs_of
+from evenbreak.chains.certified import CertifiedSolve
 from evenbreak.chains.factorisation import Factorisation
 
 
@@ -26,3 +27,27 @@ def test_small_classes_between_large_ones_are_taken_together(monkeypatch, small,
     b = np.random.default_rng(0).random((9, 2))
     assert factor.visits(b) == pytest.approx(inverse @ b, rel=1e-13)
     assert factor.values(b) == pytest.approx(inverse.T @ b, rel=1e-13)
+
+
+def test_a_line_without_long_doubles_and_a_hub_are_proved(monkeypatch):
+    """Equal arcs repeat the same rounding errors, 3,000 times in doubles alone."""
+    n = 3000
+    T = csc_array(np.diag(np.full(n - 1, 0.5), 1) + np.diag(np.full(n - 1, 0.5), -1))
+    leak = np.zeros(n)
+    leak[0] = 0.5
+    T[0, 1], T[n - 2, n - 1] = 0.5, 1.0
+    monkeypatch.setattr(factorisation, "_WIDE", False)
+    line = Factorisation(arcs_of(T), leak, np.ones(n))
+    steps = line.values(np.ones((n, 1)))[:, 0]
+    assert type(line._pieces[0].solver) is CertifiedSolve
+    k = np.arange(1, n + 1)
+    assert steps == pytest.approx(k * (2 * n - k), rel=2e-16)
+    monkeypatch.setattr(factorisation, "_HUB", 100)
+    star = np.zeros((600, 600))
+    star[0, 1:], star[1:, 0] = 1.0, 0.5 / 599
+    star[0, 2:4] = 0.75
+    star[1, 2] = star[2, 3] = 0.25
+    hub = Factorisation(arcs_of(csc_array(star)), np.eye(600)[0] * 0.5, star.sum(axis=0))
+    found = hub.visits(np.eye(600, 1))
+    assert hub._pieces[0].solver._factors is None
+    assert found[0, 0] == pytest.approx(2.0, rel=1e-15)

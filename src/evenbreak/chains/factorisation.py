@@ -3,7 +3,7 @@
 | class | method | time, memory |
 |---|---|---|
 | one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
-| a line of states | cyclic reduction (`line_elimination`) | linear |
+| a line of states, if long doubles are long | cyclic reduction (`line_elimination`) | linear |
 | some hundreds of states, or dense | elimination in fronts (`front_elimination`) | cubic |
 | cut in two by few states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid |
 | others | iteration on aggregates, every entry proved (`certified`) | about linear |
@@ -45,6 +45,8 @@ _FEW, _MUCH_WORK = 500, 1e10
 """States that are eliminated at once, and multiplications that a factorisation is worth."""
 _HUB = 1000
 """A state that so many arcs lead out of makes ordering take longer than the factorisation."""
+_WIDE = bool(np.finfo(np.longdouble).eps < np.finfo(np.float64).eps)
+"""Whether a long double has more digits than a double, which lines need."""
 _NARROW = 4
 
 
@@ -84,7 +86,7 @@ class _Piece:
         size = self.last - self.first
         if len(self._offsets) > 2 or size <= SMALL:
             return TriangularSolve(*self._inner, self._leaks, self._outflow, self._offsets)
-        order = line_order(self._arcs)
+        order = line_order(self._arcs) if _WIDE else None
         if order is not None:
             return LineElimination(self._arcs, self._leaks, order)
         work = float(size * self._bandwidth**2)

@@ -10,8 +10,7 @@ elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic reduct
 It works in the platform's extended precision. Where all arcs are equal, each round repeats
 the rounding errors of the round before, which in doubles would show at n = 10,000; and arcs
 between states far apart are smaller than any double. Where a long double is no wider than a
-double (Windows, some ARM) a line of n equal states may be off by some n units in the last
-place, and arcs between states far apart may underflow, which the solves that use this notice.
+double (Windows, some ARM), lines are solved in another way (see `factorisation`).
 """
 
 from __future__ import annotations
