@@ -1,4 +1,24 @@
-"""Markov chains and their stochastic limits; nothing here knows what a game is about."""
+"""Markov chains and their stochastic limits; nothing here knows what a game is about.
+
+A `chain` is read from a game, a graph, arcs or a matrix (`explore`, `matrices`). Its graph says
+which states are left for good and with what period the others come back (`structure`). Its numbers
+come from one idea: states are eliminated one after the other, with sums of arcs for pivots, so that
+nothing is subtracted. The graph gives the order, and the kernel suits the numbers:
+
+| what is eliminated | by | for |
+|---|---|---|
+| a few arcs, in any numbers | `elimination` | floats, decimals, fractions, formulas, scores |
+| what remains dense in fractions | `lifting`, modulo a prime | `exact` |
+| one dense array | `dense_elimination` | `stationary`, `mean_passages`, and fronts |
+| a stack of small graphs | `blocks` | `triangular_solve`, and families of games (`families`) |
+| a class, in the fronts of a `dissection` | `front_elimination` | some hundreds of states |
+| a line | `line_elimination`; `birth_death` | closed forms and solves in linear time |
+| a class too large for that | `certified` | any approximation, proved afterwards |
+
+`factorisation` chooses for each class and `transient` watches for underflow. On their two solves,
+visits and values, stand `limits`, `absorption`, `passage_times`, `rewards` and `sensitivity`. The
+other road, by eigenvectors (`spectrum`, `unit_pairs`), comes to the same limits and checks them.
+"""
 
 import lazy_loader
 
