@@ -23,6 +23,7 @@ References: Varga 1962, Matrix Iterative Analysis, and Neumaier 1999 for bounds 
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import count
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +31,7 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import LinearOperator, bicgstab, splu
 
 from evenbreak.chains.aggregation import Aggregation
+from evenbreak.chains.arcs import reachable
 from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 
 if TYPE_CHECKING:
@@ -49,10 +51,11 @@ _NEAR = 2.0**-50
 _SHARE = 1e-10
 _PLAIN, _AGGREGATED = 64, 200
 """Iterations before aggregates are made, and with them."""
-_PROGRESS = 0.1
 _ROUNDS, _TRIES, _STALLS = 40, 6, 2
 _UNSEEN, _NEAR_ONE = -32, 3
 """An unknown below this power of 2 is not seen in a round; one up to this power is near 1."""
+_RARE = 1e-17
+"""States that are left no more often than this are not left often enough for a proof."""
 _SPREAD = 64
 """So many steps find the part of a class where it spends most of its time."""
 
@@ -86,6 +89,11 @@ class CertifiedSolve:
         self._outflow = two_sum(high, low + out.low)
         self.pivots = self._outflow.high
         self.error = 0.0
+        least = _RARE * self.pivots
+        sources = np.repeat(np.arange(len(leak)), np.diff(T.indptr))
+        often = T.data >= least[sources]
+        if not reachable(len(leak), T.indices[often], sources[often], leak >= least).all():
+            raise NotCertifiedError  # some states are left by rare arcs alone
         self._factors = _Factors(T, self.pivots) if factored else None
 
     def visits(self, b: Floats) -> Floats:
@@ -282,9 +290,15 @@ class _Scaled:
                 return size * y
             self._system.plain = False
         M = LinearOperator((m, m), matvec=self._aggregated, dtype=np.float64)
-        y, unfinished = bicgstab(A, b, y, rtol=share, maxiter=_AGGREGATED, M=M)
-        if unfinished and not np.abs(b - self._times(y)).max() <= _PROGRESS:
-            raise NotCertifiedError
+        steps = count(1)
+
+        def watch(y: Floats) -> None:
+            """Give up where the residual is still as large as b after some steps."""
+            step = next(steps)
+            if step > _PLAIN and step % 16 == 0 and not np.abs(b - self._times(y)).max() <= 1.0:
+                raise NotCertifiedError
+
+        y, _ = bicgstab(A, b, y, rtol=share, maxiter=_AGGREGATED, M=M, callback=watch)
         return size * y
 
     def _times(self, y: Floats) -> Floats:
