@@ -23,8 +23,8 @@ from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
     import pandas as pd
-    from numpy.typing import NDArray
 
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.chain import Chain
 
 
@@ -100,7 +100,7 @@ def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
     return pd.Series(visits_from(chain, start), index=labels(chain.states, "state"), name="visits")
 
 
-def masses_of(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+def masses_of(chain: Chain, start: Any = None) -> Floats:
     """Return the probability of ending in each class, 0 if it is not closed; shape (classes,)."""
     v = chain.density(start)
     arrivals = _arrivals(chain, v)
@@ -109,7 +109,7 @@ def masses_of(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     return sums(chain.structure.label, arrivals, chain.structure.count)
 
 
-def visits_from(chain: Chain, start: Any = None) -> NDArray[np.float64]:
+def visits_from(chain: Chain, start: Any = None) -> Floats:
     """Return the `expected_visits` to each state as an array."""
     v = chain.density(start)
     states = chain.transient.states
@@ -119,7 +119,7 @@ def visits_from(chain: Chain, start: Any = None) -> NDArray[np.float64]:
     return visits
 
 
-def ends_of(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
+def ends_of(chain: Chain, v: Floats) -> Floats:
     """Return the probability of each end of a chain without cycles, by one substitution."""
     end = chain.structure.recurrent
     outflow = np.where(end, 1.0, chain.arcs.outflow)
@@ -129,7 +129,7 @@ def ends_of(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.where(end, flow.visits(v[:, None])[:, 0], 0.0)
 
 
-def closed_classes_reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.bool_]:
+def closed_classes_reached(chain: Chain, v: Floats) -> Bools:
     """Return which closed classes can be reached, even with a chance smaller than any float."""
     arcs, structure = chain.arcs, chain.structure
     seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
@@ -138,7 +138,7 @@ def closed_classes_reached(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.b
     return reached & structure.closed
 
 
-def _arrivals(chain: Chain, v: NDArray[np.float64]) -> NDArray[np.float64]:
+def _arrivals(chain: Chain, v: Floats) -> Floats:
     """Return the probability that each recurrent state is the first one entered; shape (n,)."""
     if chain.structure.is_acyclic:
         return ends_of(chain, v)

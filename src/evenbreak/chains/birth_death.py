@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.scaled import prefix_products, shares
 
@@ -52,11 +52,11 @@ class BirthDeath:
         shape (n,): the self-loops.
     """
 
-    up: NDArray[np.float64]
-    down: NDArray[np.float64]
-    loops: NDArray[np.float64]
+    up: Floats
+    down: Floats
+    loops: Floats
 
-    def limit(self, start: int) -> tuple[NDArray[np.float64], int]:
+    def limit(self, start: int) -> tuple[Floats, int]:
         """Return the stochastic limit from the state `start`, and its period.
 
         The limit has shape (n,); it is conditional on the start.
@@ -156,7 +156,7 @@ class BirthDeath:
         products = prefix_products(self.down[lo - 1 : hi], self.up[lo : hi + 1])
         return shares(*products, start - lo + 1)
 
-    def _settle(self, limit: NDArray[np.float64], lo: int, hi: int, mass: float) -> int:
+    def _settle(self, limit: Floats, lo: int, hi: int, mass: float) -> int:
         """Spread `mass` over the closed class lo..hi; return its period."""
         law = birth_death_law(self.up[lo:hi], self.down[lo:hi])
         law *= mass
@@ -164,7 +164,7 @@ class BirthDeath:
         return 1 if lo == hi or self.loops[lo : hi + 1].any() else 2
 
 
-def birth_death_law(up: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+def birth_death_law(up: Floats, down: Floats) -> Floats:
     """Return the stationary law of a closed line; shape (n,) for n - 1 arcs each way.
 
     >>> birth_death_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))

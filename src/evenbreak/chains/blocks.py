@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
 
-def eliminate_together(A: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+def eliminate_together(A: Floats, size: int) -> Floats:
     """Eliminate the first states of all graphs of a stack in place; return the pivots.
 
     Parameters

@@ -19,8 +19,7 @@ from evenbreak.chains.elimination import Elimination, eliminated
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Arcs, Places
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
@@ -53,31 +52,27 @@ class DecimalElimination:
         if the elimination would take too long.
     """
 
-    def __init__(self, arcs: Arcs, leak: NDArray[np.float64], most: float = math.inf) -> None:
+    def __init__(self, arcs: Arcs, leak: Floats, most: float = math.inf) -> None:
         with localcontext(_CONTEXT):
             self._factor = _factor(arcs, leak, most)
             self.pivots = _floats(self._factor.pivots)
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         return self._columns(b, self._factor.visits)
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         return self._columns(r, self._factor.values)
 
     @staticmethod
-    def _columns(
-        b: NDArray[np.float64], solve: Callable[[list[Decimal]], list[Decimal]]
-    ) -> NDArray[np.float64]:
+    def _columns(b: Floats, solve: Callable[[list[Decimal]], list[Decimal]]) -> Floats:
         with localcontext(_CONTEXT):
             columns = ([Decimal(value) for value in column] for column in b.T.tolist())
             return np.array([_floats(solve(column)) for column in columns]).T
 
 
-def decimal_solve(
-    arcs: Arcs, leak: NDArray[np.float64], b: NDArray[np.float64], *, transposed: bool
-) -> NDArray[np.float64]:
+def decimal_solve(arcs: Arcs, leak: Floats, b: Floats, *, transposed: bool) -> Floats:
     """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf where floats end.
 
     Raises
@@ -90,12 +85,8 @@ def decimal_solve(
 
 
 def decimal_arrivals(
-    arcs: Arcs,
-    leak: NDArray[np.float64],
-    b: NDArray[np.float64],
-    out: tuple[Places, Places, NDArray[np.float64]],
-    size: int,
-) -> NDArray[np.float64]:
+    arcs: Arcs, leak: Floats, b: Floats, out: tuple[Places, Places, Floats], size: int
+) -> Floats:
     """Return the flow along the arcs `out` to each of `size` places, from b >= 0 of shape (m,).
 
     Expected visits that are larger than any float may be on the way.
@@ -113,7 +104,7 @@ def decimal_arrivals(
         return _floats(flow)
 
 
-def decimal_law(arcs: Arcs) -> NDArray[np.float64]:
+def decimal_law(arcs: Arcs) -> Floats:
     """Return the stationary law of the one closed class that the arcs make; shape (m,).
 
     Raises
@@ -133,9 +124,9 @@ def _rows(arcs: Arcs) -> list[dict[int, Decimal]]:
     return [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
 
 
-def _factor(arcs: Arcs, leak: NDArray[np.float64], most: float) -> Elimination:
+def _factor(arcs: Arcs, leak: Floats, most: float) -> Elimination:
     return Elimination(_rows(arcs), [Decimal(value) for value in leak.tolist()], most)
 
 
-def _floats(values: list[Decimal]) -> NDArray[np.float64]:
+def _floats(values: list[Decimal]) -> Floats:
     return np.array([float(value) for value in values])

@@ -20,13 +20,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.chain import Chain, check_present
 from evenbreak.checks import generator_of
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 @array_values
@@ -73,11 +72,11 @@ class FittedChain:
             self.chain.states, _absorbing(self._with(weights.data / left)), self.chain.start
         )
 
-    def _seen(self) -> NDArray[np.float64]:
+    def _seen(self) -> Floats:
         """Return the number of steps seen from the state of each entry of `counts`."""
         return np.repeat(self.counts.sum(axis=0), np.diff(self.counts.indptr))
 
-    def _with(self, data: NDArray[np.float64]) -> csc_array:
+    def _with(self, data: Floats) -> csc_array:
         return csc_array((data, self.counts.indices, self.counts.indptr), shape=self.counts.shape)
 
 

@@ -54,12 +54,11 @@ from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     import pandas as pd
-    from numpy.typing import NDArray
 
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
-    Matrix = NDArray[np.float64]
 
 MOST_STATES = 4000
 """Larger chains are refused. So many take some 5 seconds and 600 MB."""
@@ -159,7 +158,7 @@ def kemeny_constant(chain: Chain) -> float:
     return float((law * _means_among(chain, recurrent)[:, law.argmax()]).sum())
 
 
-def _certain_visits(chain: Chain) -> tuple[Places, NDArray[np.bool_]]:
+def _certain_visits(chain: Chain) -> tuple[Places, Bools]:
     """Return the transient states, and what each of them is certain to meet.
 
     Entry [j, c] of the second says whether the j-th transient state is certain to get to the c-th
@@ -199,7 +198,7 @@ def _certain_visits(chain: Chain) -> tuple[Places, NDArray[np.bool_]]:
     return transient, np.unpackbits(rows, axis=1, count=n, bitorder="little").astype(bool)
 
 
-def _means_among(chain: Chain, states: Places, root: int = -1) -> Matrix:
+def _means_among(chain: Chain, states: Places, root: int = -1) -> Floats:
     """Return the means among states none of which leaves the others, but for a root that may."""
     n = len(states)
     if n == 1:
@@ -223,7 +222,7 @@ def _means_among(chain: Chain, states: Places, root: int = -1) -> Matrix:
     return means
 
 
-def _by_halves(A: Matrix) -> Matrix:
+def _by_halves(A: Floats) -> Floats:
     """Return the means among all states of a chain; shape (n, n).
 
     Parameters
@@ -250,7 +249,7 @@ def _by_halves(A: Matrix) -> Matrix:
     return means
 
 
-def _one_by_one(A: Matrix) -> Matrix:
+def _one_by_one(A: Floats) -> Floats:
     """Return the means as `_by_halves` does, state by state for all targets at once."""
     n = A.shape[1]
     # Column t of `others` has the states other than t; each target has a copy of its own.

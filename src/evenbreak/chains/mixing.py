@@ -44,6 +44,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.chain import Chain
 
 
@@ -112,7 +113,7 @@ def apparent_period(chain: Chain) -> int:
     return math.lcm(*seen)
 
 
-def _classes(chain: Chain, wanted: NDArray[np.bool_]) -> Iterator[tuple[NDArray[Any], float, int]]:
+def _classes(chain: Chain, wanted: Bools) -> Iterator[tuple[NDArray[Any], float, int]]:
     """Yield eigenvalues of each wanted class, the error of the first off the circle, the period.
 
     The eigenvalues fall in modulus; as many as the period says are on the unit circle, or as close
@@ -133,9 +134,7 @@ def _classes(chain: Chain, wanted: NDArray[np.bool_]) -> Iterator[tuple[NDArray[
         yield _values(csc_array(M[:, states][states]), law, period)
 
 
-def _values(
-    block: csc_array, law: NDArray[np.float64], period: int
-) -> tuple[NDArray[Any], float, int]:
+def _values(block: csc_array, law: Floats, period: int) -> tuple[NDArray[Any], float, int]:
     """Return the eigenvalues of a class by falling modulus, an error, and its `_period`.
 
     With D the square roots of the law, D^-1 M D has the norm 1 whatever decades the law spans, and
@@ -175,7 +174,7 @@ def _period(values: NDArray[Any], period: int) -> int:
     return count if each_once and np.abs(turns - places).max() <= count * _ON_CIRCLE else period
 
 
-def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+def _line(block: csc_array) -> tuple[Floats, Floats] | None:
     """Return the diagonal and off-diagonal of a similar symmetric matrix, if there is one."""
     T = block.copy()
     T.setdiag(0.0)
@@ -188,9 +187,7 @@ def _line(block: csc_array) -> tuple[NDArray[np.float64], NDArray[np.float64]] |
     return block.diagonal()[order], np.sqrt(up) * np.sqrt(down)
 
 
-def _ends_of_symmetric(
-    diagonal: NDArray[np.float64], beside: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _ends_of_symmetric(diagonal: Floats, beside: Floats) -> Floats:
     """Return the two lowest and the two highest eigenvalues (all, if there are up to four)."""
     n = len(diagonal)
     if n <= 4:
@@ -264,7 +261,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     average = _average_of_powers(M, period)
     limit = limit_matrix(chain).toarray()
 
-    def far(power: NDArray[np.float64]) -> bool:
+    def far(power: Floats) -> bool:
         return bool(np.abs(average @ power - limit).sum(axis=0).max() / 2.0 > eps)
 
     steps, reached = 0, np.eye(n)
@@ -286,7 +283,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     return steps + 1
 
 
-def _average_of_powers(M: NDArray[np.float64], terms: int) -> NDArray[np.float64]:
+def _average_of_powers(M: Floats, terms: int) -> Floats:
     """Return (I + M + ... + M^(terms - 1)) / terms by doubling, its columns summing to 1."""
     eye = np.eye(len(M))
     average, power, count = eye, M, 1

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 import numpy as np
 from scipy.sparse import csr_array
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import Bools, Floats, own_arrays
 from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.exact import ExactPassage, exact_passage
@@ -34,8 +34,6 @@ from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
@@ -77,11 +75,11 @@ class PassageTime:
     variance_if_reached: float | None
     certain: bool
     _at_once: float = field(repr=False)
-    _v: NDArray[np.float64] = field(repr=False)
+    _v: Floats = field(repr=False)
     _chain: Chain = field(repr=False)
     _states: Places = field(repr=False)
-    _leak: NDArray[np.float64] = field(repr=False)
-    _hope: NDArray[np.float64] = field(repr=False)
+    _leak: Floats = field(repr=False)
+    _hope: Floats = field(repr=False)
 
     @property
     def mean(self) -> float | None:
@@ -95,7 +93,7 @@ class PassageTime:
 
     def distribution(
         self, *, tail: float = 1e-12, max_steps: int = 100_000
-    ) -> tuple[NDArray[np.float64], float]:
+    ) -> tuple[Floats, float]:
         """Return P(the target is reached in exactly t steps), t = 0, 1, ..., and the tail.
 
         Parameters
@@ -250,7 +248,7 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
     return _passage(chain, chain.density(start), target_of(chain, target))
 
 
-def target_of(chain: Chain, target: Any) -> NDArray[np.bool_]:
+def target_of(chain: Chain, target: Any) -> Bools:
     """Return which states are the target, given as a state or a list or set of states.
 
     Raises
@@ -268,9 +266,7 @@ def target_of(chain: Chain, target: Any) -> NDArray[np.bool_]:
     return ends
 
 
-def approach(
-    chain: Chain, ends: NDArray[np.bool_], met: NDArray[np.bool_]
-) -> tuple[Places, TransientPart, NDArray[np.float64]]:
+def approach(chain: Chain, ends: Bools, met: Bools) -> tuple[Places, TransientPart, Floats]:
     """Return those of the states `met` that can reach the `ends`, before they do.
 
     Returns
@@ -287,7 +283,7 @@ def approach(
     return states, TransientPart(arcs, states), leak
 
 
-def _passage(chain: Chain, v: NDArray[np.float64], ends: NDArray[np.bool_]) -> PassageTime:
+def _passage(chain: Chain, v: Floats, ends: Bools) -> PassageTime:
     arcs = chain.arcs
     before = ~ends[arcs.sources]
     met = reachable(len(chain), arcs.sources[before], arcs.targets[before], v > 0.0) & ~ends

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from scipy.sparse import csc_array
+
+    from evenbreak.arrays import Floats, Ints
 
 
 def random_paths(
-    matrix: csc_array, begin: NDArray[np.float64], steps: int, paths: int, rng: np.random.Generator
-) -> NDArray[np.int64]:
+    matrix: csc_array, begin: Floats, steps: int, paths: int, rng: np.random.Generator
+) -> Ints:
     """Return positions of states, shape (paths, steps + 1); the first are drawn from `begin`.
 
     Each step compares one uniform number with the cumulative chances of the column, by

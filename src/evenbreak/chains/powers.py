@@ -17,8 +17,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.chain import Chain
 
 MOST_APPLIED = 4_000_000_000
@@ -29,9 +28,7 @@ _MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
 """About a minute of steps, counted in arcs; the entries of a path, 0.8 GB of them."""
 
 
-def propagate(
-    chain: Chain, start: Any = None, steps: int = 1, *, path: bool = False
-) -> NDArray[np.float64]:
+def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = False) -> Floats:
     """Return the density after a number of steps, given the start.
 
     Parameters
@@ -111,9 +108,7 @@ def propagate(
     return densities
 
 
-def _by_squares(
-    power: NDArray[np.float64], v: NDArray[np.float64], steps: int
-) -> NDArray[np.float64]:
+def _by_squares(power: Floats, v: Floats, steps: int) -> Floats:
     """Return M^steps v by squaring `power`, which is M at first."""
     while steps:
         if steps & 1:

@@ -25,6 +25,7 @@ from evenbreak.errors import ChainError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.chain import Chain
 
 
@@ -118,7 +119,7 @@ def _expected_reward(
     chain: Chain,
     per_state: Mapping[Any, float] | NDArray[Any] | None,
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return the expected reward of a step begun in each state; shape (n,)."""
     per_state = {} if per_state is None else by_label(per_state, "per_state")
     if not isinstance(per_state, Mapping):

@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
 _BLOCK = 32
@@ -28,9 +27,7 @@ _SMALL_FACTOR = 2.0**-30
 _STRETCH = 900
 
 
-def prefix_products(
-    numerators: NDArray[np.float64], denominators: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], Places]:
+def prefix_products(numerators: Floats, denominators: Floats) -> tuple[Floats, Places]:
     """Return, for each i, the first i numerators multiplied over the first i denominators.
 
     Parameters
@@ -80,7 +77,7 @@ def prefix_products(
     return value, _cut(power - top)
 
 
-def _fill(rows: NDArray[np.float64], factors: NDArray[np.float64]) -> None:
+def _fill(rows: Floats, factors: Floats) -> None:
     """Write the factors down the columns of `rows`, and ones after the last of them."""
     full = len(factors) // _BLOCK
     rest = len(factors) - full * _BLOCK
@@ -93,9 +90,7 @@ def _cut(exponent: Places) -> Places:
     return exponent.clip(-5000).astype(np.int32)
 
 
-def _prefix_of_blocks(
-    products: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], Places]:
+def _prefix_of_blocks(products: Floats) -> tuple[Floats, Places]:
     """Return the quotient of all blocks before each one, as floats near 1 and exponents."""
     significand, exponent = np.frexp(products)
     power = np.cumsum(exponent, axis=1, dtype=np.int64)
@@ -114,7 +109,7 @@ def _prefix_of_blocks(
     return block, shift
 
 
-def shares(value: NDArray[np.float64], exponent: Places, split: int) -> tuple[float, float]:
+def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
     """Return the shares of the first `split` numbers and of the rest in the sum of all.
 
     >>> shares(np.full(4, 0.5), np.array([0, 0, -2000, -2000]), 2)
@@ -127,7 +122,7 @@ def shares(value: NDArray[np.float64], exponent: Places, split: int) -> tuple[fl
     return a / (a + b), b / (a + b)
 
 
-def _sum(value: NDArray[np.float64], exponent: Places) -> tuple[float, int]:
+def _sum(value: Floats, exponent: Places) -> tuple[float, int]:
     significand, more = np.frexp(value)
     more += exponent
     top = int(more.max())

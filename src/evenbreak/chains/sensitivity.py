@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Bools, Floats, array_values
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import stochastic_limit
@@ -34,8 +34,6 @@ from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from evenbreak.chains.chain import Chain
 
 
@@ -43,12 +41,12 @@ if TYPE_CHECKING:
 class _Slopes:
     """G above, up to a constant for each source, which no change of M can see."""
 
-    recurrent: NDArray[np.bool_]
-    forward: NDArray[np.float64]
-    ends: NDArray[np.float64]
-    relative: NDArray[np.float64]
+    recurrent: Bools
+    forward: Floats
+    ends: Floats
+    relative: Floats
 
-    def __call__(self, j: Any, i: Any) -> NDArray[np.float64]:
+    def __call__(self, j: Any, i: Any) -> Floats:
         backward = np.where(self.recurrent[j], self.relative[i], self.ends[i])
         return np.asarray(self.forward[j] * backward)
 
@@ -191,12 +189,12 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     )
 
 
-def _signed_values(part: TransientPart, r: NDArray[np.float64]) -> NDArray[np.float64]:
+def _signed_values(part: TransientPart, r: Floats) -> Floats:
     """Return the expected sum of r over the visits, r of either sign."""
     return np.asarray(part.values(np.maximum(r, 0.0)) - part.values(np.maximum(-r, 0.0)))
 
 
-def _relative_values(chain: Chain, surplus: NDArray[np.float64]) -> NDArray[np.float64]:
+def _relative_values(chain: Chain, surplus: Floats) -> Floats:
     """Return h with (I - M^T) h = surplus on closed classes, 0 in their first states."""
     structure = chain.structure
     rest = structure.recurrent.copy()

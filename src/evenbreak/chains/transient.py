@@ -28,8 +28,7 @@ from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.arcs import Arcs, Places
 
 _FEW_STATES, _FEW_ARCS = 100, 300
@@ -68,7 +67,7 @@ class TransientPart:
         return Factorisation(self._arcs, self._leak, self._outflow)
 
     @cached_property
-    def _steps(self) -> NDArray[np.float64]:
+    def _steps(self) -> Floats:
         """The expected steps until the states are left, from each of them; none underflows.
 
         They bound what underflow can cost: what is lost of r at a state is lost at each visit
@@ -86,7 +85,7 @@ class TransientPart:
         factor = self.__dict__.get("_factor")
         return None if factor is None else factor.bound
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b: the expected visits to each state, given the start density b.
 
         Parameters
@@ -102,7 +101,7 @@ class TransientPart:
         """
         return self._guaranteed(b, transposed=False)
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r: the expected sum of r over all visits, given each start state.
 
         Parameters
@@ -117,7 +116,7 @@ class TransientPart:
         """
         return self._guaranteed(r, transposed=True)
 
-    def arrivals(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def arrivals(self, b: Floats) -> Floats:
         """Return the probability that each other state is the first one entered.
 
         Unlike expected visits, these never leave the range of floats at the upper end.
@@ -149,9 +148,7 @@ class TransientPart:
             return decimal_arrivals(self._arcs, self._leak, b, out, arcs.size)
         return sums(targets, chances * x[sources, 0], arcs.size)
 
-    def attempt(
-        self, b: NDArray[np.float64], *, transposed: bool = False
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def attempt(self, b: Floats, *, transposed: bool = False) -> tuple[Floats, Bools]:
         """Return the visits (or values), and where overflow or underflow may have touched them.
 
         Both have the shape (m, k) of `b`.
@@ -170,7 +167,7 @@ class TransientPart:
             doubtful[:, k] &= self._reached(b[:, k], transposed=transposed)
         return x, doubtful
 
-    def _guaranteed(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+    def _guaranteed(self, b: Floats, *, transposed: bool) -> Floats:
         given = np.asarray(b, dtype=np.float64)
         if not given.size:
             return given.copy()
@@ -188,7 +185,7 @@ class TransientPart:
             )
         return x.reshape(given.shape)
 
-    def _reached(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.bool_]:
+    def _reached(self, b: Floats, *, transposed: bool) -> Bools:
         """Return the states that arcs, followed forwards or backwards, join to those of b."""
         near, far = self._arcs.sources, self._arcs.targets
         if transposed:
@@ -201,18 +198,18 @@ class _InPlainPython:
 
     bound, is_proved = None, False
 
-    def __init__(self, arcs: Arcs, leak: NDArray[np.float64]) -> None:
+    def __init__(self, arcs: Arcs, leak: Floats) -> None:
         self._elimination = Elimination(rows_of(arcs), leak.tolist())
         self.pivots = np.array(self._elimination.pivots)
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         return np.array([self._elimination.visits(column) for column in b.T.tolist()]).T
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
 
 
-def where_doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray[np.bool_]:
+def where_doubtful(x: Floats, gain: Floats) -> Bools:
     """Return where underflow may show in x, of shape (m, k); everywhere if x has overflowed.
 
     Underflow loses at most 2^-1074 a term, times the largest entry of x; `gain`, of shape
@@ -223,7 +220,7 @@ def where_doubtful(x: NDArray[np.float64], gain: NDArray[np.float64]) -> NDArray
     if not top < np.inf:
         return np.ones(x.shape, dtype=bool)
     scale = len(x) * max(1.0, top)
-    low: NDArray[np.bool_] = ~(x >= 1e-290 * scale * gain[:, None])
+    low: Bools = ~(x >= 1e-290 * scale * gain[:, None])
     if low.any():
         # By logarithms, in which neither side can leave the range of floats.
         lost = np.log2(scale) - 1074 + np.log2(gain)[:, None]

@@ -30,8 +30,7 @@ from evenbreak.chains.blocks import eliminate_together
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
 _ENTRIES = 2_000_000
@@ -60,9 +59,9 @@ class TriangularSolve:
         self,
         sources: Places,
         targets: Places,
-        chances: NDArray[np.float64],
-        leak: NDArray[np.float64],
-        outflow: NDArray[np.float64],
+        chances: Floats,
+        leak: Floats,
+        outflow: Floats,
         offsets: Places,
     ) -> None:
         m = int(offsets[-1])
@@ -102,12 +101,12 @@ class TriangularSolve:
             int(width.sum()), np.concatenate(columns), np.concatenate(rows), np.concatenate(entries)
         )
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         flow = self._solve(self._system, b, self._enter, self._leave, lower=True)
         return flow / self._unit[:, None]
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         given = r / self._unit[:, None]
         return self._solve(self._system.T, given, self._leave, self._enter, lower=False)
@@ -121,18 +120,18 @@ class TriangularSolve:
     def _solve(
         self,
         system: csc_array | csr_array,
-        given: NDArray[np.float64],
+        given: Floats,
         put: Places | None,
         take: Places | None,
         *,
         lower: bool,
-    ) -> NDArray[np.float64]:
+    ) -> Floats:
         if put is not None:
             known = np.zeros((system.shape[0], given.shape[1]))
             known[put] = given
         else:
             known = given
-        x: NDArray[np.float64] = spsolve_triangular(
+        x: Floats = spsolve_triangular(
             system, known, lower=lower, unit_diagonal=True, overwrite_A=True
         )
         if self._most_terms > _FEW_TERMS:
@@ -145,13 +144,8 @@ class TriangularSolve:
 
 
 def _stacks(
-    offsets: Places,
-    label: Places,
-    sources: Places,
-    targets: Places,
-    chances: NDArray[np.float64],
-    leaks: NDArray[np.float64],
-) -> Iterator[tuple[Places, NDArray[np.float64]]]:
+    offsets: Places, label: Places, sources: Places, targets: Places, chances: Floats, leaks: Floats
+) -> Iterator[tuple[Places, Floats]]:
     """Yield the classes of several states, those of one size together, as memory allows.
 
     Each stack is the states, shape (size, classes), and their arcs, shape (size + 1, size,
@@ -179,7 +173,7 @@ def _stacks(
             yield states, A
 
 
-def _flow(system: csc_array | csr_array, x: NDArray[np.float64]) -> NDArray[np.float64]:
+def _flow(system: csc_array | csr_array, x: Floats) -> Floats:
     """Return E x for the system I - E, each entry right to about one rounding."""
     entries = system.tocoo()
     beside = entries.row != entries.col
@@ -188,12 +182,7 @@ def _flow(system: csc_array | csr_array, x: NDArray[np.float64]) -> NDArray[np.f
     return np.stack(flows, axis=1)
 
 
-def _unit_lower(
-    size: int,
-    columns: Places,
-    rows: Places,
-    entries: NDArray[np.float64],
-) -> csc_array:
+def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> csc_array:
     """Return I - E for arcs E that all lead forward, sorted and with ones as SuperLU needs it."""
     places = np.arange(size, dtype=np.int32)
     return csc_array(
