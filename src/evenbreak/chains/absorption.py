@@ -12,7 +12,7 @@ Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,16 +26,6 @@ if TYPE_CHECKING:
 
     from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.chain import Chain
-
-
-@overload
-def absorption(
-    chain: Chain, start: Any = None, *, exact: Literal[False] = False
-) -> pd.Series[float]: ...
-
-
-@overload
-def absorption(chain: Chain, start: Any = None, *, exact: bool) -> pd.Series[Any]: ...
 
 
 def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Series[Any]:

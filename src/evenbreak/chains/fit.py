@@ -13,19 +13,17 @@ References: Anderson and Goodman 1957, "Statistical inference about Markov chain
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.chain import Chain, check_present
+from evenbreak.chains.explore import chain_from_arrays
 from evenbreak.checks import generator_of
 from evenbreak.errors import ChainError
-
-if TYPE_CHECKING:
 
 
 @array_values
@@ -47,9 +45,11 @@ class FittedChain:
     @property
     def standard_errors(self) -> csc_array:
         """The standard error of each chance, shape (n, n); 0 where no step was seen."""
-        seen = self._seen()
+        seen = np.repeat(self.counts.sum(axis=0), np.diff(self.counts.indptr))
         p = self.counts.data / seen
-        return self._with(np.sqrt(p * (1.0 - p) / seen))
+        errors = self.counts.copy()
+        errors.data = np.sqrt(p * (1.0 - p) / seen)
+        return errors
 
     def draw(self, rng: np.random.Generator | int) -> Chain:
         """Return a chain drawn from those that may lie behind the sequences.
@@ -64,20 +64,8 @@ class FittedChain:
         >>> np.round([np.mean(won), np.std(won)], 2)
         array([0.6 , 0.05])
         """
-        draw = generator_of(rng)
-        weights = self._with(draw.standard_gamma(self.counts.data))
-        total = weights.sum(axis=0)
-        left = np.repeat(total, np.diff(self.counts.indptr))
-        return Chain(
-            self.chain.states, _absorbing(self._with(weights.data / left)), self.chain.start
-        )
-
-    def _seen(self) -> Floats:
-        """Return the number of steps seen from the state of each entry of `counts`."""
-        return np.repeat(self.counts.sum(axis=0), np.diff(self.counts.indptr))
-
-    def _with(self, data: Floats) -> csc_array:
-        return csc_array((data, self.counts.indices, self.counts.indptr), shape=self.counts.shape)
+        weights = generator_of(rng).standard_gamma(self.counts.data)
+        return _chain(self.chain.states, self.counts, weights, self.chain.start)
 
 
 def fit_chain(
@@ -129,18 +117,17 @@ def fit_chain(
         targets += path[1:]
     if not sources:
         raise ChainError("the sequences hold no step; give sequences of at least two states")
-    if start is not None and start not in position:
-        raise ChainError(f"start is {start!r}, which is in none of the sequences")
     check_present(position)
     n = len(position)
     counts = coo_array((np.ones(len(sources)), (targets, sources)), shape=(n, n)).tocsc()
-    chances = counts.data / np.repeat(counts.sum(axis=0), np.diff(counts.indptr))
-    likely = csc_array((chances, counts.indices, counts.indptr), shape=(n, n))
-    return FittedChain(Chain(list(position), _absorbing(likely), start), counts)
+    states = list(position)
+    return FittedChain(_chain(states, counts, counts.data, start), counts)
 
 
-def _absorbing(matrix: csc_array) -> csc_array:
-    """Return the matrix with a self-loop of 1 for each state without arcs."""
-    ends = np.flatnonzero(np.diff(matrix.indptr) == 0)
-    loops = coo_array((np.ones(len(ends)), (ends, ends)), shape=matrix.shape)
-    return csc_array(matrix + loops.tocsc())
+def _chain(
+    states: Sequence[Hashable], counts: csc_array, weights: Floats, start: Hashable | None
+) -> Chain:
+    """Return the chain whose chances are in proportion to weights, one for each entry of counts."""
+    sources = np.repeat(np.arange(len(states)), np.diff(counts.indptr))
+    chances = weights / np.bincount(sources, weights)[sources]
+    return chain_from_arrays(states, sources, counts.indices, chances, start)

@@ -18,8 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -27,7 +26,7 @@ from scipy.sparse import csr_array
 from evenbreak.arrays import Bools, Floats, own_arrays
 from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.exact import ExactPassage, exact_passage
+from evenbreak.chains.exact import exact_passage
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import number_probability, one_of, whole
@@ -144,36 +143,21 @@ class PassageTime:
             f"the mean given that the target is reached is {self.mean_if_reached:.6g}"
         )
 
-    @cached_property
-    def _inside(self) -> csr_array:
-        """The matrix among the states from which the target can be reached."""
-        return csr_array(evened(self._chain)[:, self._states])[self._states]
-
     def _walk(self) -> Iterator[tuple[int, float, float]]:
         """Yield t, P(T = t) and P(t < T, and the target is reached), for t = 0, 1, ..."""
+        # The matrix among the states from which the target can be reached.
+        inside = csr_array(evened(self._chain)[:, self._states])[self._states]
         t, chance, x = 0, self._at_once, self._v
         last = np.flatnonzero(self._leak)
         leak = self._leak[last]
         while True:
             yield t, chance, float((self._hope * x).sum())
-            t, chance, x = t + 1, float((leak * x[last]).sum()), self._inside @ x
-
-
-@overload
-def steps_to_absorption(
-    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[False] = False
-) -> PassageTime: ...
-
-
-@overload
-def steps_to_absorption(
-    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: Literal[True]
-) -> ExactPassage: ...
+            t, chance, x = t + 1, float((leak * x[last]).sum()), inside @ x
 
 
 def steps_to_absorption(
     chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: bool = False
-) -> PassageTime | ExactPassage:
+) -> PassageTime | Any:
     """Return the number of steps until the chain is absorbed, given the start.
 
     Parameters
@@ -186,7 +170,7 @@ def steps_to_absorption(
         until any closed class is entered, which always happens.
     exact
         whether to calculate the chances, mean and variance in fractions (see
-        `stochastic_limit`); there is then no distribution.
+        `stochastic_limit`); there is then no distribution, and an `ExactPassage` is returned.
 
     Raises
     ------

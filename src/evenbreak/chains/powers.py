@@ -97,15 +97,13 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
             f"fit in memory; give {most} or fewer, or leave out the path"
         )
     M = csr_array(evened(chain))
-    if not path:
-        for _ in range(steps):
-            v = M @ v
-        return v
-    densities = np.empty((steps + 1, len(chain)))
+    densities = np.empty((steps + 1 if path else 1, len(chain)))
     densities[0] = v
-    for t in range(steps):
-        densities[t + 1] = M @ densities[t]
-    return densities
+    for t in range(1, steps + 1):
+        v = M @ v
+        if path:
+            densities[t] = v
+    return densities if path else v
 
 
 def _by_squares(power: Floats, v: Floats, steps: int) -> Floats:
