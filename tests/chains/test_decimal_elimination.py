@@ -6,7 +6,7 @@ from scipy.sparse import csc_array
 
 import oracle
 from evenbreak.chains import Chain
-from evenbreak.chains.decimal_elimination import decimal_law, decimal_solve
+from evenbreak.chains.decimal_elimination import DecimalElimination, decimal_law
 
 
 def test_a_law_beyond_all_floats_sums_to_one():
@@ -23,5 +23,5 @@ def test_a_law_beyond_all_floats_sums_to_one():
 def test_visits_beyond_all_floats_are_infinite():
     matrix = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1e-320, 0.0, 1.0]])
     arcs, leak = Chain(range(3), csc_array(matrix)).arcs.among(np.array([0, 1]))
-    x = decimal_solve(arcs, leak, np.array([[1.0], [0.0]]), transposed=False)
+    x = DecimalElimination(arcs, leak).visits(np.array([[1.0], [0.0]]))
     assert np.isinf(x).all()

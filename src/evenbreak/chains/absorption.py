@@ -18,6 +18,7 @@ import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain, labels
+from evenbreak.chains.decimal_elimination import decimal_masses
 from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
@@ -92,11 +93,25 @@ def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
 
 def masses_of(chain: Chain, start: Any = None) -> Floats:
     """Return the probability of ending in each class, 0 if it is not closed; shape (classes,)."""
-    v = chain.density(start)
-    arrivals = _arrivals(chain, v)
+    v, arcs, structure = chain.density(start), chain.arcs, chain.structure
+    if structure.is_acyclic:
+        arrivals = ends_of(chain, v)
+    elif v[~structure.recurrent].any():
+        states = chain.transient.states
+        x, doubtful = chain.transient.attempt(v[states, None])
+        if doubtful.any():
+            return decimal_masses(structure, v)
+        visits = np.zeros(len(chain))
+        visits[states] = x[:, 0]
+        entered = structure.recurrent[arcs.targets]
+        flow = arcs.chances[entered] * visits[arcs.sources[entered]]
+        arrivals = np.where(structure.recurrent, v, 0.0)
+        arrivals += sums(arcs.targets[entered], flow, len(chain))
+    else:
+        arrivals = v
     # Along a very long path rounding adds up in one direction; the sum shows how much.
     arrivals *= v.sum() / arrivals.sum()
-    return sums(chain.structure.label, arrivals, chain.structure.count)
+    return sums(structure.label, arrivals, structure.count)
 
 
 def visits_from(chain: Chain, start: Any = None) -> Floats:
@@ -126,15 +141,3 @@ def closed_classes_reached(chain: Chain, v: Floats) -> Bools:
     reached = np.zeros(structure.count, dtype=bool)
     reached[structure.label[seen]] = True
     return reached & structure.closed
-
-
-def _arrivals(chain: Chain, v: Floats) -> Floats:
-    """Return the probability that each recurrent state is the first one entered; shape (n,)."""
-    if chain.structure.is_acyclic:
-        return ends_of(chain, v)
-    states = chain.transient.states
-    arrivals = v.copy()
-    arrivals[states] = 0.0
-    if len(states) and v[states].any():
-        arrivals += chain.transient.arrivals(v[states])
-    return arrivals

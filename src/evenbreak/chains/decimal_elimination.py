@@ -10,20 +10,23 @@ from __future__ import annotations
 
 import math
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.elimination import Elimination, eliminated
+from evenbreak.chains.elimination import Elimination, eliminated, masses_in
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Arcs, Places
+    from evenbreak.chains.arcs import Arcs
+    from evenbreak.chains.structure import Structure
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
-_MOST_ARCS = 3e6
+MOST_ARCS = 3e6
+"""More are refused where that may take more than seconds."""
 
 
 def rows_of(arcs: Arcs) -> list[dict[int, float]]:
@@ -54,7 +57,9 @@ class DecimalElimination:
 
     def __init__(self, arcs: Arcs, leak: Floats, most: float = math.inf) -> None:
         with localcontext(_CONTEXT):
-            self._factor = _factor(arcs, leak, most)
+            self._factor = Elimination(
+                _rows(arcs), [Decimal(value) for value in leak.tolist()], most
+            )
             self.pivots = _floats(self._factor.pivots)
 
     def visits(self, b: Floats) -> Floats:
@@ -72,22 +77,8 @@ class DecimalElimination:
             return np.array([_floats(solve(column)) for column in columns]).T
 
 
-def decimal_solve(arcs: Arcs, leak: Floats, b: Floats, *, transposed: bool) -> Floats:
-    """Return (I - T)^-1 b, or (I - T)^-T b, for b >= 0 of shape (m, k); inf where floats end.
-
-    Raises
-    ------
-    AccuracyError
-        if the elimination would take too long.
-    """
-    factor = DecimalElimination(arcs, leak, _MOST_ARCS)
-    return factor.values(b) if transposed else factor.visits(b)
-
-
-def decimal_arrivals(
-    arcs: Arcs, leak: Floats, b: Floats, out: tuple[Places, Places, Floats], size: int
-) -> Floats:
-    """Return the flow along the arcs `out` to each of `size` places, from b >= 0 of shape (m,).
+def decimal_masses(structure: Structure, v: Floats) -> Floats:
+    """Return the probability of ending in each class from the density v; shape (classes,).
 
     Expected visits that are larger than any float may be on the way.
 
@@ -97,11 +88,9 @@ def decimal_arrivals(
         if the elimination would take too long.
     """
     with localcontext(_CONTEXT):
-        visits = _factor(arcs, leak, _MOST_ARCS).visits([Decimal(value) for value in b.tolist()])
-        flow = [Decimal(0)] * size
-        for j, i, chance in zip(*(part.tolist() for part in out), strict=True):
-            flow[i] += visits[j] * Decimal(chance)
-        return _floats(flow)
+        rows, density = _rows(structure.arcs), dict(enumerate(map(Decimal, v.tolist())))
+        masses = masses_in(structure, rows, density, partial(_visits, rows))
+        return _floats([masses.get(label, Decimal(0)) for label in range(structure.count)])
 
 
 def decimal_law(arcs: Arcs) -> Floats:
@@ -114,8 +103,7 @@ def decimal_law(arcs: Arcs) -> Floats:
     """
     with localcontext(_CONTEXT):
         rows, rest = _rows(arcs), range(1, arcs.size)
-        factor = eliminated(rows, rest, _MOST_ARCS)
-        law = [Decimal(1), *factor.visits([rows[0].get(i, Decimal(0)) for i in rest])]
+        law = [Decimal(1), *_visits(rows, rest, [rows[0].get(i, Decimal(0)) for i in rest])]
         total = sum(law)
         return _floats([value / total for value in law])
 
@@ -124,8 +112,10 @@ def _rows(arcs: Arcs) -> list[dict[int, Decimal]]:
     return [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
 
 
-def _factor(arcs: Arcs, leak: Floats, most: float) -> Elimination:
-    return Elimination(_rows(arcs), [Decimal(value) for value in leak.tolist()], most)
+def _visits(
+    rows: list[dict[int, Decimal]], states: Sequence[int], b: list[Decimal]
+) -> list[Decimal]:
+    return eliminated(rows, states, MOST_ARCS).visits(b)
 
 
 def _floats(values: list[Decimal]) -> Floats:

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable, sums
-from evenbreak.chains.decimal_elimination import decimal_arrivals, decimal_solve, rows_of
+from evenbreak.chains.arcs import reachable
+from evenbreak.chains.decimal_elimination import MOST_ARCS, DecimalElimination, rows_of
 from evenbreak.chains.elimination import Elimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
@@ -53,7 +53,6 @@ class TransientPart:
 
     def __init__(self, arcs: Arcs, states: Places) -> None:
         self.states = states
-        self._whole = arcs
         self._arcs, self._leak = arcs.among(states)
         self._outflow = arcs.outflow[states]
 
@@ -116,38 +115,6 @@ class TransientPart:
         """
         return self._guaranteed(r, transposed=True)
 
-    def arrivals(self, b: Floats) -> Floats:
-        """Return the probability that each other state is the first one entered.
-
-        Unlike expected visits, these never leave the range of floats at the upper end.
-
-        Parameters
-        ----------
-        b
-            shape (m,), in the order of `states`: the start density; nonnegative.
-
-        Returns
-        -------
-        array
-            shape (n,) for the n states of the whole chain, 0 for those in `states`.
-
-        Raises
-        ------
-        AccuracyError
-            if an entry cannot be guaranteed.
-        """
-        arcs = self._whole
-        place = np.full(arcs.size, -1)
-        place[self.states] = np.arange(len(self.states))
-        leaving = (place[arcs.sources] >= 0) & (place[arcs.targets] < 0)
-        sources, targets = place[arcs.sources[leaving]], arcs.targets[leaving]
-        chances = arcs.chances[leaving]
-        x, doubtful = self.attempt(b[:, None])
-        if doubtful.any():
-            out = sources, targets, chances
-            return decimal_arrivals(self._arcs, self._leak, b, out, arcs.size)
-        return sums(targets, chances * x[sources, 0], arcs.size)
-
     def attempt(self, b: Floats, *, transposed: bool = False) -> tuple[Floats, Bools]:
         """Return the visits (or values), and where overflow or underflow may have touched them.
 
@@ -175,9 +142,8 @@ class TransientPart:
         x, doubtful = self.attempt(columns, transposed=transposed)
         again = np.flatnonzero(doubtful.any(axis=0))
         if len(again):
-            x[:, again] = decimal_solve(
-                self._arcs, self._leak, columns[:, again], transposed=transposed
-            )
+            factor = DecimalElimination(self._arcs, self._leak, MOST_ARCS)
+            x[:, again] = (factor.values if transposed else factor.visits)(columns[:, again])
         if not np.isfinite(x).all():
             raise AccuracyError(
                 "an expected number of visits, or a sum over them, is larger than any float; "
