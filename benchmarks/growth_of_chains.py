@@ -40,7 +40,7 @@ class Kind(NamedTuple):
 
 def race(n: int) -> Chain:
     games = round((n / 2) ** 0.5)
-    return chain_of(Race(games, games, Rack(0.6, 0.55), breaks=winner_breaks), max_states=10**8)
+    return chain_of(Race(games, games, Rack(0.6, 0.55), breaks=winner_breaks))
 
 
 def ladder(n: int) -> Chain:

@@ -134,6 +134,20 @@ def ladder(n: int) -> Question:
     return kept(f"law of a ladder of {n:,}", ours, peers, 0.5, exact=ladder_law(up, down))
 
 
+def ladder_in_fractions() -> Question:
+    n, up, down = 201, Fraction(9, 20), Fraction(1, 2)
+    rows = {
+        i: {k: p for k, p in ((i - 1, down), (i + 1, up)) if 0 <= k < n} | {i: 1 - up - down}
+        for i in range(n)
+    }
+    rows[0][0], rows[n - 1][n - 1] = 1 - up, 1 - down
+    chain = chain_of(rows)
+    model = storm_model(chain, {}, exact=True) if "stormpy" in HERE else None
+    peers = {STORM: storm_law(model, exact=True)} if model else {}
+    ours = partial(stochastic_limit, chain, 0, exact=True)
+    return kept("law of a ladder of 201 in fractions", ours, peers, 0.05)
+
+
 def digraph_to_limit() -> Question:
     match = Race(224, 224, Rack(0.6, 0.55), breaks=winner_breaks)
     graph = graph_of(match)
@@ -211,6 +225,7 @@ MATCH_ROWS: dict[str, list[Callable[[], Question]]] = {
     "ruin": [partial(ruin, n) for n in (10_001, 100_001)],
     "races": [partial(race, asked) for asked in ("chance", "length")],
     "ladder": [partial(ladder, n) for n in (2_001, 20_001)],
+    "fractions": [ladder_in_fractions],
     "networkx": [digraph_to_limit],
     "betainc": [many_races],
     "ratings": [ratings],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -10,23 +11,27 @@ import numpy as np
 from evenbreak.chains import Chain
 
 
-def storm_model(chain: Chain, labels: dict[str, Any]) -> Any:
-    """Return the chain as a model, its states labelled as given."""
-    from stormpy import datastructures, models
+def storm_model(chain: Chain, labels: dict[str, Any], *, exact: bool = False) -> Any:
+    """Return the chain as a model, its states labelled as given, in decimal fractions if exact."""
+    from stormpy import Rational, datastructures, models
+
+    value = Rational if exact else float
+    number = (lambda p: Rational(str(Fraction(repr(p))))) if exact else float
 
     rows, n = chain.matrix.tocsr().T.tocsr().tocoo(), len(chain)
-    builder = datastructures.SparseMatrixBuilder[float](n, n, rows.nnz)
-    builder.add_next_values(rows.row.tolist(), rows.col.tolist(), rows.data.tolist())
+    builder = datastructures.SparseMatrixBuilder[value](n, n, rows.nnz)
+    chances = [number(p) for p in rows.data.tolist()]
+    builder.add_next_values(rows.row.tolist(), rows.col.tolist(), chances)
     labeling = models.StateLabeling(n)
     for label, states in {"init": [0], **labels}.items():
         labeling.add_label(label)
         for state in states:
             labeling.add_label_to_state(label, int(state))
-    steps = models.SparseRewardModel[float](optional_state_reward_vector=[1.0] * n)
-    parts = models.SparseModelComponents[float](
+    steps = models.SparseRewardModel[value](optional_state_reward_vector=[number(1.0)] * n)
+    parts = models.SparseModelComponents[value](
         transition_matrix=builder.build(), state_labeling=labeling, reward_models={"steps": steps}
     )
-    return models.SparseDtmc[float](parts)
+    return models.SparseDtmc[value](parts)
 
 
 def environment() -> Any:
@@ -51,14 +56,15 @@ def storm_values(model: Any, asked: str) -> Callable[[], Any]:
     return values
 
 
-def storm_law(model: Any) -> Callable[[], Any]:
+def storm_law(model: Any, *, exact: bool = False) -> Callable[[], Any]:
     """Return a call of Storm for the long-run law."""
     import stormpy
+    from stormpy import environments
 
-    settings = environment()
+    settings = environments.exact() if exact else environment()
 
     def law() -> Any:
         found = stormpy.analysis.compute_steady_state_distribution(model, environment=settings)
-        return np.asarray(found.get_value_vector())
+        return list(found) if exact else np.asarray(found.get_value_vector())
 
     return law
