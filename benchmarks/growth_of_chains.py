@@ -23,6 +23,7 @@ from bench_chains import fresh, grid_chain, small_blocks_chain, walk
 from rows_of_chains import box, random_digraph, random_table
 
 from evenbreak.chains import Chain, chain_of, stochastic_limit
+from evenbreak.errors import EvenbreakError
 from evenbreak.games import Race, Rack, winner_breaks
 
 SECONDS, BYTES = 10.0, 2e9
@@ -87,7 +88,8 @@ def solve(kind: Kind, n: int, report: Connection) -> None:
         report.send((len(chain), taken, getrusage(RUSAGE_SELF).ru_maxrss * 1024, ""))
     except Exception as problem:
         print(f"{kind.name}, {n:,} states: {problem}", file=sys.stderr)
-        report.send((n, 0.0, 0.0, "refused"))
+        ours = isinstance(problem, EvenbreakError)
+        report.send((n, 0.0, 0.0, "refused" if ours else "memory"))
 
 
 def measured(kind: Kind, n: int) -> tuple[int, float, float, str]:

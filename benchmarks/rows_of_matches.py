@@ -96,7 +96,8 @@ def race(asked: str) -> Question:
     def error(found: Any) -> float:
         return abs(float(np.atleast_1d(found)[0]) / exact - 1)
 
-    return kept(f"race 50:50, {asked} from every state", ours, peers, 0.3, error=error)
+    most = {"chance": 0.3, "length": 0.6}[asked]
+    return kept(f"race 50:50, {asked} from every state", ours, peers, most, error=error)
 
 
 # Lines and graphs ----------------------------------------------------------------------
@@ -188,7 +189,7 @@ def ratings() -> Question:
         a, b = (np.array(games.players)[k].tolist() for k in (games.player_a, games.player_b))
         won = [evalica.Winner.X if score else evalica.Winner.Y for score in games.score_a]
         peers["evalica"] = lambda: evalica.bradley_terry(a, b, won)
-    return kept("fit of 10^6 games of 5,000 players", lambda: fit(games, prior_sd=1.0), peers, 0.13)
+    return kept("fit of 10^6 games of 5,000 players", lambda: fit(games, prior_sd=1.0), peers, 0.17)
 
 
 def double() -> Question:
