@@ -22,10 +22,10 @@ import scipy.linalg
 import scipy.sparse.linalg
 from scipy.sparse import csc_array, diags_array
 
+from evenbreak.chains.birth_death import line_of
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE
 from evenbreak.chains.limit_matrix import limit_matrix
-from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.powers import evened
 from evenbreak.chains.stationary import laws_of
 from evenbreak.chains.unit_pairs import EPS
@@ -142,9 +142,11 @@ def _values(block: csc_array, law: Floats, period: int) -> tuple[NDArray[Any], f
     rounding may change is changed.
     """
     n = block.shape[0]
-    line = _line(block)
+    line = line_of(block)
     if line is not None:
-        values = _falling(_ends_of_symmetric(*line))
+        _, walk = line
+        beside = np.sqrt(walk.up) * np.sqrt(walk.down)
+        values = _falling(_ends_of_symmetric(walk.loops, beside))
         return values, n * EPS, _period(values, period)
     roots = np.sqrt(np.maximum(law, _LEAST))
     scaled = diags_array(1.0 / roots) @ block @ diags_array(roots)
@@ -172,19 +174,6 @@ def _period(values: NDArray[Any], period: int) -> int:
     places = turns.round()
     each_once = len(set((places % count).tolist())) == count
     return count if each_once and np.abs(turns - places).max() <= count * _ON_CIRCLE else period
-
-
-def _line(block: csc_array) -> tuple[Floats, Floats] | None:
-    """Return the diagonal and off-diagonal of a similar symmetric matrix, if there is one."""
-    T = block.copy()
-    T.setdiag(0.0)
-    T.eliminate_zeros()
-    order = line_order(T)
-    if order is None:
-        return None
-    line = csc_array(T[:, order])[order]
-    up, down = line.diagonal(-1), line.diagonal(1)
-    return block.diagonal()[order], np.sqrt(up) * np.sqrt(down)
 
 
 def _ends_of_symmetric(diagonal: Floats, beside: Floats) -> Floats:

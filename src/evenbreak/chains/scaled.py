@@ -11,7 +11,6 @@ given numbers rounds differently at each step, so its error grows like the squar
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING
 
@@ -47,47 +46,24 @@ def prefix_products(numerators: Floats, denominators: Floats) -> tuple[Floats, P
     array([5.35754304e+300, 5.23197562e+297, 5.00000000e-001])
     """
     n = len(numerators)
-    count = -(-n // _BLOCK) or 1
-    single = None
-    if n and min(numerators.min(), denominators.min()) < _SMALL_FACTOR:
-        numerators, above = np.frexp(numerators)
-        denominators, below = np.frexp(denominators)
-        single = np.cumsum(above, dtype=np.int64) - np.cumsum(below, dtype=np.int64)
-    # Row k holds the k-th factor of every block: one vector operation a row.
-    rows = np.empty((_BLOCK, 2, count))
-    _fill(rows[:, 0], numerators)
-    _fill(rows[:, 1], denominators)
-    for before, row in itertools.pairwise(rows):
-        np.multiply(before, row, out=row)
-    block, shift = _prefix_of_blocks(rows[-1])
-    quotients = rows[:, 0]
-    quotients /= rows[:, 1]
-    quotients *= block
-    value = np.empty(n + 1)
-    value[0] = 1.0
-    full = n // _BLOCK
-    value[1 : full * _BLOCK + 1].reshape(full, _BLOCK)[:] = quotients[:, :full].T
-    value[full * _BLOCK + 1 :] = quotients[: n - full * _BLOCK, -1]
-    if single is None:
-        top = max(1, int((np.frexp(quotients.max(axis=0))[1] + shift).max()))
-        exponent = np.repeat(_cut(shift - top), _BLOCK)[: n + 1]
-        return value, np.concatenate((_cut(np.array([-top])), exponent[:n]))
-    power = np.concatenate(([0], single + np.repeat(shift, _BLOCK)[:n]))
-    top = int((np.frexp(value)[1] + power).max())
-    return value, _cut(power - top)
-
-
-def _fill(rows: Floats, factors: Floats) -> None:
-    """Write the factors down the columns of `rows`, and ones after the last of them."""
-    full = len(factors) // _BLOCK
-    rest = len(factors) - full * _BLOCK
-    rows[:, :full] = factors[: full * _BLOCK].reshape(full, _BLOCK).T
-    rows[:rest, full:] = factors[full * _BLOCK :, None]
-    rows[rest:, full:] = 1.0
-
-
-def _cut(exponent: Places) -> Places:
-    return exponent.clip(-5000).astype(np.int32)
+    factors = np.ones((2, (n // _BLOCK + 1) * _BLOCK))
+    factors[:, 1 : n + 1] = numerators, denominators
+    exponent: Places = np.zeros((n // _BLOCK + 1, 1), dtype=np.int64)
+    if factors.min() < _SMALL_FACTOR:
+        factors, (above, below) = np.frexp(factors)
+        exponent = np.cumsum(above - below, dtype=np.int64).reshape(-1, _BLOCK)
+    blocks = factors.reshape(2, -1, _BLOCK)
+    np.multiply.accumulate(blocks, axis=2, out=blocks)
+    before, shift = _prefix_of_blocks(blocks[:, :, -1])
+    value, below = blocks
+    value /= below
+    value *= before[:, None]
+    exponent = exponent + shift[:, None]
+    # Within a block that shares its exponent, the largest number decides.
+    largest = value if exponent.shape == value.shape else value.max(axis=1, keepdims=True)
+    exponent -= int((np.frexp(largest)[1] + exponent).max())
+    exponent = np.broadcast_to(exponent.clip(-5000).astype(np.int32), value.shape)
+    return value.ravel()[: n + 1], exponent.ravel()[: n + 1]
 
 
 def _prefix_of_blocks(products: Floats) -> tuple[Floats, Places]:

@@ -184,14 +184,9 @@ def _flow(system: csc_array | csr_array, x: Floats) -> Floats:
 
 def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> csc_array:
     """Return I - E for arcs E that all lead forward, sorted and with ones as SuperLU needs it."""
-    places = np.arange(size, dtype=np.int32)
-    return csc_array(
-        (
-            np.concatenate((np.ones(size), -entries)),
-            tuple(
-                np.concatenate((places, ends), dtype=np.int32, casting="same_kind")
-                for ends in (rows, columns)
-            ),
-        ),
-        shape=(size, size),
-    )
+    diagonal = np.arange(size, dtype=np.int32)
+    at = [
+        np.concatenate((diagonal, ends), dtype=np.int32, casting="same_kind")
+        for ends in (rows, columns)
+    ]
+    return csc_array((np.concatenate((np.ones(size), -entries)), tuple(at)), shape=(size, size))
