@@ -61,27 +61,21 @@ class BirthDeath:
 
         The limit has shape (n,); it is conditional on the start.
         """
-        lo, hi = self._stretch(start)
-        if hi - lo + 1 == len(self.loops):
-            return birth_death_law(self.up, self.down), 1 if self.loops.any() else 2
-        limit = np.zeros(len(self.loops))
-        # Beyond a cut there is no way back: play ends at the next missing outward arc.
-        left = lo > 0 and self.down[lo - 1] > 0.0
-        right = hi + 1 < len(limit) and self.up[hi] > 0.0
-        chance_left, chance_right = float(left), float(right)
-        if left and right:
-            chance_right, chance_left = self._exits(lo, start, hi)
-        period = 1
-        if not (left or right):
-            period = self._settle(limit, lo, hi, 1.0)
-        if left:
-            walls = np.flatnonzero(self.down[:lo] == 0.0)
-            first = int(walls[-1]) + 1 if len(walls) else 0
-            period = max(period, self._settle(limit, *self._stretch(first), chance_left))
-        if right:
-            walls = np.flatnonzero(self.up[hi:] == 0.0)
-            last = hi + int(walls[0]) if len(walls) else len(limit) - 1
-            period = max(period, self._settle(limit, *self._stretch(last), chance_right))
+        first, last, leftmost, rightmost = self._stretches
+        k = int(np.searchsorted(last, start))
+        ends = sorted({int(leftmost[k]), int(rightmost[k])} - {k}) or [k]
+        chances: tuple[float, ...] = (1.0,)
+        if len(ends) == 2:
+            lo, hi = first[k], last[k]
+            products = prefix_products(self.down[lo - 1 : hi], self.up[lo : hi + 1])
+            chances = shares(*products, start - lo + 1)[::-1]
+        limit, period = np.zeros(len(self.loops)), 1
+        for end, chance in zip(ends, chances, strict=True):
+            lo, hi = first[end], last[end]
+            limit[lo : hi + 1] = birth_death_law(self.up[lo:hi], self.down[lo:hi])
+            limit[lo : hi + 1] *= chance
+            if lo < hi and not self.loops[lo : hi + 1].any():
+                period = 2
         return limit, period
 
     def limits(self) -> csc_array | None:
@@ -90,16 +84,12 @@ class BirthDeath:
         None if play may end in a closed stretch of several states, or if the products leave the
         range of a long double, in which they are formed.
         """
-        n, cuts = len(self.loops), self._cuts
-        first, last = np.append(0, cuts + 1).astype(np.int32), np.append(cuts, n - 1)
-        left, right = np.zeros((2, len(first)), dtype=bool)
-        left[1:], right[:-1] = self.down[cuts] > 0.0, self.up[cuts] > 0.0
+        n = len(self.loops)
+        first, last, leftmost, rightmost = self._stretches
+        number = np.arange(len(first))
+        left, right = leftmost < number, rightmost > number
         if (first < last)[~left & ~right].any():
             return None
-        # Beyond a cut there is no way back: play ends at the next missing outward arc.
-        number = np.arange(len(first))
-        leftmost = np.maximum.accumulate(np.where(left, 0, number))
-        rightmost = np.minimum.accumulate(np.where(right, n, number)[::-1])[::-1]
         sizes = last - first + 1
         ends = np.repeat(first[np.stack((leftmost, rightmost), axis=1)], sizes, axis=0)
         chances = np.repeat(np.stack((~right, right), axis=1), sizes, axis=0).astype(np.float64)
@@ -140,28 +130,20 @@ class BirthDeath:
         return from_right[1:], from_left[:-1]
 
     @cached_property
-    def _cuts(self) -> Places:
-        """The places i where i and i + 1 belong to different classes."""
-        return np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
+    def _stretches(self) -> tuple[Places, Places, Places, Places]:
+        """The first and the last state of each class, and the classes where play ends from it.
 
-    def _stretch(self, state: int) -> tuple[int, int]:
-        """Return the first and the last state of the class of `state`."""
-        cuts = self._cuts
-        k = int(np.searchsorted(cuts, state))
-        lo = int(cuts[k - 1]) + 1 if k else 0
-        return lo, int(cuts[k]) if k < len(cuts) else len(self.loops) - 1
-
-    def _exits(self, lo: int, start: int, hi: int) -> tuple[float, float]:
-        """Return the chances of leaving lo..hi on the right and on the left."""
-        products = prefix_products(self.down[lo - 1 : hi], self.up[lo : hi + 1])
-        return shares(*products, start - lo + 1)
-
-    def _settle(self, limit: Floats, lo: int, hi: int, mass: float) -> int:
-        """Spread `mass` over the closed class lo..hi; return its period."""
-        law = birth_death_law(self.up[lo:hi], self.down[lo:hi])
-        law *= mass
-        limit[lo : hi + 1] += law
-        return 1 if lo == hi or self.loops[lo : hi + 1].any() else 2
+        These are one on the left and one on the right, or the class itself if it is not left on
+        that side. Beyond a cut there is no way back: play ends at the next missing outward arc.
+        """
+        n, cuts = len(self.loops), np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
+        first, last = np.append(0, cuts + 1).astype(np.int32), np.append(cuts, n - 1)
+        left, right = np.zeros((2, len(first)), dtype=bool)
+        left[1:], right[:-1] = self.down[cuts] > 0.0, self.up[cuts] > 0.0
+        number = np.arange(len(first))
+        leftmost = np.maximum.accumulate(np.where(left, 0, number))
+        rightmost = np.minimum.accumulate(np.where(right, n, number)[::-1])[::-1]
+        return first, last, leftmost, rightmost
 
 
 def birth_death_law(up: Floats, down: Floats) -> Floats:
@@ -184,8 +166,6 @@ def birth_death_of(matrix: csc_array) -> BirthDeath | None:
     middle = matrix.indices[matrix.indptr[n // 2] : matrix.indptr[n // 2 + 1]]
     if np.any(np.abs(middle - n // 2) > 1):
         return None
-    if matrix.nnz == 3 * n - 2 and _is_full(matrix):
-        return BirthDeath(matrix.data[1::3], matrix.data[2::3], matrix.data[0::3])
     up, down, loops = matrix.diagonal(-1), matrix.diagonal(1), matrix.diagonal()
     stored = np.count_nonzero(up) + np.count_nonzero(down) + np.count_nonzero(loops)
     return BirthDeath(up, down, loops) if stored == matrix.nnz else None
@@ -210,15 +190,3 @@ def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
         return None
     line = csc_array(matrix[:, order])[order]
     return order, BirthDeath(line.diagonal(-1), line.diagonal(1), line.diagonal())
-
-
-def _is_full(matrix: csc_array) -> bool:
-    """Whether every loop and arc is stored, in order, so that slices of the data are views."""
-    n = matrix.shape[0]
-    place = np.arange(n, dtype=matrix.indices.dtype)
-    return bool(
-        (matrix.indptr[1:-1] == 3 * place[1:] - 1).all()
-        and (matrix.indices[0::3] == place).all()
-        and (matrix.indices[1::3] == place[1:]).all()
-        and (matrix.indices[2::3] == place[:-1]).all()
-    )

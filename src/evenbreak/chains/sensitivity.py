@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import Bools, Floats, array_values
+from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.arcs import sums
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.limits import stochastic_limit
@@ -35,20 +35,6 @@ from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
-
-
-@dataclass(frozen=True, eq=False)
-class _Slopes:
-    """G above, up to a constant for each source, which no change of M can see."""
-
-    recurrent: Bools
-    forward: Floats
-    ends: Floats
-    relative: Floats
-
-    def __call__(self, j: Any, i: Any) -> Floats:
-        backward = np.where(self.recurrent[j], self.relative[i], self.ends[i])
-        return np.asarray(self.forward[j] * backward)
 
 
 @array_values
@@ -71,7 +57,7 @@ class Sensitivity:
     chain: Chain
     value: float
     matrix: csc_array
-    _slopes: _Slopes = field(repr=False)
+    _sides: tuple[Floats, Floats, Floats] = field(repr=False)
 
     def __getitem__(self, arc: tuple[Hashable, Hashable]) -> float:
         j, i = (self.chain.index(state) for state in arc)
@@ -82,12 +68,8 @@ class Sensitivity:
     def to_dict(self) -> dict[tuple[Hashable, Hashable], float]:
         """Return the derivative with respect to each arc, by (source, target)."""
         states, entries = self.chain.states, self.matrix.tocoo()
-        return {
-            (states[j], states[i]): derivative
-            for i, j, derivative in zip(
-                entries.row.tolist(), entries.col.tolist(), entries.data.tolist(), strict=True
-            )
-        }
+        arcs = zip(entries.col.tolist(), entries.row.tolist(), entries.data.tolist(), strict=True)
+        return {(states[j], states[i]): derivative for j, i, derivative in arcs}
 
     def along(self, change: Mapping[tuple[Hashable, Hashable], float]) -> float:
         """Return the derivative with respect to a parameter on which several arcs depend.
@@ -125,7 +107,7 @@ class Sensitivity:
                 )
             total[j] += slope
             scale[j] += abs(slope)
-            derivative += slope * float(self._slopes(j, i))
+            derivative += slope * float(_slopes(self.chain, self._sides, j, i))
         off = np.flatnonzero(~(np.abs(total) <= 1e-9 * scale))
         if len(off):
             raise ChainError(
@@ -180,13 +162,16 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     forward = limit.probability.copy()
     forward[part.states] = part.visits(chain.density(start)[part.states])
     relative = _relative_values(chain, np.where(recurrent, c - ends, 0.0))
-    slopes = _Slopes(recurrent, forward, ends, relative)
-    return Sensitivity(
-        chain=chain,
-        value=float((limit.probability * c).sum()),
-        matrix=_in_proportion(chain, slopes),
-        _slopes=slopes,
-    )
+    sides = forward, ends, relative
+    value = float((limit.probability * c).sum())
+    return Sensitivity(chain, value, _in_proportion(chain, sides), sides)
+
+
+def _slopes(chain: Chain, sides: tuple[Floats, Floats, Floats], j: Any, i: Any) -> Floats:
+    """Return G above, up to a constant for each source, which no change of M can see."""
+    forward, ends, relative = sides
+    backward = np.where(chain.structure.recurrent[j], relative[i], ends[i])
+    return np.asarray(forward[j] * backward)
 
 
 def _signed_values(part: TransientPart, r: Floats) -> Floats:
@@ -205,7 +190,7 @@ def _relative_values(chain: Chain, surplus: Floats) -> Floats:
     return h
 
 
-def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:
+def _in_proportion(chain: Chain, sides: tuple[Floats, Floats, Floats]) -> csc_array:
     """Return the derivative for each arc, its probability taken from the others in proportion.
 
     For each source it is G_i - sum_{k != i} p_k G_k / sum_{k != i} p_k. Leaving out the
@@ -214,7 +199,7 @@ def _in_proportion(chain: Chain, slopes: _Slopes) -> csc_array:
     M = chain.matrix
     n = len(chain)
     j, i, p = np.repeat(np.arange(n), np.diff(M.indptr)), M.indices, M.data
-    G = slopes(j, i)
+    G = _slopes(chain, sides, j, i)
     first = np.lexsort((-p, j))[M.indptr[:-1]]
     small = p.copy()
     small[first] = 0.0
