@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -35,9 +35,6 @@ from evenbreak.errors import AccuracyError, ChainError
 if TYPE_CHECKING:
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
-
-Into: TypeAlias = Literal["absorbing", "closed"]
-"""What absorbs: states that are never left, or any closed class."""
 
 TIE = 1e-12
 """A cumulative probability this close below q counts as q: sums of floats miss ties."""
@@ -156,7 +153,11 @@ class PassageTime:
 
 
 def steps_to_absorption(
-    chain: Chain, start: Any = None, *, into: Into = "absorbing", exact: bool = False
+    chain: Chain,
+    start: Any = None,
+    *,
+    into: Literal["absorbing", "closed"] = "absorbing",
+    exact: bool = False,
 ) -> PassageTime | Any:
     """Return the number of steps until the chain is absorbed, given the start.
 
@@ -302,16 +303,5 @@ def _passage(chain: Chain, v: Floats, ends: Bools) -> PassageTime:
             raise AccuracyError("the mean number of steps is larger than any float")
         # A mean this large comes from a state that is hard to leave; the variance is its square.
         variance = variance if np.isfinite(variance) else np.inf
-    return PassageTime(
-        p_reached=p_reached,
-        p_never=p_never,
-        mean_if_reached=mean,
-        variance_if_reached=variance,
-        certain=certain,
-        _at_once=at_once,
-        _v=v[states],
-        _chain=chain,
-        _states=states,
-        _leak=leak,
-        _hope=hope[states],
-    )
+    walk = at_once, v[states], chain, states, leak, hope[states]
+    return PassageTime(p_reached, p_never, mean, variance, certain, *walk)

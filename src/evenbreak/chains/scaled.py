@@ -11,7 +11,6 @@ given numbers rounds differently at each step, so its error grows like the squar
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +23,8 @@ _BLOCK = 32
 # 32 factors above 2^-30 stay above 2^-960, and so do 900 significands.
 _SMALL_FACTOR = 2.0**-30
 _STRETCH = 900
+_HIGH = 900
+"""Terms are added up at this power of 2, from where those that count do not underflow."""
 
 
 def prefix_products(numerators: Floats, denominators: Floats) -> tuple[Floats, Places]:
@@ -78,11 +79,8 @@ def _prefix_of_blocks(products: Floats) -> tuple[Floats, Places]:
         stretch[:], more = np.frexp(stretch)
         power[:, first : first + _STRETCH] += more
         power[:, first + _STRETCH :] += more[:, -1:]
-    block = np.ones(products.shape[1])
-    shift = np.zeros(products.shape[1], dtype=np.int64)
-    np.divide(significand[0, :-1], significand[1, :-1], out=block[1:])
-    np.subtract(power[0, :-1], power[1, :-1], out=shift[1:])
-    return block, shift
+    block = np.append(1.0, significand[0, :-1] / significand[1, :-1])
+    return block, np.append(0, power[0, :-1] - power[1, :-1])
 
 
 def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
@@ -91,15 +89,8 @@ def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
     >>> shares(np.full(4, 0.5), np.array([0, 0, -2000, -2000]), 2)
     (1.0, 0.0)
     """
-    left, left_top = _sum(value[:split], exponent[:split])
-    right, right_top = _sum(value[split:], exponent[split:])
-    top = max(left_top, right_top)
-    a, b = math.ldexp(left, left_top - top), math.ldexp(right, right_top - top)
-    return a / (a + b), b / (a + b)
-
-
-def _sum(value: Floats, exponent: Places) -> tuple[float, int]:
     significand, more = np.frexp(value)
-    more += exponent
-    top = int(more.max())
-    return float(np.ldexp(significand, more - top).sum()), top
+    power = more + exponent
+    terms = np.ldexp(significand, power - power.max() + _HIGH)
+    left, right = float(terms[:split].sum()), float(terms[split:].sum())
+    return left / (left + right), right / (left + right)

@@ -64,28 +64,26 @@ class TriangularSolve:
         outflow: Floats,
         offsets: Places,
     ) -> None:
-        m = int(offsets[-1])
-        sizes = np.diff(offsets)
-        self.pivots = outflow
-        self._unit = outflow
+        m, sizes = int(offsets[-1]), np.diff(offsets)
+        self.pivots = self._unit = outflow
+        self._enter: Places | slice = slice(None)
+        self._leave: Places | slice = slice(None)
         if len(sizes) == m:
-            self._enter = self._leave = None
             self._system = _unit_lower(m, sources, targets, chances / outflow[sources])
             return
         label = np.repeat(np.arange(len(sizes)), sizes)
-        twice = sizes > 1
-        self.pivots = outflow.copy()
-        self._unit = np.where(twice[label], 1.0, outflow)
-        width = np.where(twice, 2 * sizes, 1)
+        width = np.where(sizes > 1, 2 * sizes, 1)
         begin = np.cumsum(width) - width
         number = np.arange(m) - offsets[label]
-        self._enter = begin[label] + number
+        self.pivots = outflow.copy()
+        self._unit = np.where(sizes[label] > 1, 1.0, outflow)
+        self._enter = entered = begin[label] + number
         # Left in the opposite order: the last state to be eliminated is known first.
-        self._leave = np.where(twice[label], begin[label] + width[label] - 1 - number, self._enter)
+        self._leave = left = (begin + width - 1)[label] - number
         inside = label[sources] == label[targets]
         across = ~inside
-        columns = [self._leave[sources[across]]]
-        rows = [self._enter[targets[across]]]
+        columns = [left[sources[across]]]
+        rows = [entered[targets[across]]]
         entries = [chances[across] / self._unit[sources[across]]]
         leaks = leak + sums(sources[across], chances[across], m)
         inner = sources[inside], targets[inside], chances[inside]
@@ -93,7 +91,7 @@ class TriangularSolve:
             size = len(states)
             self.pivots[states] = pivot = eliminate_together(A, size)
             made, onward = A[:size] != 0.0, np.tri(size, k=-1, dtype=bool)[:, :, None]
-            enter, leave = self._enter[states], self._leave[states]
+            enter, leave = entered[states], left[states]
             columns += [enter.ravel(), np.where(onward, enter, leave)[made]]
             rows += [leave.ravel(), np.where(onward, enter[:, None], leave[:, None])[made]]
             entries += [1.0 / pivot.ravel(), (A[:size] / np.where(onward, pivot, 1.0))[made]]
@@ -121,16 +119,13 @@ class TriangularSolve:
         self,
         system: csc_array | csr_array,
         given: Floats,
-        put: Places | None,
-        take: Places | None,
+        put: Places | slice,
+        take: Places | slice,
         *,
         lower: bool,
     ) -> Floats:
-        if put is not None:
-            known = np.zeros((system.shape[0], given.shape[1]))
-            known[put] = given
-        else:
-            known = given
+        known = np.zeros((system.shape[0], given.shape[1]))
+        known[put] = given
         x: Floats = spsolve_triangular(
             system, known, lower=lower, unit_diagonal=True, overwrite_A=True
         )
@@ -140,7 +135,7 @@ class TriangularSolve:
             x += spsolve_triangular(
                 system, missed, lower=lower, unit_diagonal=True, overwrite_A=True
             )
-        return x if take is None else x[take]
+        return x[take]
 
 
 def _stacks(
@@ -151,23 +146,18 @@ def _stacks(
     Each stack is the states, shape (size, classes), and their arcs, shape (size + 1, size,
     classes): entry [i, j] is the arc from the j-th to the i-th state, and the last row the leaks.
     """
-    by_size = np.argsort(np.diff(offsets), kind="stable")
-    sizes = np.diff(offsets)[by_size]
-    rank = np.empty(len(sizes), dtype=np.intp)
-    rank[by_size] = np.arange(len(sizes))
-    home = rank[label[sources]]
-    order = np.argsort(home, kind="stable")
-    home, sources, targets, chances = home[order], sources[order], targets[order], chances[order]
+    sizes = np.diff(offsets)
+    layers = np.empty(len(sizes), dtype=np.intp)
     for size in np.unique(sizes[sizes > 1]).tolist():
-        first, last = np.searchsorted(sizes, (size, size + 1)).tolist()
-        step = max(1, _ENTRIES // (size * size))
-        for begin in range(first, last, step):
-            classes = slice(begin, min(begin + step, last))
-            arcs = slice(*np.searchsorted(home, (begin, classes.stop)).tolist())
-            layer, lowest = home[arcs] - begin, offsets[by_size[classes]]
-            A = np.zeros((size + 1, size, len(lowest)))
-            at = targets[arcs] - lowest[layer], sources[arcs] - lowest[layer], layer
-            A[at] = chances[arcs]
+        classes = np.flatnonzero(sizes == size)
+        for stack in np.array_split(classes, len(classes) * size * size // _ENTRIES + 1):
+            layers[:] = -1
+            layers[stack] = np.arange(len(stack))
+            layer = layers[label[sources]]
+            own, lowest = layer >= 0, offsets[stack]
+            layer = layer[own]
+            A = np.zeros((size + 1, size, len(stack)))
+            A[targets[own] - lowest[layer], sources[own] - lowest[layer], layer] = chances[own]
             states = lowest + np.arange(size)[:, None]
             A[size] = leaks[states]
             yield states, A
