@@ -236,6 +236,17 @@ def test_handicapped_races_by_round(players: int) -> None:
     assert title_odds(bracket, win).p_place == pytest.approx(np.array(want, dtype=float), rel=1e-12)
 
 
+def test_rare_titles_have_their_digits() -> None:
+    """Whoever is seeded lower wins once in 2^20 matches, a chance that doubles hold exactly."""
+    bracket, rare = double_elimination(6), 2.0**-20
+    win = np.triu(np.full((6, 6), 1.0 - rare), 1) + np.tril(np.full((6, 6), rare), -1)
+    np.fill_diagonal(win, 0.5)
+    want = enumerated.place_odds(bracket, lambda _, i, j: Fr(win[i, j]))
+    exact = np.array(want, dtype=float)
+    found = title_odds(bracket, win).p_place
+    np.testing.assert_allclose(found, exact, rtol=1e-14)
+
+
 def test_who_meets_whom() -> None:
     bracket = double_elimination(5)
     chance = enumerated.by_strength([5, 4, 3, 2, 1])

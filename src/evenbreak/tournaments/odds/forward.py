@@ -128,27 +128,24 @@ def joined(parts: list[Floats]) -> Floats:
 
 def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
     """Return the probabilities of the states after a match."""
-    won, whole = won_of(step, mass, p)
+    won, lost = split(step, mass, p)
     if step.distinct:
-        after = np.concatenate([won, won])
-        np.subtract(whole, won, out=after[len(won) :])
-        return after
+        return np.concatenate([won, lost])
     after = gathered(step, 0, won)
-    after += gathered(step, 1, np.subtract(whole, won, out=won))
+    after += gathered(step, 1, lost)
     return after
 
 
 def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
-    """Return the probability of each state and a win of slot 1, and of slot 2."""
-    won, whole = won_of(step, mass, p)
-    return won, whole - won
+    """Return the probability of each state and a win of slot 1, and of slot 2.
 
-
-def won_of(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
-    """Return the probability of each state and a win of slot 1, and that of each state."""
-    of_state = p if step.pair is None else p.take(step.pair, axis=0)
-    whole = mass[..., None] if of_state.ndim > mass.ndim else mass
-    return whole * of_state, whole
+    The second is a product too: the difference would lose the digits of a rare win.
+    """
+    whole = mass[..., None] if p.ndim > mass.ndim else mass
+    won, lost = p, 1.0 - p
+    if step.pair is not None:
+        won, lost = won.take(step.pair, axis=0), lost.take(step.pair, axis=0)
+    return whole * won, whole * lost
 
 
 def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:

@@ -142,7 +142,7 @@ def add_places(
     if all(going.winner) and all(going.loser):
         return
     won = meeting.probability * meeting.first_wins
-    lost = meeting.probability - won
+    lost = meeting.probability * (1.0 - meeting.first_wins)
     for place, on, players, mass in (
         (match.winner_place, going.winner[0], meeting.first, won),
         (match.winner_place, going.winner[1], meeting.second, lost),
