@@ -191,6 +191,24 @@ def test_one_ball_has_two_states_between_two_ends() -> None:
     np.testing.assert_allclose(found.left @ found.right, np.eye(4), atol=1e-15)
 
 
+@pytest.mark.parametrize("rare", [1e-3, 1e-9, 1e-15, 1e-16, 1e-20, 1e-200])
+@pytest.mark.filterwarnings("error")
+def test_states_that_are_hardly_ever_left(rare: float) -> None:
+    """An eigenvalue may differ from 1 by less than a double can tell."""
+    arcs = [
+        ("a", "b", rare),
+        ("a", "V", rare / 4),
+        ("a", "W", rare / 2),
+        ("a", "a", 1 - 1.75 * rare),
+    ]
+    found = spectrum(chain_of([*arcs, ("b", "a", 0.5), ("b", "b", 0.5)], start="a"))
+    M = found.chain.matrix.toarray()
+    np.testing.assert_allclose(
+        M @ found.right, found.right * found.values, atol=1e-15 * abs(found.right).max()
+    )
+    np.testing.assert_allclose(found.left @ found.right, np.eye(4), atol=1e-14)
+
+
 def test_weights_of_a_line_are_its_law() -> None:
     chain = walk(200, 3.0)
     form = symmetric_form(chain, np.arange(200))

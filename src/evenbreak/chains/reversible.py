@@ -253,10 +253,10 @@ def reversible_pairs(
     right = scale[:, None] * Q
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         left = np.where(Q == 0.0, 0.0, Q / scale[:, None]).T
-    into = chain.arcs.matrix()[:, ~recurrent]
     turning = ~ones & (np.abs(Q[~recurrent]).max(axis=0, initial=0.0) > 0.0)
-    flow = into @ right[~recurrent][:, turning] / (value[turning] - 1.0)
-    right[np.ix_(recurrent, turning)] = flow[recurrent]
+    # What a vector holds of each absorbing state makes its product with the left ones zero.
+    ending = units.left[:, ~recurrent] @ right[~recurrent][:, turning]
+    right[np.ix_(recurrent, turning)] = -(units.right[recurrent] @ ending)
     right[:, ones], left[ones] = units.right, units.left
     return Eigenpairs(value, left, right), Q, missed
 
