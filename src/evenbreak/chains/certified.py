@@ -27,12 +27,14 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg.lapack import dgetrf, dgetrs
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import LinearOperator, bicgstab, splu
 
 from evenbreak.chains.aggregation import Aggregation
 from evenbreak.chains.arcs import reachable
 from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
+from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,6 +51,8 @@ _SHARP = 2.0 * ROUND
 _NEAR = 2.0**-50
 """What is missed when a bound is worth the work."""
 _SHARE = 1e-10
+_DENSE = 0.2
+"""A matrix with this share of its entries is factored as a dense one."""
 _PLAIN, _AGGREGATED = 64, 200
 """Iterations before aggregates are made, and with them."""
 _ROUNDS, _TRIES, _STALLS = 40, 6, 2
@@ -58,10 +62,18 @@ _RARE = 1e-17
 """States that are left no more often than this are not left often enough for a proof."""
 _SPREAD = 64
 """So many steps find the part of a class where it spends most of its time."""
+_SETTLED = 1e-3
+"""Steps that change nothing by more than this share are the last."""
 
 
-class NotCertifiedError(Exception):
+class NotCertifiedError(AccuracyError):
     """No approximation was found that could be proved right."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "the errors of the answer cannot be bounded: the chain is too slow or too close to "
+            "falling apart; use elimination, as stochastic_limit does"
+        )
 
 
 class CertifiedSolve:
@@ -92,37 +104,40 @@ class CertifiedSolve:
         least = _RARE * self.pivots
         sources = np.repeat(np.arange(len(leak)), np.diff(T.indptr))
         often = T.data >= least[sources]
-        if not reachable(len(leak), T.indices[often], sources[often], leak >= least).all():
+        rare = not often.all() or ((leak > 0.0) & (leak < least)).any()
+        if rare and not reachable(len(leak), T.indices[often], sources[often], leak >= least).all():
             raise NotCertifiedError  # some states are left by rare arcs alone
-        self._factors = _Factors(T, self.pivots) if factored else None
+        self._even = self._spread = np.ones(len(leak))
+        self._factors: Callable[..., Floats] | None = None
+        if factored:
+            self._unit = np.ldexp(1.0, -np.frexp(self.pivots)[1])
+            self._factors = _factors(diags_array(self.pivots * self._unit) - T * self._unit)
+        else:
+            self._spread = spread(T, self.pivots)
 
     def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
-        return self._solved(self._forward, b)
+        return self._solved(self.forward, b)
 
     def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
-        return self._solved(self._backward, r)
+        return self._solved(self.backward, r)
 
     @cached_property
-    def _forward(self) -> _System:
-        factors = None if self._factors is None else self._factors.solve
-        return _System(csr_array(self._T), self._outflow, self._spread, self._even, factors)
+    def forward(self) -> Equations:
+        """The equations of the visits."""
+        solve = self._factors
+        factors = solve and (lambda b: self._unit * solve(b, "N"))
+        return Equations(csr_array(self._T), self._outflow, self._spread, self._even, factors)
 
     @cached_property
-    def _backward(self) -> _System:
-        factors = None if self._factors is None else self._factors.solve_transposed
-        return _System(self._T.T, self._outflow, self._even, self._spread, factors)
+    def backward(self) -> Equations:
+        """The equations of the values."""
+        solve = self._factors
+        factors = solve and (lambda b: solve(self._unit * b, "T"))
+        return Equations(self._T.T, self._outflow, self._even, self._spread, factors)
 
-    @cached_property
-    def _even(self) -> Floats:
-        return np.ones(len(self.pivots))
-
-    @cached_property
-    def _spread(self) -> Floats:
-        return self._even if self._factors else spread(self._T, self.pivots)
-
-    def _solved(self, system: _System, b: Floats) -> Floats:
+    def _solved(self, system: Equations, b: Floats) -> Floats:
         x = np.zeros_like(b)
         for k in np.flatnonzero(b.any(axis=0)):
             x[:, k], error = system.solve(b[:, k])
@@ -140,33 +155,38 @@ def spread(T: csc_array, outflow: Floats) -> Floats:
     """
     flow, step = np.ones(len(outflow)), 0.5 / outflow
     for _ in range(_SPREAD):
+        before = flow
         flow = 0.5 * flow + T @ (step * flow)
         flow /= flow.max()
+        if (np.abs(flow - before) <= _SETTLED * flow).all():
+            break
     visits = flow / outflow
     return np.asarray(visits / visits.max())
 
 
-class _Factors:
-    """Sparse LU factors of A = diag(outflow) - T, as floats give them."""
+def _factors(A: csc_array) -> Callable[..., Floats]:
+    """Return the function (b, "N" or "T") -> A^-1 b or A^-T b, as floats give it.
 
-    def __init__(self, T: csc_array, outflow: Floats) -> None:
-        self._unit = np.ldexp(1.0, -np.frexp(outflow)[1])
-        A = csc_array((diags_array(outflow) - T) @ diags_array(self._unit))
-        try:
-            self._lu = splu(
-                A, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-            )
-        except RuntimeError:  # singular in floats
-            raise NotCertifiedError from None
+    Raises
+    ------
+    NotCertifiedError
+        if A is singular in floats.
+    """
+    if A.nnz > _DENSE * A.shape[0] ** 2:
+        lu, pivots, singular = dgetrf(A.toarray(order="F"), overwrite_a=True)
+        if singular:
+            raise NotCertifiedError
+        return lambda b, way: np.asarray(dgetrs(lu, pivots, b, trans=way == "T")[0])
+    try:
+        sparse = splu(
+            csc_array(A), "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
+    except RuntimeError:
+        raise NotCertifiedError from None
+    return sparse.solve
 
-    def solve(self, b: Floats) -> Floats:
-        return np.asarray(self._unit * self._lu.solve(b))
 
-    def solve_transposed(self, b: Floats) -> Floats:
-        return np.asarray(self._lu.solve(self._unit * b, "T"))  # type: ignore[call-overload]
-
-
-class _System:
+class Equations:
     """A x = b for any b >= 0, with A = diag(outflow) - arcs.
 
     Parameters
@@ -193,6 +213,42 @@ class _System:
         self.factors, self.plain = factors, True
         self.rows = Rows(arcs.indptr)
 
+    def near(self, b: Floats) -> tuple[Floats, Floats]:
+        """Return x >= 0 near A^-1 b, for b >= 0, and at least by how much each equation is missed.
+
+        The miss is that of an x of which the answer is the rounding.
+        """
+        nothing, shift = np.zeros(len(b)), self._as_they_are.shift
+        best, least, y = nothing, np.ldexp(b, -shift), Pair(nothing, nothing)
+        with np.errstate(all="ignore"):  # what overflows is no better
+            residual = b = np.ldexp(b, -shift)
+            while True:
+                y = _sum(y, self._as_they_are.solved(residual, _SHARE))
+                y = Pair(*(np.where(y.high > 0.0, part, 0.0) for part in y))
+                residual, missed = self._as_they_are.missed(y, b)
+                if not missed.max() < least.max() / 2.0:
+                    break
+                best, least = y.high, missed
+                if np.abs(residual).max() < (missed - np.abs(residual)).max():
+                    break  # no more can be seen
+        return best, np.ldexp(least, shift)
+
+    def error(self, missed: Floats) -> Floats:
+        """Return at least |A^-1| `missed`.
+
+        Raises
+        ------
+        NotCertifiedError
+            if no bound is found.
+        """
+        with np.errstate(all="ignore"):
+            w = self._as_they_are.witness()
+        return np.asarray(w * np.ldexp(missed, -self._as_they_are.shift).max())
+
+    @cached_property
+    def _as_they_are(self) -> _Scaled:
+        return _Scaled(self, np.zeros(len(self.left), dtype=np.int64), np.ones(len(self.left)))
+
     def solve(self, b: Floats) -> tuple[Floats, float]:
         """Return A^-1 b > 0, and a bound on the relative error of every entry.
 
@@ -207,7 +263,8 @@ class _System:
             equations = _Scaled(self, power, np.ldexp(self._right, -power))
             y, w, bound, last, stalls = Pair(nothing, nothing), None, np.inf, np.inf, 0
             for _ in range(_ROUNDS):
-                residual, missed = equations.missed(y, np.ldexp(b, -equations.shift))
+                residual, size = equations.missed(y, np.ldexp(b, -equations.shift))
+                missed = size.max()
                 if missed <= _NEAR and y.high.min() > 0.0:
                     w = equations.witness() if w is None else w
                     bound = float((missed * w / y.high).max())
@@ -240,7 +297,7 @@ class _Scaled:
         shape (m,), positive: about what y is to be.
     """
 
-    def __init__(self, system: _System, power: Places, about: Floats) -> None:
+    def __init__(self, system: Equations, power: Places, about: Floats) -> None:
         arcs = system.arcs
         unit = np.frexp(system.outflow.high)[1]
         self._power, self.shift = power, power + unit
@@ -252,10 +309,9 @@ class _Scaled:
         self._balance = Balance(scaled, outflow, system.rows)
         self._system, self._about = system, about
 
-    def missed(self, y: Pair, b: Floats) -> tuple[Floats, float]:
-        """Return b - A y for y >= 0, and at least its largest size."""
-        residual, size = self._balance.missed(y, b)
-        return residual, float(size.max())
+    def missed(self, y: Pair, b: Floats) -> tuple[Floats, Floats]:
+        """Return b - A y for y >= 0, and at least the size of each."""
+        return self._balance.missed(y, b)
 
     def witness(self) -> Floats:
         """Return w > 0 with A w >= 1, proved.
@@ -270,7 +326,7 @@ class _Scaled:
         for _ in range(_TRIES):
             w = np.maximum(w + self.solved(residual, 1e-2), 0.0)
             residual, missed = self.missed(Pair(w, nothing), two)
-            if missed <= 1.0:
+            if missed.max() <= 1.0:
                 return w
         raise NotCertifiedError
 

@@ -22,7 +22,7 @@ from scipy.linalg.lapack import dgeev, dgeev_lwork
 from scipy.sparse import csc_array, diags_array
 
 from evenbreak.chains.powers import evened
-from evenbreak.chains.unit_pairs import EPS, SHIFT, UnitPairs
+from evenbreak.chains.unit_pairs import EPS, UnitPairs
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 DENSE = 1000
 """Up to this many states LAPACK finds all eigenvalues at once."""
+SHIFT = 1.0 + 1e-10
+"""As close to eigenvalue 1 as a factorisation can be made."""
 TOLERANCE = 1e-8
 """Residuals and error estimates above this are refused."""
 

@@ -37,7 +37,7 @@ from scipy.sparse import csc_array, csgraph, diags_array
 
 from evenbreak.chains.double_double import two_product, two_sum
 from evenbreak.chains.eigenpairs import DENSE as ALL_FOUND
-from evenbreak.chains.eigenpairs import Eigenpairs
+from evenbreak.chains.eigenpairs import SHIFT, Eigenpairs
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.errors import AccuracyError
 
@@ -54,7 +54,6 @@ DENSE = 2000
 """Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""
 _BALANCED = 1e-12
 _SAMPLE = 1000
-_SHIFT = 1.0 + 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +103,7 @@ class SymmetricForm:
             return np.asarray(values), np.asarray(vectors)
         start = np.random.default_rng(0).standard_normal(m)
         try:
-            found = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=_SHIFT, v0=start)
+            found = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
                 f"the iteration for {k} eigenvalues of {m} did not converge; ask for fewer"

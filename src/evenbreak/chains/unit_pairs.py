@@ -26,18 +26,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
-from scipy.sparse import csc_array, csr_array, eye_array
-from scipy.sparse.linalg import splu
 
 from evenbreak.chains.arcs import reachable, sums
+from evenbreak.chains.certified import CertifiedSolve, spread
 from evenbreak.chains.dissection import dissect, neighbours
-from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from evenbreak.chains.arcs import Places
@@ -46,14 +41,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-SHIFT = 1.0 + 1e-10
-"""As close to eigenvalue 1 as a factorisation can be made."""
-_DENSE = 0.2
-"""A matrix with this share of entries is factored as a dense one."""
 _FEW, _MUCH_WORK = 1000, 1e11
 """So few states are factored whatever their graph; others, with up to so many multiplications."""
-_TRIES, _ENOUGH = 6, 4.0
-"""How often w is sought; so many times what no residual can show is missed by little enough."""
 
 
 class UnitPairs:
@@ -110,17 +99,15 @@ class UnitPairs:
         visits, lost = np.zeros(arcs.size), 0.0
         states = np.flatnonzero(seen & (self._class < 0))
         if len(states):
-            T, outflow = self._equations(states)
-            _refuse_giants(T)
-            x, missed = _System(T, outflow).solve(v[states])
-            visits[states], lost = x, float(missed.sum())
+            visits[states], missed = self._equations(states).forward.near(v[states])
+            lost = float(missed.sum())
         entering = (self._class[arcs.sources] < 0) & (self._class[arcs.targets] >= 0)
         flow = arcs.chances[entering] * visits[arcs.sources[entering]]
         own = np.flatnonzero(self._class >= 0)
         into = self._class[np.concatenate((own, arcs.targets[entering]))]
         chances = sums(into, np.concatenate((v[own], flow)), self.count)
         law, error = self._laws(chances > 0.0)
-        return law * np.where(self._class < 0, 0.0, chances[self._class]), lost + error + 4.0 * EPS
+        return law * np.where(self._class < 0, 0.0, chances[self._class]), lost + error + 6.0 * EPS
 
     @cached_property
     def _all_laws(self) -> tuple[Floats, float]:
@@ -140,22 +127,17 @@ class UnitPairs:
         states = np.flatnonzero(here & ~alone)
         if not len(states):
             return law, 0.0
-        T, outflow = self._equations(states)
-        _refuse_giants(T)
-        guess = _factored(T, SHIFT * outflow.high, transposed=False)(np.ones(len(states)))
-        order = np.lexsort((guess, self._class[states]))
-        last = np.append(np.diff(self._class[states[order]]) > 0, True)
-        cut = np.zeros(len(law), dtype=bool)
-        cut[states[order[last]]] = True
-        rest = states[~cut[states]]
-        system = _System(*self._equations(rest))
         arcs = self._chain.arcs
-        out = cut[arcs.sources]
-        x, missed = system.solve(sums(arcs.targets[out], arcs.chances[out], arcs.size)[rest])
-        law[cut], law[rest] = 1.0, x
+        likely = spread(arcs.matrix(), np.where(arcs.outflow > 0.0, arcs.outflow, 1.0))
+        order = np.lexsort((likely[states], self._class[states]))
+        last = np.append(np.diff(self._class[states[order]]) > 0, True)
+        law[states[order[last]]] = 1.0
+        rest = states[law[states] == 0.0]
+        equations = self._equations(rest).forward
+        law[rest], missed = equations.near((arcs.matrix() @ law)[rest])
         total = sums(self._class[states], law[states], self.count)
         law[states] /= total[self._class[states]]
-        return law, 2.0 * float(system.error(missed).sum()) + 4.0 * EPS
+        return law, 2.0 * float(equations.error(missed).sum()) + 4.0 * EPS
 
     @cached_property
     def _chances(self) -> tuple[Floats, float]:
@@ -167,144 +149,37 @@ class UnitPairs:
         states = np.flatnonzero(self._class < 0)
         if not len(states):
             return left, 0.0
-        entering = (self._class[arcs.sources] < 0) & (self._class[arcs.targets] >= 0)
-        ways = arcs.sources[entering] * np.int64(self.count) + self._class[arcs.targets[entering]]
-        ways, place = np.unique(ways, return_inverse=True)
-        chances = sums(place, arcs.chances[entering], len(ways))
-        into = np.zeros((self.count, arcs.size))
-        into[ways % self.count, ways // self.count] = chances
-        T, outflow = self._equations(states)
-        _refuse_giants(T)
-        system = _System(T, outflow, transposed=True)
+        place = np.full(arcs.size, -1)
+        place[states] = np.arange(len(states))
+        entering = (place[arcs.sources] >= 0) & (place[arcs.targets] < 0)
+        sources, targets = place[arcs.sources[entering]], self._class[arcs.targets[entering]]
+        ways = targets * len(states) + sources
+        into = sums(ways, arcs.chances[entering], self.count * len(states))
+        equations = self._equations(states).backward
         missed = np.zeros(len(states))
-        for row, column in zip(left, into[:, states], strict=True):
-            x, more = system.solve(column)
-            row[states] = x
+        for row, column in zip(left, into.reshape(self.count, -1), strict=True):
+            row[states], more = equations.near(column)
             missed += more
-        return left, float(system.error(missed).max()) + 2.0 * EPS
+        return left, float(equations.error(missed).max()) + 4.0 * EPS
 
-    @cached_property
-    def _outflow(self) -> Pair:
-        arcs = self._chain.arcs
-        return Rows(arcs.indptr).sum(arcs.chances)
-
-    def _equations(self, states: Places) -> tuple[csc_array, Pair]:
-        """Return the arcs T among some states and the diagonal D."""
-        T = self._chain.arcs.matrix()
-        if len(states) < T.shape[0]:
-            T = csc_array(T[:, states][states])
-        return T, Pair(*(part[states] for part in self._outflow))
-
-
-class _System:
-    """A x = b for some states of a chain, or the transpose, with A = D - T.
-
-    Parameters
-    ----------
-    T
-        sparse, shape (m, m): the arcs among the states.
-    outflow
-        shape (m,) each: the diagonal D.
-    """
-
-    def __init__(self, T: csc_array, outflow: Pair, *, transposed: bool = False) -> None:
-        arcs: csr_array = T.T if transposed else T.tocsr()
-        self._balance = Balance(arcs, outflow, Rows(arcs.indptr))
-        self._back = _factored(T, outflow.high, transposed=transposed)
-        self._terms = np.diff(arcs.indptr) + 8
-
-    def solve(self, b: Floats) -> tuple[Floats, Floats]:
-        """Return A^-1 b for b >= 0, and at least by how much the equations are missed.
-
-        The miss is that of an x of which the answer is the rounding; where x is negative, it is 0,
-        which is nearer.
-        """
-        arcs, D = self._balance.arcs, self._balance.outflow.high
-        best, least = np.zeros_like(b), b
-        with np.errstate(all="ignore"):  # what overflows is no better
-            x = Pair(np.maximum(self._back(b), 0.0), np.zeros_like(b))
-            while True:
-                residual, missed = self._balance.missed(x, b)
-                if not missed.max() < least.max() / 2.0:
-                    return best, least
-                best, least, unseen = x.high, missed, missed - np.abs(residual)
-                more = self._back(residual)
-                high, lost = two_sum(x.high, more)
-                x = Pair(*(np.where(high > 0.0, part, 0.0) for part in two_sum(high, lost + x.low)))
-                # So small a change changes the residual by what doubles tell well enough.
-                out, into, size = D * more, arcs @ more, np.abs(D * more) + arcs @ np.abs(more)
-                rounding = 2.0 * ROUND * self._terms * (size + np.abs(residual))
-                missed = np.abs(residual - (out - into)) + rounding + unseen
-                if missed.max() < _ENOUGH * unseen.max():
-                    return x.high, missed
-
-    def error(self, missed: Floats) -> Floats:
-        """Return at least |A^-1| `missed`, by w >= 0 with A w >= D.
+    def _equations(self, states: Places) -> CertifiedSolve:
+        """Return the equations of some states, factored.
 
         Raises
         ------
         AccuracyError
-            if no such w is found.
+            if that would take too long, or floats take the factors for singular.
         """
-        arcs, D = self._balance.arcs, self._balance.outflow.high
-        w, residual = np.zeros_like(D), 2.0 * D
-        with np.errstate(all="ignore"):
-            for _ in range(_TRIES):
-                w = np.maximum(w + self._back(residual), 0.0)
-                out, into = D * w, arcs @ w
-                residual = 2.0 * D - (out - into)
-                rounding = 2.0 * ROUND * self._terms * (out + into + 2.0 * D)
-                if (np.abs(residual) + rounding <= D).all():
-                    return np.asarray(w * (missed / D).max())
-        raise _unbounded()
-
-
-def _factored(T: csc_array, outflow: Floats, *, transposed: bool) -> Callable[[Floats], Floats]:
-    """Return x -> A^-1 x by LU factors in floats, A = D - T."""
-    m = len(outflow)
-    if T.nnz > _DENSE * m * m:
-        A = T.toarray() / -outflow
-        A[np.arange(m), np.arange(m)] = 1.0
-        lu, pivots, singular = dgetrf(A, overwrite_a=True)
-        if singular:
-            raise _unbounded()
-
-        def solve(b: Floats, way: str) -> Any:
-            return dgetrs(lu, pivots, b, trans=int(way == "T"))[0]
-    else:
-        shares = T.data / np.repeat(outflow, np.diff(T.indptr))
-        sparse = csc_array(eye_array(m) - csc_array((shares, T.indices, T.indptr), T.shape))
-        try:
-            factors: Any = splu(
-                sparse,
-                "MMD_AT_PLUS_A",
-                diag_pivot_thresh=0.0,
-                options={"SymmetricMode": True},
+        arcs, leak = self._chain.arcs.among(states)
+        T, m = arcs.matrix(), len(states)
+        work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
+        if work > _MUCH_WORK:
+            raise AccuracyError(
+                f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
+                "factor, which is too much for eigenvectors; use elimination, as stochastic_limit "
+                "does"
             )
-        except RuntimeError:
-            raise _unbounded() from None
-        solve = factors.solve
-    if transposed:
-        return lambda b: np.asarray(solve(b / outflow, "T"))
-    return lambda b: np.asarray(solve(b, "N") / outflow)
-
-
-def _refuse_giants(T: csc_array) -> None:
-    """Refuse states whose factors would take too long."""
-    m = T.shape[0]
-    work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
-    if work > _MUCH_WORK:
-        raise AccuracyError(
-            f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
-            "factor, which is too much for eigenvectors; use elimination, as stochastic_limit does"
-        )
-
-
-def _unbounded() -> AccuracyError:
-    return AccuracyError(
-        "the errors of the eigenvectors of eigenvalue 1 cannot be bounded: the chain is too "
-        "slow or too close to falling apart; use elimination, as stochastic_limit does"
-    )
+        return CertifiedSolve(T, leak, factored=True)
 
 
 def limit_by(right: NDArray[Any], left: NDArray[Any], v: Floats) -> Floats:
