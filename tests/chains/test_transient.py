@@ -18,7 +18,7 @@ from evenbreak.chains import (
     transient,
 )
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
-from evenbreak.chains.decimal_elimination import DecimalElimination, decimal_law
+from evenbreak.chains.decimal_elimination import DecimalElimination, PlainElimination, decimal_law
 from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
@@ -124,7 +124,7 @@ def test_each_method_is_what_it_says(monkeypatch):
             pieces = getattr(factor, "_pieces", [])
             kinds[name] = type(pieces[0].solver) if pieces else type(factor)
     assert kinds == {
-        "plain Python": transient._InPlainPython,
+        "plain Python": PlainElimination,
         "one substitution": TriangularSolve,
         "small classes up to 3": FrontElimination,
         "decimal numbers": DecimalElimination,

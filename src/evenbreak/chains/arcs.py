@@ -125,6 +125,19 @@ def sums(place: Places, values: NDArray[np.float64], size: int) -> NDArray[np.fl
     return np.asarray(np.bincount(place, upper, size) + rest)
 
 
+def summed(
+    rows: Places, columns: Places, values: NDArray[np.float64], shape: tuple[int, int]
+) -> csr_array:
+    """Return the sparse matrix whose entries are the `sums` of the values at each place.
+
+    >>> summed(np.array([0, 0]), np.array([1, 1]), np.array([0.25, 0.5]), (1, 2)).toarray()
+    array([[0.  , 0.75]])
+    """
+    keys = rows.astype(np.int64) * shape[1] + columns
+    pairs, place = np.unique(keys, return_inverse=True)
+    return csr_array((sums(place, values, len(pairs)), np.divmod(pairs, shape[1])), shape=shape)
+
+
 def reachable(
     size: int, sources: Places, targets: Places, seeds: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:

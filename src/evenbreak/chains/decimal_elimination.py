@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,18 +29,17 @@ MOST_ARCS = 3e6
 """More are refused where that may take more than seconds."""
 
 
-def rows_of(arcs: Arcs) -> list[dict[int, float]]:
+def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> list[dict[int, Any]]:
     """Return the arcs as a dictionary for each source: target to chance."""
-    rows: list[dict[int, float]] = [{} for _ in range(arcs.size)]
-    for j, i, chance in zip(
-        arcs.sources.tolist(), arcs.targets.tolist(), arcs.chances.tolist(), strict=True
-    ):
+    rows: list[dict[int, Any]] = [{} for _ in range(arcs.size)]
+    chances = map(number, arcs.chances.tolist())
+    for j, i, chance in zip(arcs.sources.tolist(), arcs.targets.tolist(), chances, strict=True):
         rows[j][i] = chance
     return rows
 
 
-class DecimalElimination:
-    """(I - T) factored in decimal numbers; answers are floats, inf where floats end.
+class PlainElimination:
+    """(I - T) factored with a dictionary for each state: the fastest for a few dozen states.
 
     Parameters
     ----------
@@ -48,6 +47,8 @@ class DecimalElimination:
         the arcs of m states among themselves.
     leak
         shape (m,): the probability of leaving them, given the state.
+    most
+        the number of arcs to make at most.
 
     Raises
     ------
@@ -55,11 +56,13 @@ class DecimalElimination:
         if the elimination would take too long.
     """
 
+    bound, is_proved = None, False
+    _number: Callable[[float], Any] = float
+
     def __init__(self, arcs: Arcs, leak: Floats, most: float = math.inf) -> None:
         with localcontext(_CONTEXT):
-            self._factor = Elimination(
-                _rows(arcs), [Decimal(value) for value in leak.tolist()], most
-            )
+            leaks = [*map(self._number, leak.tolist())]
+            self._factor = Elimination(rows_of(arcs, self._number), leaks, most)
             self.pivots = _floats(self._factor.pivots)
 
     def visits(self, b: Floats) -> Floats:
@@ -70,11 +73,16 @@ class DecimalElimination:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         return self._columns(r, self._factor.values)
 
-    @staticmethod
-    def _columns(b: Floats, solve: Callable[[list[Decimal]], list[Decimal]]) -> Floats:
+    def _columns(self, b: Floats, solve: Callable[[list[Any]], list[Any]]) -> Floats:
         with localcontext(_CONTEXT):
-            columns = ([Decimal(value) for value in column] for column in b.T.tolist())
+            columns = ([*map(self._number, column)] for column in b.T.tolist())
             return np.array([_floats(solve(column)) for column in columns]).T
+
+
+class DecimalElimination(PlainElimination):
+    """(I - T) factored in decimal numbers; answers are floats, inf where floats end."""
+
+    _number = Decimal
 
 
 def decimal_masses(structure: Structure, v: Floats) -> Floats:
@@ -88,7 +96,7 @@ def decimal_masses(structure: Structure, v: Floats) -> Floats:
         if the elimination would take too long.
     """
     with localcontext(_CONTEXT):
-        rows, density = _rows(structure.arcs), dict(enumerate(map(Decimal, v.tolist())))
+        rows, density = rows_of(structure.arcs, Decimal), dict(enumerate(map(Decimal, v.tolist())))
         masses = masses_in(structure, rows, density, partial(_visits, rows))
         return _floats([masses.get(label, Decimal(0)) for label in range(structure.count)])
 
@@ -102,14 +110,10 @@ def decimal_law(arcs: Arcs) -> Floats:
         if the elimination would take too long.
     """
     with localcontext(_CONTEXT):
-        rows, rest = _rows(arcs), range(1, arcs.size)
+        rows, rest = rows_of(arcs, Decimal), range(1, arcs.size)
         law = [Decimal(1), *_visits(rows, rest, [rows[0].get(i, Decimal(0)) for i in rest])]
         total = sum(law)
         return _floats([value / total for value in law])
-
-
-def _rows(arcs: Arcs) -> list[dict[int, Decimal]]:
-    return [{i: Decimal(chance) for i, chance in row.items()} for row in rows_of(arcs)]
 
 
 def _visits(

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import sums
+from evenbreak.chains.arcs import summed
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.errors import InputError
@@ -64,25 +64,17 @@ def limit_matrix(chain: Chain) -> csc_array:
 
 def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
     """Return the chance of ending in each class, from each state; shape (classes, n)."""
-    shape = chain.structure.count, len(chain)
+    arcs, structure, part = chain.arcs, chain.structure, chain.transient
+    shape = structure.count, len(chain)
     ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
-    part = chain.transient
-    entries = _entries(chain)[:, part.states]
-    entered = np.flatnonzero(chain.structure.closed & (np.diff(entries.indptr) > 0))
+    entering = structure.recurrent[arcs.targets] & ~structure.recurrent[arcs.sources]
+    into = structure.label[arcs.targets[entering]]
+    entries = summed(into, arcs.sources[entering], arcs.chances[entering], shape)
+    entered = np.unique(into)
     for first in range(0, len(entered), _COLUMNS):
         classes = entered[first : first + _COLUMNS]
-        chances = part.values(entries[classes].toarray().T)
+        chances = part.values(entries[classes].toarray().T[part.states])
         row, column = np.nonzero(chances)
         values = chances[row, column]
         ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
     return ends
-
-
-def _entries(chain: Chain) -> csr_array:
-    """Return the chance of entering each closed class, from each state; shape (classes, n)."""
-    n, arcs, structure = len(chain), chain.arcs, chain.structure
-    entering = structure.recurrent[arcs.targets] & ~structure.recurrent[arcs.sources]
-    entered = structure.label[arcs.targets[entering]].astype(np.int64)
-    pairs, place = np.unique(entered * n + arcs.sources[entering], return_inverse=True)
-    chances = sums(place, arcs.chances[entering], len(pairs))
-    return csr_array((chances, (pairs // n, pairs % n)), shape=(structure.count, n))

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import sums
+from evenbreak.chains.arcs import summed
 from evenbreak.chains.chain import Chain, by_label, check_chain, check_present
 from evenbreak.chains.exact import exact_chance
 from evenbreak.errors import ChainError
@@ -75,11 +75,8 @@ def lumped(chain: Chain, by: Labels) -> Chain:
         raise _not_lumpable(chain, names, block, leaving[0])
     first = np.unique(block, return_index=True)[1]
     column = chain.matrix[:, first].tocoo()
-    keys = column.col.astype(np.int64) * count + block[column.row]
-    pairs, place = np.unique(keys, return_inverse=True)
-    source, target = np.divmod(pairs, count)
-    chances = np.minimum(sums(place, column.data, len(pairs)), 1.0)
-    matrix = csc_array((chances, (target, source)), shape=(count, count))
+    matrix = csc_array(summed(block[column.row], column.col, column.data, (count, count)))
+    matrix.data = np.minimum(matrix.data, 1.0)
     given: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
     for i, b, p in zip(column.row.tolist(), column.col.tolist(), column.data.tolist(), strict=True):
         if block[i] != b:
@@ -160,16 +157,14 @@ def _leaving(block: Places, sizes: list[int], into: csr_array, targets: Places) 
     arcs = into[targets].tocoo()
     sources, entered = arcs.col, block[targets[arcs.row]]
     outside = block[sources] != entered
-    keys = sources[outside].astype(np.int64) * len(block) + entered[outside]
-    pairs, place = np.unique(keys, return_inverse=True)
-    states, others = np.divmod(pairs, len(block))
-    chances = sums(place, arcs.data[outside], len(pairs))
+    flows = summed(sources[outside], entered[outside], arcs.data[outside], into.shape).tocoo()
+    states, others, chances = flows.row, flows.col, flows.data
     # Equal chances from one block into another are of one kind.
     order = np.lexsort((chances, others, block[states]))
     own, to, rising = block[states][order], others[order], chances[order]
     differ = (np.diff(own) != 0) | (np.diff(to) != 0)
     differ |= rising[1:] > rising[:-1] * (1.0 + _ROUNDING)
-    kinds = np.zeros(len(pairs), dtype=np.int64)
+    kinds = np.zeros(len(chances), dtype=np.int64)
     kinds[order[1:]] = np.cumsum(differ)
     marks = np.flatnonzero(np.diff(states, prepend=-1))
     alike: dict[int, dict[bytes, list[int]]] = defaultdict(lambda: defaultdict(list))

@@ -22,8 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.decimal_elimination import MOST_ARCS, DecimalElimination, rows_of
-from evenbreak.chains.elimination import Elimination
+from evenbreak.chains.decimal_elimination import MOST_ARCS, DecimalElimination, PlainElimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
 
@@ -60,9 +59,9 @@ class TransientPart:
         return f"<TransientPart of {len(self.states)} states, {len(self._arcs.chances)} arcs>"
 
     @cached_property
-    def _factor(self) -> _InPlainPython | Factorisation:
+    def _factor(self) -> PlainElimination | Factorisation:
         if len(self.states) <= _FEW_STATES and len(self._arcs.chances) <= _FEW_ARCS:
-            return _InPlainPython(self._arcs, self._leak)
+            return PlainElimination(self._arcs, self._leak)
         return Factorisation(self._arcs, self._leak, self._outflow)
 
     @cached_property
@@ -157,22 +156,6 @@ class TransientPart:
         if transposed:
             near, far = far, near
         return reachable(len(self.states), near, far, b != 0.0)
-
-
-class _InPlainPython:
-    """Elimination with a dictionary for each state: the fastest for a few dozen states."""
-
-    bound, is_proved = None, False
-
-    def __init__(self, arcs: Arcs, leak: Floats) -> None:
-        self._elimination = Elimination(rows_of(arcs), leak.tolist())
-        self.pivots = np.array(self._elimination.pivots)
-
-    def visits(self, b: Floats) -> Floats:
-        return np.array([self._elimination.visits(column) for column in b.T.tolist()]).T
-
-    def values(self, r: Floats) -> Floats:
-        return np.array([self._elimination.values(column) for column in r.T.tolist()]).T
 
 
 def where_doubtful(x: Floats, gain: Floats) -> Bools:
