@@ -66,7 +66,7 @@ def test_a_long_law_over_a_thousand_decades():
 
 
 def test_a_law_too_wide_and_too_large_is_refused(monkeypatch):
-    monkeypatch.setattr("evenbreak.chains.decimal_elimination.MOST_ARCS", 100)
+    monkeypatch.setattr("evenbreak.chains.elimination.MOST_ARCS", 100)
     n = 60
     chain, _ = two_step_walk(n, np.full(n, 1e-30), np.full(n, 0.5), 2)
     with pytest.raises(AccuracyError, match="span more decades than floats"):

@@ -1,7 +1,6 @@
 from .absorption import absorption as absorption
 from .absorption import expected_visits as expected_visits
 from .chain import Chain as Chain
-from .conditioned import conditioned as conditioned
 from .exact import ExactPassage as ExactPassage
 from .explore import chain_from_arrays as chain_from_arrays
 from .explore import chain_of as chain_of
@@ -20,6 +19,7 @@ from .mean_passages import mean_first_passages as mean_first_passages
 from .mixing import mixing_time as mixing_time
 from .mixing import spectral_gap as spectral_gap
 from .passage_times import PassageTime as PassageTime
+from .passage_times import conditioned as conditioned
 from .passage_times import first_passage as first_passage
 from .passage_times import steps_to_absorption as steps_to_absorption
 from .powers import propagate as propagate

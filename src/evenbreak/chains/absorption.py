@@ -18,7 +18,7 @@ import numpy as np
 
 from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import check_chain, labels
-from evenbreak.chains.decimal_elimination import decimal_masses
+from evenbreak.chains.elimination import decimal_masses
 from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 

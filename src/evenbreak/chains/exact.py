@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.decimal_elimination import rows_of
-from evenbreak.chains.elimination import Elimination, eliminated, limit_in, masses_in
+from evenbreak.chains.elimination import Elimination, eliminated, limit_in, masses_in, rows_of
 from evenbreak.chains.lifting import Lifting, whole_numbers
 from evenbreak.errors import ChainError
 

@@ -25,9 +25,9 @@ from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import arcs_of, put_back, sums
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
-from evenbreak.chains.decimal_elimination import DecimalElimination
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, is_dense
 from evenbreak.chains.dissection import bandwidth, dissect, neighbours
+from evenbreak.chains.elimination import DecimalElimination
 from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of

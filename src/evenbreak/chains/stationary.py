@@ -24,8 +24,8 @@ from evenbreak.chains.arcs import sums
 from evenbreak.chains.birth_death import birth_death_law
 from evenbreak.chains.certified import spread
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.decimal_elimination import decimal_law
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, factored, is_dense
+from evenbreak.chains.elimination import decimal_law
 from evenbreak.chains.factorisation import SMALL
 from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart

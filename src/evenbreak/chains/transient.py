@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.decimal_elimination import MOST_ARCS, DecimalElimination, PlainElimination
+from evenbreak.chains.elimination import MOST_ARCS, DecimalElimination, PlainElimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
 
