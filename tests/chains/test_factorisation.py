@@ -8,6 +8,7 @@ from evenbreak.chains import factorisation
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.certified import CertifiedSolve
 from evenbreak.chains.factorisation import Factorisation
+from evenbreak.errors import AccuracyError
 
 
 @pytest.mark.parametrize(
@@ -51,3 +52,19 @@ def test_a_line_without_long_doubles_and_a_hub_are_proved(monkeypatch):
     found = hub.visits(np.eye(600, 1))
     assert hub._pieces[0].solver._factors is None
     assert found[0, 0] == pytest.approx(2.0, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("few", "reason"), [(600, "has arcs between most"), (0, "is left too rarely to prove")]
+)
+def test_a_refusal_says_why_and_what_it_would_take(monkeypatch, few, reason):
+    T = np.full((600, 600), 1e-3 if few else 1e-20)
+    if not few:
+        T[np.arange(600) - 1, np.arange(600)] = T[np.arange(600) - 9, np.arange(600)] = 0.5
+        T = np.where(np.abs(np.subtract.outer(np.arange(600), np.arange(600))) % 97 < 9, T, 0.0)
+    np.fill_diagonal(T, 0.0)
+    monkeypatch.setattr(factorisation, "MOST_ENTRIES", 1000)
+    monkeypatch.setattr(factorisation, "is_dense", lambda *_: few > 0)
+    factor = Factorisation(arcs_of(csc_array(T)), np.eye(600)[0] * 1e-30, T.sum(axis=0))
+    with pytest.raises(AccuracyError, match=rf"600 states {reason}.* numbers in .* GB"):
+        factor.visits(np.eye(600, 1))

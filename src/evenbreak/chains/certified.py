@@ -181,7 +181,7 @@ def _factors(A: csc_array) -> Callable[..., Floats]:
         sparse = splu(
             csc_array(A), "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
         )
-    except RuntimeError:
+    except (RuntimeError, SystemError, MemoryError):  # singular in floats, or out of memory
         raise NotCertifiedError from None
     return sparse.solve
 

@@ -47,7 +47,8 @@ _HUB = 1000
 """A state that so many arcs lead out of makes ordering take longer than the factorisation."""
 _WIDE = bool(np.finfo(np.longdouble).eps < np.finfo(np.float64).eps)
 """Whether a long double has more digits than a double, which lines need."""
-_NARROW = 4
+_NARROW, _MOST_ARCS = 4, 2e7
+"""So wide a class is eliminated in decimal numbers, if no more arcs arise: half a minute's work."""
 
 
 class _Solver(Protocol):
@@ -92,7 +93,7 @@ class _Piece:
         work = float(size * self._bandwidth**2)
         dense = is_dense(size, self._arcs.nnz)
         if (size <= _FEW or dense) and self._bandwidth > _NARROW:
-            return self._eliminated()
+            return self._eliminated("has arcs between most of its states")
         if work > _MUCH_WORK:  # in this order; perhaps not in a better one
             work = sum(front.work for front in self._fronts[1])
         has_hub = np.diff(self._arcs.indptr).max() > _HUB
@@ -104,7 +105,7 @@ class _Piece:
         try:
             return self.solver.values(b) if transposed else self.solver.visits(b)
         except NotCertifiedError:
-            self.solver = self._eliminated()
+            self.solver = self._eliminated("is left too rarely to prove an answer in floats")
         return self.solver.values(b) if transposed else self.solver.visits(b)
 
     @cached_property
@@ -128,8 +129,8 @@ class _Piece:
     def _fronts(self) -> tuple[Places, list[Front]]:
         return dissect(neighbours(self._arcs))
 
-    def _eliminated(self) -> _Solver:
-        """Return the factors without subtraction.
+    def _eliminated(self, reason: str) -> _Solver:
+        """Return the factors without subtraction, which there is a reason for.
 
         Raises
         ------
@@ -137,15 +138,14 @@ class _Piece:
             if they would be too many.
         """
         if self._bandwidth <= _NARROW:
-            return DecimalElimination(arcs_of(self._arcs), self._leaks)
+            return DecimalElimination(arcs_of(self._arcs), self._leaks, _MOST_ARCS)
         order, fronts = self._fronts
         entries = sum(front.entries for front in fronts)
         if entries > MOST_ENTRIES:
             raise AccuracyError(
-                f"a class of {len(order):,} states is left too rarely to prove an answer in floats "
-                f"and no few states cut it apart: its factors would be {entries:,} numbers in "
-                f"{entries * 8e-9:.2g} GB, and {MOST_ENTRIES:,} are allowed; join some of its "
-                "states or split the chain"
+                f"a class of {len(order):,} states {reason}, and no few states cut it apart: "
+                f"its factors would be {entries:,} numbers in {entries * 8e-9:.2g} GB, and "
+                f"{MOST_ENTRIES:,} are allowed; join some of its states or split the chain"
             )
         return FrontElimination(self._arcs, self._leaks, order, fronts)
 
