@@ -111,7 +111,7 @@ class CertifiedSolve:
         self._factors: Callable[..., Floats] | None = None
         if factored:
             self._unit = np.ldexp(1.0, -np.frexp(self.pivots)[1])
-            self._factors = _factors(diags_array(self.pivots * self._unit) - T * self._unit)
+            self._factors = _factors(csc_array(T * self._unit), self.pivots * self._unit)
         else:
             self._spread = spread(T, self.pivots)
 
@@ -164,23 +164,24 @@ def spread(T: csc_array, outflow: Floats) -> Floats:
     return np.asarray(visits / visits.max())
 
 
-def _factors(A: csc_array) -> Callable[..., Floats]:
-    """Return the function (b, "N" or "T") -> A^-1 b or A^-T b, as floats give it.
+def _factors(T: csc_array, diagonal: Floats) -> Callable[..., Floats]:
+    """Return the function (b, "N" or "T") -> A^-1 b or A^-T b in floats, A = D - T.
 
     Raises
     ------
     NotCertifiedError
         if A is singular in floats.
     """
-    if A.nnz > _DENSE * A.shape[0] ** 2:
-        lu, pivots, singular = dgetrf(A.toarray(order="F"), overwrite_a=True)
+    if T.nnz > _DENSE * T.shape[0] ** 2:
+        dense = -T.toarray(order="F")
+        np.fill_diagonal(dense, diagonal)
+        lu, pivots, singular = dgetrf(dense, overwrite_a=True)
         if singular:
             raise NotCertifiedError
         return lambda b, way: np.asarray(dgetrs(lu, pivots, b, trans=way == "T")[0])
     try:
-        sparse = splu(
-            csc_array(A), "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-        )
+        A = csc_array(diags_array(diagonal) - T)
+        sparse = splu(A, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     except (RuntimeError, SystemError, MemoryError):  # singular in floats, or out of memory
         raise NotCertifiedError from None
     return sparse.solve

@@ -127,35 +127,28 @@ class Elimination:
 
     def visits(self, b: Sequence[Any]) -> list[Any]:
         """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
-        x = list(b)
-        for k, pivot, out, _ in self.steps:
-            if not _is_nothing(x[k]):
-                share = x[k] / pivot
-                for i, chance in out.items():
-                    x[i] += share * chance
-        if self._rest:
-            self._put(x, self._core.visits([x[j] for j in self._rest]))
-        for k, pivot, _, back in reversed(self.steps):
-            x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
-        return x
+        return self._solved(b, transposed=False)
 
     def values(self, r: Sequence[Any]) -> list[Any]:
         """Return y = (I - T)^-T r: the expected sum of r over the visits from each state."""
-        y = list(r)
-        for k, pivot, _, back in self.steps:
-            if not _is_nothing(y[k]):
-                share = y[k] / pivot
-                for j, chance in back.items():
-                    y[j] = y[j] + share * chance
-        if self._rest:
-            self._put(y, self._core.values([y[j] for j in self._rest]))
-        for k, pivot, out, _ in reversed(self.steps):
-            y[k] = sum((chance * y[i] for i, chance in out.items()), y[k]) / pivot
-        return y
+        return self._solved(r, transposed=True)
 
-    def _put(self, x: list[Any], solved: list[Any]) -> None:
-        for j, value in zip(self._rest, solved, strict=True):
-            x[j] = value
+    def _solved(self, b: Sequence[Any], *, transposed: bool) -> list[Any]:
+        x = list(b)
+        steps = [(k, d, i, o) if transposed else (k, d, o, i) for k, d, o, i in self.steps]
+        for k, pivot, onward, _ in steps:
+            if not _is_nothing(x[k]):
+                share = x[k] / pivot
+                for i, chance in onward.items():
+                    x[i] = x[i] + share * chance
+        if self._rest:
+            given = [x[j] for j in self._rest]
+            core = self._core.values(given) if transposed else self._core.visits(given)
+            for j, value in zip(self._rest, core, strict=True):
+                x[j] = value
+        for k, pivot, _, back in reversed(steps):
+            x[k] = sum((chance * x[j] for j, chance in back.items()), x[k]) / pivot
+        return x
 
 
 def limit_in(

@@ -74,24 +74,26 @@ class FrontElimination:
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
-        x = b[self._order]
-        for (first, last, later), (block, onward, _) in self._steps:
-            x[first:last] = solved(block, x[first:last], "L")
-            x[later] = less(x[later], onward[:, :-1], x[first:last], transposed=True)
-        for (first, last, later), (block, _, back) in reversed(self._steps):
-            x[first:last] = solved(block, less(x[first:last], back, x[later]), "U")
-        return put_back(x, self._order)
+        return self._solved(b, transposed=False)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
-        y = r[self._order]
-        for (first, last, later), (block, _, back) in self._steps:
-            y[first:last] = solved(block, y[first:last], "U", transposed=True)
-            y[later] = less(y[later], back, y[first:last], transposed=True)
-        for (first, last, later), (block, onward, _) in reversed(self._steps):
-            right = less(y[first:last], onward[:, :-1], y[later])
-            y[first:last] = solved(block, right, "L", transposed=True)
-        return put_back(y, self._order)
+        return self._solved(r, transposed=True)
+
+    def _solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+        x = b[self._order]
+        near, far = ("U", "L") if transposed else ("L", "U")
+        steps = [
+            (front, block, *((back, onward[:, :-1]) if transposed else (onward[:, :-1], back)))
+            for front, (block, onward, back) in self._steps
+        ]
+        for (first, last, later), block, on, _ in steps:
+            x[first:last] = solved(block, x[first:last], near, transposed=transposed)
+            x[later] = less(x[later], on, x[first:last], transposed=True)
+        for (first, last, later), block, _, back in reversed(steps):
+            right = less(x[first:last], back, x[later])
+            x[first:last] = solved(block, right, far, transposed=transposed)
+        return put_back(x, self._order)
 
 
 def _arcs_by_front(

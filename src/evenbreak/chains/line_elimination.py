@@ -31,13 +31,11 @@ if TYPE_CHECKING:
 
 
 class _Round(NamedTuple):
-    """The states at odd places: their pivots, their shares down and up, and arcs to them."""
+    """The states at odd places: their pivots, their arcs down and up, and arcs to them."""
 
     pivot: Wide
-    down: Wide
-    up: Wide
-    from_left: Wide
-    from_right: Wide
+    out: tuple[Wide, Wide]
+    into: tuple[Wide, Wide]
 
 
 def line_order(T: csc_array) -> Places | None:
@@ -87,7 +85,7 @@ class LineElimination:
             pivot = u[1::2] + d[1::2] + leaks[1::2]
             share_up, share_down, share_leak = u[1::2] / pivot, d[1::2] / pivot, leaks[1::2] / pivot
             from_left, from_right = u[0::2][: len(pivot)], d[2::2]
-            self._rounds.append(_Round(pivot, share_down, share_up, from_left, from_right))
+            self._rounds.append(_Round(pivot, (d[1::2], u[1::2]), (from_left, from_right)))
             pivots[place[1::2]] = pivot
             inner = len(from_right)
             leaks = leaks[0::2].copy()
@@ -103,43 +101,29 @@ class LineElimination:
 
     def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
-        x = b[self._order].astype(np.longdouble)
-        waiting = []
-        for pivot, down, up, _, from_right in self._rounds:
-            odd, x = x[1::2], x[0::2].copy()
-            inner = len(from_right)
-            x[: len(pivot)] += odd * down[:, None]
-            x[1 : inner + 1] += (odd * up[:, None])[:inner]
-            waiting.append(odd)
-        x /= self._last[:, None]
-        for (pivot, _, _, from_left, from_right), odd in zip(
-            reversed(self._rounds), reversed(waiting), strict=True
-        ):
-            inner = len(from_right)
-            odd = odd + x[: len(pivot)] * from_left[:, None]
-            odd[:inner] += x[1 : inner + 1] * from_right[:, None]
-            x = _interleaved(x, odd / pivot[:, None])
-        return put_back(x.astype(np.float64), self._order)
+        return self._solved(b, transposed=False)
 
     def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
-        y = r[self._order].astype(np.longdouble)
+        return self._solved(r, transposed=True)
+
+    def _solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+        x = b[self._order].astype(np.longdouble)
+        rounds = [(r.pivot, r.into, r.out) if transposed else r for r in self._rounds]
         waiting = []
-        for pivot, _, _, from_left, from_right in self._rounds:
-            odd, y = y[1::2] / pivot[:, None], y[0::2].copy()
-            inner = len(from_right)
-            y[: len(pivot)] += odd * from_left[:, None]
-            y[1 : inner + 1] += odd[:inner] * from_right[:, None]
+        for pivot, (left, right), _ in rounds:
+            odd, x = x[1::2] / pivot[:, None], x[0::2].copy()
+            inner = len(x) - 1
+            x[: len(pivot)] += odd * left[:, None]
+            x[1:] += odd[:inner] * right[:inner, None]
             waiting.append(odd)
-        y /= self._last[:, None]
-        for (pivot, down, up, _, from_right), odd in zip(
-            reversed(self._rounds), reversed(waiting), strict=True
-        ):
-            inner = len(from_right)
-            odd = odd + y[: len(pivot)] * down[:, None]
-            odd[:inner] += y[1 : inner + 1] * up[:inner, None]
-            y = _interleaved(y, odd)
-        return put_back(y.astype(np.float64), self._order)
+        x /= self._last[:, None]
+        for (pivot, _, (left, right)), odd in zip(rounds[::-1], waiting[::-1], strict=True):
+            inner = len(x) - 1
+            more = x[: len(pivot)] * left[:, None]
+            more[:inner] += x[1:] * right[:inner, None]
+            x = _interleaved(x, odd + more / pivot[:, None])
+        return put_back(x.astype(np.float64), self._order)
 
 
 def _interleaved(even: Wide, odd: Wide) -> Wide:

@@ -73,6 +73,9 @@ class Spectrum:
         shape (n, k) for a chain of reversible classes (see `reversible`), otherwise None:
         the eigenvectors Q of the symmetric matrices S = D^-1 M D of the classes. In a closed
         class D holds the square roots of the stationary law.
+    right
+        shape (n, k): column i is the right vector of eigenvalue i. Those of eigenvalue 1 are the
+        stationary laws of the closed classes.
     """
 
     chain: Chain
@@ -81,16 +84,8 @@ class Spectrum:
     residual: float
     limit_error: float
     orthonormal: NDArray[np.float64] | None
-    _right: NDArray[Any] = field(repr=False)
+    right: NDArray[Any] = field(repr=False)
     _left: NDArray[Any] = field(repr=False)
-
-    @property
-    def right(self) -> NDArray[Any]:
-        """Column i is the right vector of eigenvalue i; shape (n, k).
-
-        Those of eigenvalue 1 are the stationary laws of the closed classes.
-        """
-        return self._right
 
     @property
     def left(self) -> NDArray[Any]:
@@ -122,9 +117,14 @@ class Spectrum:
         AccuracyError
             if `limit_error` is above 1e-8: the chain is nearly decomposable, or slow.
         """
-        self._check_error()
+        if not self.limit_error <= TOLERANCE:
+            raise AccuracyError(
+                f"the limit by eigenvectors may be wrong by {self.limit_error:.1e} "
+                f"(residual {self.residual:.1e}): the chain is slow or nearly falls apart; "
+                "use stochastic_limit"
+            )
         v = self.chain.density(start)
-        return limit_by(self._right[:, : self.units], self._left[: self.units], v)
+        return limit_by(self.right[:, : self.units], self._left[: self.units], v)
 
     @property
     def gap(self) -> float:
@@ -134,14 +134,6 @@ class Spectrum:
     def mixing_time(self, eps: float = 0.25) -> int:
         """Return the steps after which every start is within `eps` of its limit."""
         return mixing_time(self.chain, eps)
-
-    def _check_error(self) -> None:
-        if not self.limit_error <= TOLERANCE:
-            raise AccuracyError(
-                f"the limit by eigenvectors may be wrong by {self.limit_error:.1e} "
-                f"(residual {self.residual:.1e}): the chain is slow or nearly falls apart; "
-                "use stochastic_limit"
-            )
 
 
 def spectrum(chain: Chain, k: int | None = None) -> Spectrum:

@@ -2,21 +2,20 @@
 
 The structure says how often eigenvalue 1 occurs and where its vectors live: once for each closed
 class, whose right vector R is the stationary law and whose left vector L is the chance of ending
-there. Both are solved for from the arcs, by sparse LU factors that are applied again to what is
-still missed, in pairs of doubles. With A = D - T, the arcs T among some states and D the chances
-of leaving them:
+there. Both are solved for from the arcs, by LU factors that are applied again to what is still
+missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among some states and D
+the chances of leaving them:
 
 - L v, for a start v, needs one solve for all classes: x = A^-1 v_T are the visits to the transient
   states, and L_C v = v_C + B_C x with the arcs B_C into class C. Every column of A and B together
   sums to 0, so that residuals r put the chances off by no more than sum |r|.
-- R: a likely state is cut out of each class, found by one step of inverse iteration; the others
+- R: a state where some steps from anywhere spend much time is cut out of each class; the others
   solve A x = the arcs out of it. A w >= 1, checked in pairs too, proves that no entry is off by
   more than its w times the largest residual (A is an M-matrix).
 
 Other eigenvalues may therefore lie as close to 1 as they like without mixing in.
 
-References: Golub and Van Loan, Matrix Computations, section 7.6, for inverse iteration; Varga 1962,
-Matrix Iterative Analysis, for bounds by M-matrices.
+Reference: Varga 1962, Matrix Iterative Analysis, for bounds by M-matrices.
 """
 
 from __future__ import annotations
