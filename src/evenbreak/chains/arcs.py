@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from scipy.sparse import csc_array, csgraph, csr_array
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Bools, Floats, array_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -51,14 +51,14 @@ class Arcs:
     indptr: Places
     sources: Places
     targets: Places
-    chances: NDArray[np.float64]
+    chances: Floats
 
     @cached_property
-    def outflow(self) -> NDArray[np.float64]:
+    def outflow(self) -> Floats:
         """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
         return sums(self.sources, self.chances, self.size)
 
-    def among(self, states: Places) -> tuple[Arcs, NDArray[np.float64]]:
+    def among(self, states: Places) -> tuple[Arcs, Floats]:
         """Return the arcs among some states, renumbered, and each state's chance to leave them.
 
         Parameters
@@ -101,7 +101,7 @@ def arcs_of(matrix: csc_array) -> Arcs:
     return _arcs(size, sources, targets, chances)
 
 
-def sums(place: Places, values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+def sums(place: Places, values: Floats, size: int) -> Floats:
     """Return the sum of the `values` at each place; shape (size,).
 
     If no value is negative, each sum is right to about one rounding, however many values it
@@ -125,9 +125,7 @@ def sums(place: Places, values: NDArray[np.float64], size: int) -> NDArray[np.fl
     return np.asarray(np.bincount(place, upper, size) + rest)
 
 
-def summed(
-    rows: Places, columns: Places, values: NDArray[np.float64], shape: tuple[int, int]
-) -> csr_array:
+def summed(rows: Places, columns: Places, values: Floats, shape: tuple[int, int]) -> csr_array:
     """Return the sparse matrix whose entries are the `sums` of the values at each place.
 
     >>> summed(np.array([0, 0]), np.array([1, 1]), np.array([0.25, 0.5]), (1, 2)).toarray()
@@ -138,9 +136,7 @@ def summed(
     return csr_array((sums(place, values, len(pairs)), np.divmod(pairs, shape[1])), shape=shape)
 
 
-def reachable(
-    size: int, sources: Places, targets: Places, seeds: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def reachable(size: int, sources: Places, targets: Places, seeds: Bools) -> Bools:
     """Return which states can be reached from the `seeds`, which count too; shape (size,).
 
     >>> reachable(3, np.array([0, 1]), np.array([1, 0]), np.array([True, False, False]))
@@ -168,7 +164,7 @@ def tree_from(size: int, sources: Places, targets: Places, roots: Places) -> tup
     return order[1:], parent
 
 
-def put_back(x: NDArray[np.float64], order: Places) -> NDArray[np.float64]:
+def put_back(x: Floats, order: Places) -> Floats:
     """Return the rows of `x`, which are in the given order of the states, by state.
 
     >>> put_back(np.array([0.25, 0.5]), np.array([1, 0]))
@@ -179,12 +175,7 @@ def put_back(x: NDArray[np.float64], order: Places) -> NDArray[np.float64]:
     return y
 
 
-def _arcs(
-    size: int,
-    sources: Places,
-    targets: Places,
-    chances: NDArray[np.float64],
-) -> Arcs:
+def _arcs(size: int, sources: Places, targets: Places, chances: Floats) -> Arcs:
     indptr = np.zeros(size + 1, dtype=np.int32)
     np.cumsum(np.bincount(sources, minlength=size), out=indptr[1:])
     return Arcs(size, indptr, sources, targets, chances)

@@ -18,21 +18,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg.blas import dasum, dtrsv
-from scipy.sparse import csc_array
 
-from evenbreak.chains.arcs import sums
-from evenbreak.chains.birth_death import birth_death_law
+from evenbreak.chains.arcs import put_back, sums
+from evenbreak.chains.birth_death import birth_death_law, line_of
 from evenbreak.chains.certified import spread
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, factored, is_dense
 from evenbreak.chains.elimination import decimal_law
 from evenbreak.chains.factorisation import SMALL
-from evenbreak.chains.line_elimination import line_order
 from evenbreak.chains.transient import TransientPart
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.arcs import Arcs
     from evenbreak.chains.chain import Chain
 
@@ -43,7 +40,7 @@ _FAR = 1e290
 """Numbers so far apart are left to the general way, which knows what underflow costs."""
 
 
-def stationary_laws(chain: Chain) -> NDArray[np.float64]:
+def stationary_laws(chain: Chain) -> Floats:
     """Return the stationary law of every closed class in one vector; shape (n,).
 
     Each entry is conditional on being in the closed class of its state, so the entries of
@@ -68,7 +65,7 @@ def stationary_laws(chain: Chain) -> NDArray[np.float64]:
     return laws_of(chain, chain.structure.closed)[0]
 
 
-def laws_of(chain: Chain, classes: NDArray[np.bool_]) -> tuple[NDArray[np.float64], float | None]:
+def laws_of(chain: Chain, classes: Bools) -> tuple[Floats, float | None]:
     """Return the laws of those of `classes` that are closed, and a bound if there is one.
 
     One state of each class is cut out; the visits to the others between two visits to it
@@ -116,9 +113,10 @@ def suits_array(arcs: Arcs) -> bool:
     return n <= SMALL or (n * n <= MOST_ENTRIES and is_dense(n, len(arcs.chances)))
 
 
-def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
+def dense_law(arcs: Arcs) -> Floats | None:
     """Return the law of the one class that the arcs make, or None if floats may be too short.
 
+    >>> from scipy.sparse import csc_array
     >>> from evenbreak.chains.arcs import arcs_of
     >>> dense_law(arcs_of(csc_array([[0.5, 0.25], [0.5, 0.75]])))
     array([0.33333333, 0.66666667])
@@ -128,7 +126,7 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     A = np.zeros((n, n), order="C" if many else "F")
     A[arcs.targets, arcs.sources] = -arcs.chances
     block = factored(np.asfortranarray(A))
-    law: NDArray[np.float64] = np.zeros(n)
+    law: Floats = np.zeros(n)
     law[-1] = 1.0
     law = dtrsv(block, law, 1, 0, 0, 0, 1, 1)  # with ones on the diagonal, overwriting
     block[-1, -1] = 1.0  # the last state is not left
@@ -142,13 +140,10 @@ def dense_law(arcs: Arcs) -> NDArray[np.float64] | None:
     return law
 
 
-def _law_of(arcs: Arcs) -> NDArray[np.float64]:
+def _law_of(arcs: Arcs) -> Floats:
     """Return the law of one closed class, also if it spans more decades than floats do."""
-    T = arcs.matrix()
-    order = line_order(T)
-    if order is None:
+    line = line_of(arcs.matrix())
+    if line is None:
         return decimal_law(arcs)
-    line = csc_array(T[:, order])[order]
-    law = np.empty(arcs.size)
-    law[order] = birth_death_law(line.diagonal(-1), line.diagonal(1))
-    return law
+    order, walk = line
+    return put_back(birth_death_law(walk.up, walk.down), order)

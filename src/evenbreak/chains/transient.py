@@ -129,8 +129,11 @@ class TransientPart:
         except (np.linalg.LinAlgError, ZeroDivisionError):
             # A pivot, a sum of positive arcs, was smaller than any float.
             x, doubtful = np.full(b.shape, np.nan), np.ones(b.shape, dtype=bool)
+        # Answers differ from 0 only where arcs, forwards or backwards, lead from what is given.
+        ends = self._arcs.sources, self._arcs.targets
         for k in np.flatnonzero(doubtful.any(axis=0)):
-            doubtful[:, k] &= self._reached(b[:, k], transposed=transposed)
+            near, far = reversed(ends) if transposed else ends
+            doubtful[:, k] &= reachable(len(b), near, far, b[:, k] != 0.0)
         return x, doubtful
 
     def _guaranteed(self, b: Floats, *, transposed: bool) -> Floats:
@@ -149,13 +152,6 @@ class TransientPart:
                 "the chain leaves some states too rarely"
             )
         return x.reshape(given.shape)
-
-    def _reached(self, b: Floats, *, transposed: bool) -> Bools:
-        """Return the states that arcs, followed forwards or backwards, join to those of b."""
-        near, far = self._arcs.sources, self._arcs.targets
-        if transposed:
-            near, far = far, near
-        return reachable(len(self.states), near, far, b != 0.0)
 
 
 def where_doubtful(x: Floats, gain: Floats) -> Bools:
