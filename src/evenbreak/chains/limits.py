@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,19 +26,15 @@ from evenbreak.chains.absorption import closed_classes_reached, ends_of, masses_
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.stationary import laws_of
-from evenbreak.chains.ways import WAYS, Way
-from evenbreak.checks import one_of
-from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.chains.ways import Way, way_of_limit
+from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     import pandas as pd
     from numpy.typing import DTypeLike, NDArray
 
     from evenbreak.chains.chain import Chain
 
-Default = TypeVar("Default")
 _ERROR_BY_EIGENVECTORS = 1e-12
 
 _SHOWN = 5
@@ -97,12 +93,6 @@ class Limit(Mapping[Hashable, float]):
     def __contains__(self, state: object) -> bool:
         return isinstance(state, Hashable) and state in self.chain.position
 
-    @overload
-    def get(self, state: Hashable, default: None = None) -> float | None: ...
-
-    @overload
-    def get(self, state: Hashable, default: Default) -> float | Default: ...
-
     def get(self, state: Hashable, default: Any = None) -> Any:
         """Return the probability of a state, or `default` if the chain has no such state."""
         try:
@@ -149,21 +139,9 @@ class Limit(Mapping[Hashable, float]):
         return np.array(self.probability, dtype)
 
 
-@overload
-def stochastic_limit(
-    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[False] = False
-) -> Limit: ...
-
-
-@overload
-def stochastic_limit(
-    chain: Chain, start: Any = None, *, via: Way | None = None, exact: Literal[True]
-) -> dict[Hashable, Fraction]: ...
-
-
 def stochastic_limit(
     chain: Chain, start: Any = None, *, via: Way | None = None, exact: bool = False
-) -> Limit | dict[Hashable, Fraction]:
+) -> Limit | Any:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
     Each probability is conditional on the start alone. The structure of the graph says
@@ -181,8 +159,8 @@ def stochastic_limit(
         eigenvectors of eigenvalue 1 (see `spectrum`). None: the kernel where there is one,
         otherwise elimination.
     exact
-        whether to calculate in fractions and return them, by state. A chance that `chain_of`
-        got as a `Fraction` or as text is taken as it is, a float as the decimal that it
+        whether to calculate in fractions and return a dict of them, by state. A chance that
+        `chain_of` got as a `Fraction` or as text is taken as it is, a float as the decimal that it
         prints. Matches, series and one-ball games keep a `Fraction`; drills and ladders hold
         floats. Time and the length of the fractions grow with the number of states: a thousand
         states take a second or two, and so do some thousands of scores of a race.
@@ -222,12 +200,9 @@ def stochastic_limit(
     Fraction(1, 3)
     """
     check_chain(chain)
+    way_of_limit(via, exact=exact)  # refuses what is no way
     if exact:
-        if via is not None:
-            raise InputError(f"via is {via!r}, but exact answers have one way; leave via out")
         return exact_limit(chain, start)
-    if via is not None:
-        one_of(via, "via", WAYS)
     if via == "eigen":
         return _limit_by_eigenvectors(chain, start)
     at = chain.start_index(start) if via != "elimination" else None
