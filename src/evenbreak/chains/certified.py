@@ -111,7 +111,8 @@ class CertifiedSolve:
         self._factors: Callable[..., Floats] | None = None
         if factored:
             self._unit = np.ldexp(1.0, -np.frexp(self.pivots)[1])
-            self._factors = _factors(csc_array(T * self._unit), self.pivots * self._unit)
+            scaled = csc_array((T.data * self._unit[sources], T.indices, T.indptr), T.shape)
+            self._factors = _factors(scaled, self.pivots * self._unit)
         else:
             self._spread = spread(T, self.pivots)
 
@@ -226,7 +227,7 @@ class Equations:
             while True:
                 y = _sum(y, self._as_they_are.solved(residual, _SHARE))
                 y = Pair(*(np.where(y.high > 0.0, part, 0.0) for part in y))
-                residual, missed = self._as_they_are.missed(y, b)
+                residual, missed = self._as_they_are.balance.missed(y, b)
                 if not missed.max() < least.max() / 2.0:
                     break
                 best, least = y.high, missed
@@ -264,7 +265,7 @@ class Equations:
             equations = _Scaled(self, power, np.ldexp(self._right, -power))
             y, w, bound, last, stalls = Pair(nothing, nothing), None, np.inf, np.inf, 0
             for _ in range(_ROUNDS):
-                residual, size = equations.missed(y, np.ldexp(b, -equations.shift))
+                residual, size = equations.balance.missed(y, np.ldexp(b, -equations.shift))
                 missed = size.max()
                 if missed <= _NEAR and y.high.min() > 0.0:
                     w = equations.witness() if w is None else w
@@ -307,12 +308,8 @@ class _Scaled:
         scaled = csr_array(
             (np.ldexp(arcs.data, shift), arcs.indices, arcs.indptr), shape=arcs.shape
         )
-        self._balance = Balance(scaled, outflow, system.rows)
+        self.balance = Balance(scaled, outflow, system.rows)
         self._system, self._about = system, about
-
-    def missed(self, y: Pair, b: Floats) -> tuple[Floats, Floats]:
-        """Return b - A y for y >= 0, and at least the size of each."""
-        return self._balance.missed(y, b)
 
     def witness(self) -> Floats:
         """Return w > 0 with A w >= 1, proved.
@@ -322,11 +319,11 @@ class _Scaled:
         NotCertifiedError
             if none is found.
         """
-        w, nothing, two = (np.full(len(self.shift), value) for value in (0.0, 0.0, 2.0))
+        w, two = np.zeros(len(self.shift)), np.full(len(self.shift), 2.0)
         residual = two
         for _ in range(_TRIES):
             w = np.maximum(w + self.solved(residual, 1e-2), 0.0)
-            residual, missed = self.missed(Pair(w, nothing), two)
+            residual, missed = self.balance.missed(Pair(w, np.zeros_like(w)), two)
             if missed.max() <= 1.0:
                 return w
         raise NotCertifiedError
@@ -359,7 +356,7 @@ class _Scaled:
         return size * y
 
     def _times(self, y: Floats) -> Floats:
-        return np.asarray(self._balance.outflow.high * y - self._balance.arcs @ y)
+        return np.asarray(self.balance.outflow.high * y - self.balance.arcs @ y)
 
     def _aggregated(self, b: Floats) -> Floats:
         return self._about * self._aggregation(self._weight * b)
@@ -370,7 +367,7 @@ class _Scaled:
 
     @cached_property
     def _aggregation(self) -> Aggregation:
-        A = diags_array(self._balance.outflow.high) - self._balance.arcs
+        A = diags_array(self.balance.outflow.high) - self.balance.arcs
         try:
             return Aggregation(csr_array(diags_array(self._weight) @ A @ diags_array(self._about)))
         except RuntimeError:

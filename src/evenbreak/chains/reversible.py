@@ -141,7 +141,7 @@ def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
     back.sort_indices()
     if there.nnz != back.nnz or (there.indices != back.indices).any():
         return None
-    weight, power = _weights(there, back.data)
+    weight, power = _weights(there)
     sources = np.repeat(np.arange(len(states)), np.diff(there.indptr))
     for some in (slice(_SAMPLE), slice(_SAMPLE, None)):  # most chains are not reversible
         source, target = sources[some], there.indices[some]
@@ -162,23 +162,21 @@ def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
     return SymmetricForm(states, csc_array(beside + diags_array(loops)), roots, line_order(there))
 
 
-def _weights(T: csc_array, back: Floats) -> tuple[Floats, Places]:
-    """Return the weights along a tree of arcs, as numbers near 1 and whole exponents of 2.
-
-    Entry k of `back` is the arc opposite to that of entry k of T.
-    """
+def _weights(T: csc_array) -> tuple[Floats, Places]:
+    """Return the weights along a tree of arcs, as numbers near 1 and whole exponents of 2."""
     size = T.shape[0]
     high, low, power = np.ones(size), np.zeros(size), np.zeros(size, dtype=np.int64)
     if size == 1:
         return high, power
     _, parent = csgraph.breadth_first_order(T, 0)
-    number = csc_array((np.arange(1, T.nnz + 1), T.indices, T.indptr), shape=T.shape)
-    entry = np.asarray(number[np.arange(1, size), parent[1:]]).reshape(-1) - 1
-    (above, more), (below, less) = np.frexp(T.data[entry]), np.frexp(back[entry])
+    child, parent[0] = np.arange(1, size), 0
+    (above, more), (below, less) = (
+        np.frexp(np.asarray(T[ends]).reshape(-1))
+        for ends in ((child, parent[1:]), (parent[1:], child))
+    )
     high[1:], power[1:] = above / below, more - less
     exact = two_product(high[1:], below)
     low[1:] = ((above - exact.high) - exact.low) / below
-    parent[0] = 0
     # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
     while parent.any():
         exact = two_product(high, high[parent])

@@ -127,7 +127,8 @@ class UnitPairs:
         if not len(states):
             return law, 0.0
         arcs = self._chain.arcs
-        likely = spread(arcs.matrix(), np.where(arcs.outflow > 0.0, arcs.outflow, 1.0))
+        out = np.bincount(arcs.sources, arcs.chances, arcs.size)
+        likely = spread(arcs.matrix(), np.where(out > 0.0, out, 1.0))
         order = np.lexsort((likely[states], self._class[states]))
         last = np.append(np.diff(self._class[states[order]]) > 0, True)
         law[states[order[last]]] = 1.0
