@@ -26,11 +26,9 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.linalg import splu
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
-    Floats = NDArray[np.float64]
 
 _FEW = 400
 """So few groups are solved for directly."""

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.chains.arcs import Arcs, arcs_of
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of, line_of
 from evenbreak.chains.matrices import adding_up, csc_of
@@ -193,7 +193,7 @@ class Chain:
         """The transient states, with the solves `visits` and `values`."""
         return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
-    def density(self, start: Any = None) -> NDArray[np.float64]:
+    def density(self, start: Any = None) -> Floats:
         """Return the start as a density: a vector of length n that sums to 1.
 
         Parameters
@@ -220,7 +220,7 @@ class Chain:
             )
         return v
 
-    def vector(self, given: Any, name: str) -> NDArray[np.float64]:
+    def vector(self, given: Any, name: str) -> Floats:
         """Return a number for each state, shape (n,).
 
         Parameters
@@ -255,7 +255,7 @@ class Chain:
 
     def simulate(
         self, steps: int, rng: np.random.Generator | int, *, start: Any = None, paths: int = 1
-    ) -> NDArray[np.int64]:
+    ) -> Ints:
         """Return random paths of the chain, as positions in `states`.
 
         Parameters

@@ -25,9 +25,8 @@ import numpy as np
 from scipy.linalg.blas import ddot, dgemm, dtrsm, dtrsv
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from evenbreak.arrays import Floats
 
-    Matrix = NDArray[np.float64]
 
 MOST_ENTRIES = 40_000_000
 """Of an array or of factors: those of some 6,000 states with arcs to all others."""
@@ -47,9 +46,9 @@ _LATER = -np.triu(np.ones((_ONE_BY_ONE + 1, _ONE_BY_ONE + 1)), 1)
 class Factors(NamedTuple):
     """The factors of a front: L and U (with ones on its diagonal) in one array, X^T and Y."""
 
-    block: Matrix
-    onward: Matrix
-    back: Matrix
+    block: Floats
+    onward: Floats
+    back: Floats
 
 
 def is_dense(states: int, arcs: int) -> bool:
@@ -57,7 +56,7 @@ def is_dense(states: int, arcs: int) -> bool:
     return states * states <= 4 * arcs
 
 
-def split(A: Matrix, size: int) -> tuple[Factors, Matrix]:
+def split(A: Floats, size: int) -> tuple[Factors, Floats]:
     """Eliminate the first states of a front; return their factors and the rest.
 
     Parameters
@@ -77,7 +76,7 @@ def split(A: Matrix, size: int) -> tuple[Factors, Matrix]:
     return Factors(block, onward, back), less(A[size:, size:], onward, back, transposed=True)
 
 
-def factored(B: Matrix) -> Matrix:
+def factored(B: Floats) -> Floats:
     """Return L and U in one array, of a block with the sums of what leaves it as the last row.
 
     Parameters
@@ -99,7 +98,7 @@ def factored(B: Matrix) -> Matrix:
     return factors
 
 
-def _factored_one_by_one(B: Matrix) -> Matrix:
+def _factored_one_by_one(B: Floats) -> Floats:
     """Return L and U in one array, as `factored` does, state by state.
 
     The columns of L that are not known yet are those of the identity, so that one triangular
@@ -118,7 +117,7 @@ def _factored_one_by_one(B: Matrix) -> Matrix:
     return np.asfortranarray(factors[:size, :size])
 
 
-def less(C: Matrix, A: Matrix, B: Matrix, *, transposed: bool = False) -> Matrix:
+def less(C: Floats, A: Floats, B: Floats, *, transposed: bool = False) -> Floats:
     """Return C - A B (A transposed on request); C may be used up.
 
     Only `_TERMS` products at a time are added up one after the other, which keeps rounding
@@ -136,7 +135,7 @@ def less(C: Matrix, A: Matrix, B: Matrix, *, transposed: bool = False) -> Matrix
     return C
 
 
-def solved(block: Matrix, B: Matrix, part: str, *, transposed: bool = False) -> Matrix:
+def solved(block: Floats, B: Floats, part: str, *, transposed: bool = False) -> Floats:
     """Return L^-1 B or U^-1 B for a factored block (transposed on request); B may be used up."""
     B = np.asfortranarray(B)
     lower, columns = part == "L", B.shape[1]

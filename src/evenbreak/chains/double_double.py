@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from scipy.sparse import csr_array
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
-    Floats = NDArray[np.float64]
 
 ROUND = 2.0**-53
 _SPLITTER = 2.0**27 + 1.0

@@ -28,6 +28,7 @@ from evenbreak.errors import AccuracyError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
@@ -54,8 +55,8 @@ class Eigenpairs(NamedTuple):
     """
 
     values: NDArray[Any]
-    left: NDArray[np.float64]
-    right: NDArray[np.float64]
+    left: Floats
+    right: Floats
 
     def and_then(self, more: Eigenpairs) -> Eigenpairs:
         """Return these pairs and more."""

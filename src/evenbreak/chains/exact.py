@@ -27,6 +27,7 @@ from evenbreak.errors import ChainError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Bools
     from evenbreak.chains.chain import Chain
 
 Rows = list[dict[int, Any]]
@@ -72,7 +73,7 @@ def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
     return np.array([Fraction(masses.get(k, 0)) for k in range(chain.structure.count)], object)
 
 
-def exact_passage(chain: Chain, start: Any, ends: NDArray[np.bool_]) -> ExactPassage:
+def exact_passage(chain: Chain, start: Any, ends: Bools) -> ExactPassage:
     """Return how many steps it takes to reach one of the `ends`.
 
     With u the expected steps on the paths that reach them and w the expected sum of u, the

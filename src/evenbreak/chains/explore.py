@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import sparray, spmatrix
 
+    from evenbreak.arrays import Floats, Ints
     from evenbreak.chains.matrices import Rows
 
     Source: TypeAlias = (
@@ -190,7 +191,7 @@ def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fracti
     return numbers, fractions
 
 
-def _listed_twice(states: Sequence[Hashable], key: NDArray[np.int64]) -> ChainError:
+def _listed_twice(states: Sequence[Hashable], key: Ints) -> ChainError:
     ordered = np.sort(key)
     j, i = divmod(int(ordered[:-1][ordered[1:] == ordered[:-1]][0]), len(states))
     return ChainError(
@@ -201,7 +202,7 @@ def _listed_twice(states: Sequence[Hashable], key: NDArray[np.int64]) -> ChainEr
 
 def _checked_arrays(
     states: Sequence[Hashable], sources: ArrayLike, targets: ArrayLike, probabilities: ArrayLike
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+) -> tuple[Ints, Ints, Floats]:
     j, i = (_positions(given) for given in (sources, targets))
     p = np.asarray(probabilities, dtype=np.float64)
     n = len(states)
@@ -224,7 +225,7 @@ def _checked_arrays(
     return j, i, p
 
 
-def _positions(given: ArrayLike) -> NDArray[np.int64]:
+def _positions(given: ArrayLike) -> Ints:
     positions = np.asarray(given)
     if positions.size and positions.dtype.kind not in "iu":
         raise ChainError(

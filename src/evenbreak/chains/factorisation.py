@@ -35,8 +35,7 @@ from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.arcs import Arcs, Places
     from evenbreak.chains.dissection import Front
 
@@ -52,29 +51,25 @@ _NARROW, _MOST_ARCS = 4, 2e7
 
 
 class _Solver(Protocol):
-    pivots: NDArray[np.float64]
+    pivots: Floats
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def visits(self, b: Floats) -> Floats: ...
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def values(self, r: Floats) -> Floats: ...
 
 
 class _Piece:
     """Consecutive classes, numbered first..last - 1, with the arcs out of their states."""
 
     def __init__(
-        self,
-        offsets: Places,
-        arcs: tuple[Places, Places, NDArray[np.float64]],
-        leak: NDArray[np.float64],
-        outflow: NDArray[np.float64],
+        self, offsets: Places, arcs: tuple[Places, Places, Floats], leak: Floats, outflow: Floats
     ) -> None:
         self.first, self.last = int(offsets[0]), int(offsets[-1])
         self._offsets = offsets - self.first
         sources, targets, chances = arcs
         inner = targets < self.last
         # A piece that is the whole part does not copy its arcs.
-        own: slice | NDArray[np.bool_] = slice(None) if inner.all() else inner
+        own: slice | Bools = slice(None) if inner.all() else inner
         self._inner = sources[own] - self.first, targets[own] - self.first, chances[own]
         self.sources, self.targets = sources[~inner], targets[~inner]
         self.chances = chances[~inner]
@@ -100,7 +95,7 @@ class _Piece:
         factored = work <= _MUCH_WORK and not has_hub
         return CertifiedSolve(self._arcs, self._leaks, factored=factored)
 
-    def solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+    def solved(self, b: Floats, *, transposed: bool) -> Floats:
         """Return (I - T)^-1 b (transposed on request), for b >= 0 of shape (m, k)."""
         try:
             return self.solver.values(b) if transposed else self.solver.visits(b)
@@ -109,7 +104,7 @@ class _Piece:
         return self.solver.values(b) if transposed else self.solver.visits(b)
 
     @cached_property
-    def _leaks(self) -> NDArray[np.float64]:
+    def _leaks(self) -> Floats:
         """The chance of leaving the piece, given each state."""
         if not len(self.chances):
             return self._leak
@@ -167,11 +162,7 @@ class Factorisation:
     """
 
     def __init__(
-        self,
-        arcs: Arcs,
-        leak: NDArray[np.float64],
-        outflow: NDArray[np.float64],
-        structure: Structure | None = None,
+        self, arcs: Arcs, leak: Floats, outflow: Floats, structure: Structure | None = None
     ) -> None:
         structure = structure or structure_of(arcs)
         self.order: Places | None = None
@@ -207,7 +198,7 @@ class Factorisation:
         return all(isinstance(solver, CertifiedSolve) for solver in solvers)
 
     @property
-    def pivots(self) -> NDArray[np.float64]:
+    def pivots(self) -> Floats:
         """The chance of moving on to later states, given each state, when it is eliminated.
 
         It is 0 where no flow has arrived so far, for want of arcs or by underflow.
@@ -218,7 +209,7 @@ class Factorisation:
                 pivots[piece.first : piece.last] = piece.solver.pivots
         return pivots if self.order is None else put_back(pivots, self.order)
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""
         f = b.copy() if self.order is None else b[self.order]
         for piece in self._pieces:
@@ -228,7 +219,7 @@ class Factorisation:
                 _add(f, piece.targets, f[piece.sources] * piece.chances[:, None])
         return f if self.order is None else put_back(f, self.order)
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return the sum of r >= 0, shape (m, k), over the visits from each: (I - T)^-T r."""
         y = r.copy() if self.order is None else r[self.order]
         for piece in reversed(self._pieces):
@@ -239,7 +230,7 @@ class Factorisation:
         return y if self.order is None else put_back(y, self.order)
 
 
-def _add(to: NDArray[np.float64], place: Places, values: NDArray[np.float64]) -> None:
+def _add(to: Floats, place: Places, values: Floats) -> None:
     """Add each row of `values` to the row of `to` at its place."""
     if len(place):
         first, last = int(place.min()), int(place.max()) + 1

@@ -20,11 +20,11 @@ from evenbreak.chains.dense_elimination import less, solved, split
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
     from scipy.sparse import csc_array
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
-    from evenbreak.chains.dense_elimination import Factors, Matrix
+    from evenbreak.chains.dense_elimination import Factors
     from evenbreak.chains.dissection import Front
 
 
@@ -41,16 +41,14 @@ class FrontElimination:
         the order of elimination, and its fronts (see `dissection`).
     """
 
-    def __init__(
-        self, T: csc_array, leak: NDArray[np.float64], order: Places, fronts: list[Front]
-    ) -> None:
+    def __init__(self, T: csc_array, leak: Floats, order: Places, fronts: list[Front]) -> None:
         self._order = order
         self._steps: list[tuple[Front, Factors]] = []
         arcs = _arcs_by_front(T, order, fronts)
         leak = leak[order]
         ends = [front.last for front in fronts]
         place = np.empty(len(order), dtype=np.intp)  # in the front at hand
-        rests: list[list[tuple[Places, Matrix]]] = [[] for _ in fronts]
+        rests: list[list[tuple[Places, Floats]]] = [[] for _ in fronts]
         for number, (front, (sources, targets, chances)) in enumerate(
             zip(fronts, arcs, strict=True)
         ):
@@ -72,15 +70,15 @@ class FrontElimination:
         pivots = np.concatenate([factors.block.diagonal() for _, factors in self._steps])
         self.pivots = put_back(pivots, order)
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         return self._solved(b, transposed=False)
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         return self._solved(r, transposed=True)
 
-    def _solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+    def _solved(self, b: Floats, *, transposed: bool) -> Floats:
         x = b[self._order]
         near, far = ("U", "L") if transposed else ("L", "U")
         steps = [
@@ -98,7 +96,7 @@ class FrontElimination:
 
 def _arcs_by_front(
     T: csc_array, order: Places, fronts: list[Front]
-) -> Iterator[tuple[Places, Places, NDArray[np.float64]]]:
+) -> Iterator[tuple[Places, Places, Floats]]:
     """Yield, for each front, its arcs that no earlier front has: sources, targets, chances."""
     arcs = T.tocoo()
     rank = np.empty(len(order), dtype=np.intp)

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.chains.absorption import closed_classes_reached, ends_of, masses_of
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
@@ -31,7 +31,7 @@ from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
     import pandas as pd
-    from numpy.typing import DTypeLike, NDArray
+    from numpy.typing import DTypeLike
 
     from evenbreak.chains.chain import Chain
 
@@ -67,7 +67,7 @@ class Limit(Mapping[Hashable, float]):
     """
 
     chain: Chain
-    probability: NDArray[np.float64]
+    probability: Floats
     period: int = 1
     bound: float | None = None
 
@@ -130,9 +130,7 @@ class Limit(Mapping[Hashable, float]):
         index = labels(self.states, "state")
         return pd.Series(self.probability, index=index, name="probability", copy=True)
 
-    def __array__(
-        self, dtype: DTypeLike | None = None, copy: bool | None = None
-    ) -> NDArray[np.float64]:
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Floats:
         """Return the probabilities, in the order of the states, where numpy asks for an array."""
         if copy is False:
             return np.asarray(self.probability, dtype)

@@ -22,15 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.eigenpairs import (
-    DENSE,
-    TOLERANCE,
-    leading_pairs,
-    no_basis,
-    within_unit_disc,
-)
+from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, leading_pairs, no_basis, within_unit_disc
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
 from evenbreak.chains.reversible import reversible_classes, reversible_pairs
@@ -83,7 +77,7 @@ class Spectrum:
     units: int
     residual: float
     limit_error: float
-    orthonormal: NDArray[np.float64] | None
+    orthonormal: Floats | None
     right: NDArray[Any] = field(repr=False)
     _left: NDArray[Any] = field(repr=False)
 
@@ -106,7 +100,7 @@ class Spectrum:
             )
         return self._left
 
-    def limit(self, start: Any = None) -> NDArray[np.float64]:
+    def limit(self, start: Any = None) -> Floats:
         """Return the stochastic limit by eigenvectors: sum R_i (L_i v) over eigenvalue 1.
 
         It is conditional on `start` (see `Chain.density`). Entries are right to an absolute

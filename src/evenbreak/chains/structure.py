@@ -23,12 +23,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csgraph, csr_array
 
-from evenbreak.arrays import array_values
+from evenbreak.arrays import Bools, array_values
 from evenbreak.chains.arcs import tree_from
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from evenbreak.chains.arcs import Arcs, Places
 
 
@@ -52,7 +50,7 @@ class Structure:
     label: Places
     count: int
     arcs: Arcs
-    loops: NDArray[np.bool_]
+    loops: Bools
 
     @cached_property
     def order(self) -> Places:
@@ -80,10 +78,10 @@ class Structure:
         return np.concatenate(([0], np.cumsum(sizes)))
 
     @cached_property
-    def closed(self) -> NDArray[np.bool_]:
+    def closed(self) -> Bools:
         """Whether each class is never left; shape (k,)."""
         if self.is_acyclic:
-            closed: NDArray[np.bool_] = self.arcs.outflow[self.order] == 0.0
+            closed: Bools = self.arcs.outflow[self.order] == 0.0
             return closed
         source, target = self.label[self.arcs.sources], self.label[self.arcs.targets]
         closed = np.ones(self.count, dtype=bool)
@@ -91,7 +89,7 @@ class Structure:
         return closed
 
     @cached_property
-    def recurrent(self) -> NDArray[np.bool_]:
+    def recurrent(self) -> Bools:
         """Whether each state is in a closed class; shape (n,)."""
         return self.closed[self.label]
 
@@ -149,7 +147,7 @@ class Structure:
         depth = self._depths(periods > 1) - 1
         return np.asarray(np.where(self.recurrent, depth % periods[self.label], 0))
 
-    def _depths(self, classes: NDArray[np.bool_]) -> Places:
+    def _depths(self, classes: Bools) -> Places:
         """Return the depth of each state of some classes in a tree of arcs."""
         n = self.arcs.size
         roots = self.order[self.offsets[:-1][classes]]
@@ -163,7 +161,7 @@ class Structure:
         return depth[:n]
 
 
-def structure_of(arcs: Arcs, loops: NDArray[np.bool_] | None = None) -> Structure:
+def structure_of(arcs: Arcs, loops: Bools | None = None) -> Structure:
     """Return the communicating classes of the graph that `arcs` make.
 
     Time is linear in the number of arcs. If all arcs lead forward in the given order, or
