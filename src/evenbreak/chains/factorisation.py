@@ -106,8 +106,6 @@ class _Piece:
     @cached_property
     def _leaks(self) -> Floats:
         """The chance of leaving the piece, given each state."""
-        if not len(self.chances):
-            return self._leak
         return self._leak + sums(self.sources - self.first, self.chances, self.last - self.first)
 
     @cached_property

@@ -55,8 +55,6 @@ class Structure:
     @cached_property
     def order(self) -> Places:
         """The positions of the states, grouped by class, upstream first; shape (n,)."""
-        if self.in_order:
-            return np.arange(len(self.label))
         return np.argsort(self.label, kind="stable")
 
     @property
@@ -72,8 +70,6 @@ class Structure:
     @cached_property
     def offsets(self) -> Places:
         """Class c holds the states `order[offsets[c]:offsets[c + 1]]`; shape (k + 1,)."""
-        if self.is_acyclic:
-            return np.arange(self.count + 1)
         sizes = np.bincount(self.label, minlength=self.count)
         return np.concatenate(([0], np.cumsum(sizes)))
 
