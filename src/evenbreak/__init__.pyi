@@ -18,7 +18,7 @@ from .chains.absorption import absorption as absorption
 from .chains.absorption import expected_visits as expected_visits
 from .chains.explore import chain_of as chain_of
 from .chains.families import limits_over as limits_over
-from .chains.limit_matrix import limit_matrix as limit_matrix
+from .chains.limits import limit_matrix as limit_matrix
 from .chains.limits import stochastic_limit as stochastic_limit
 from .chains.mixing import mixing_time as mixing_time
 from .chains.mixing import spectral_gap as spectral_gap

@@ -8,9 +8,9 @@ from .families import FamilyLimit as FamilyLimit
 from .families import limits_over as limits_over
 from .fit import FittedChain as FittedChain
 from .fit import fit_chain as fit_chain
-from .limit_matrix import limit_matrix as limit_matrix
-from .limit_of import limit_of as limit_of
 from .limits import Limit as Limit
+from .limits import limit_matrix as limit_matrix
+from .limits import limit_of as limit_of
 from .limits import stochastic_limit as stochastic_limit
 from .lumping import coarsest_lumping as coarsest_lumping
 from .lumping import lumped as lumped

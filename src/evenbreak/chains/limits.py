@@ -8,6 +8,14 @@ with a_C the probability of ending in C from v and pi_C the stationary law of C.
 closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v goes round
 for ever, and it is the long-run average (the Cesàro limit).
 
+The road from a game to its limit, in one call, is `limit_of`:
+
+    kernel          game -> states in a line -> closed form
+    elimination     game -> sparse matrix -> elimination without subtraction
+    eigen           game -> networkx.DiGraph -> sparse matrix -> eigenvectors of eigenvalue 1
+
+Every function that answers for a game, and has a faster kernel of its own, is held against this.
+
 References: Kemeny and Snell 1960, Finite Markov Chains, chapters III to V; O'Cinneide 1993
 for the accuracy, entry by entry.
 """
@@ -20,24 +28,35 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.chains.absorption import closed_classes_reached, ends_of, masses_of
+from evenbreak.chains.arcs import summed
 from evenbreak.chains.chain import check_chain, labels
 from evenbreak.chains.exact import exact_limit
-from evenbreak.chains.stationary import laws_of
-from evenbreak.chains.ways import Way, way_of_limit
-from evenbreak.errors import AccuracyError, ChainError
+from evenbreak.chains.explore import chain_of
+from evenbreak.chains.stationary import laws_of, stationary_laws
+from evenbreak.chains.ways import WAYS, Way, way_of_limit
+from evenbreak.checks import one_of
+from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.game import Game, graph_of
 
 if TYPE_CHECKING:
+    import networkx as nx
     import pandas as pd
     from numpy.typing import DTypeLike
 
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 _ERROR_BY_EIGENVECTORS = 1e-12
 
 _SHOWN = 5
+_COLUMNS = 64
+"""So many closed classes are solved for at once."""
+MOST_ENTRIES = 50_000_000
+"""Entries that a matrix of limits may have; they take 12 bytes each, and more on the way."""
 
 
 @own_arrays
@@ -225,6 +244,105 @@ def stochastic_limit(
         bounds = [part for part in (chain.transient.bound, bound) if part is not None]
         bound = sum(bounds) if bounds else None
     return Limit(chain, law, period, bound)
+
+
+def limit_of(
+    game: Game | nx.DiGraph[Any], *, start: Hashable | None = None, via: Way | None = None
+) -> Limit:
+    """Return the stochastic limit of a game: where it ends, or its long-run average.
+
+    Parameters
+    ----------
+    game
+        any game (see `evenbreak.game`), or a `networkx.DiGraph` as `chain_of` takes it.
+    start
+        the state in which it begins; None: its own start.
+    via
+        the way, as in `stochastic_limit`. With 'eigen' the game becomes a `networkx.DiGraph`
+        first. None: the closed form where there is one, otherwise elimination.
+
+    Raises
+    ------
+    AccuracyError, ChainError, InputError
+        as `stochastic_limit` does; each names a way that answers.
+    GameError
+        as `chain_of` does.
+
+    Notes
+    -----
+    The matrix of a race is defective: it has fewer independent eigenvectors than states. Those of
+    eigenvalue 1 are never too few, and the limit needs only them.
+
+    >>> from evenbreak.games import OneBall, Rack, Race
+    >>> [round(limit_of(OneBall(0.4, 0.8), via=via)["W"], 12) for via in ("elimination", "eigen")]
+    [0.454545454545, 0.454545454545]
+    >>> limit_of(Race(2, 1, Rack(0.5)), via="eigen")[2, 0]
+    0.25
+    """
+    if via is not None:
+        one_of(via, "via", WAYS)
+    if via == "eigen" and isinstance(game, Game):
+        start = game.start if start is None else start
+        game = graph_of(game, start=start)
+    return stochastic_limit(chain_of(game, start=start), via=via)
+
+
+def limit_matrix(chain: Chain) -> csc_array:
+    """Return the limits from all states; shape (n, n), column j is the limit from state j.
+
+    For states in a line, with absorbing states at its ends, there is a closed form. Otherwise
+    time and memory are those of one solve for each closed class that is entered from outside,
+    and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
+
+    Raises
+    ------
+    AccuracyError
+        if an entry cannot be guaranteed.
+    InputError
+        if more than 50 million entries are not 0, as in a closed class of 7,000 states.
+
+    >>> from evenbreak.chains import chain_of
+    >>> chain = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
+    >>> chain.states, limit_matrix(chain).toarray()[[1, 3]]
+    ([1, 0, 2, 3], array([[0.57142857, 1.        , 0.14285714, 0.        ],
+                          [0.42857143, 0.        , 0.85714286, 1.        ]]))
+    """
+    check_chain(chain)
+    limits = None if chain.birth_death is None else chain.birth_death.limits()
+    if limits is not None:
+        return limits
+    n, structure = len(chain), chain.structure
+    law = stationary_laws(chain)
+    inside = np.flatnonzero(structure.recurrent)
+    home = structure.label[inside]
+    spread = csc_array((law[inside], (inside, home)), shape=(n, structure.count))
+    ends = _ends_from_all(chain, inside, home)
+    sizes, starts = np.diff(spread.indptr), np.diff(ends.tocsr().indptr)
+    entries = int(sizes.astype(np.int64) @ starts.astype(np.int64))
+    if entries > MOST_ENTRIES:
+        raise InputError(
+            f"the limits from all {n:,} states have {entries:,} entries that are not 0, more than "
+            f"{MOST_ENTRIES:,}; use stochastic_limit for the states you want to start from"
+        )
+    return csc_array(spread @ ends)
+
+
+def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
+    """Return the chance of ending in each class, from each state; shape (classes, n)."""
+    arcs, structure, part = chain.arcs, chain.structure, chain.transient
+    shape = structure.count, len(chain)
+    ends = csc_array((np.ones(len(inside)), (home, inside)), shape=shape)
+    entering = structure.recurrent[arcs.targets] & ~structure.recurrent[arcs.sources]
+    into = structure.label[arcs.targets[entering]]
+    entries = summed(into, arcs.sources[entering], arcs.chances[entering], shape)
+    entered = np.unique(into)
+    for first in range(0, len(entered), _COLUMNS):
+        classes = entered[first : first + _COLUMNS]
+        chances = part.values(entries[classes].toarray().T[part.states])
+        row, column = np.nonzero(chances)
+        values = chances[row, column]
+        ends = ends + csc_array((values, (classes[column], part.states[row])), shape=shape)
+    return ends
 
 
 def _limit_in_line(chain: Chain, at: int | None) -> Limit:

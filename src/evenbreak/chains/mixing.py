@@ -25,7 +25,7 @@ from scipy.sparse import csc_array, diags_array
 from evenbreak.chains.birth_death import line_of
 from evenbreak.chains.chain import check_chain
 from evenbreak.chains.eigenpairs import DENSE
-from evenbreak.chains.limit_matrix import limit_matrix
+from evenbreak.chains.limits import limit_matrix
 from evenbreak.chains.powers import evened
 from evenbreak.chains.stationary import laws_of
 from evenbreak.chains.unit_pairs import EPS

@@ -8,8 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.limit_of import limit_of
-from evenbreak.chains.limits import Limit
+from evenbreak.chains.limits import Limit, limit_of
 from evenbreak.chains.passage_times import steps_to_absorption
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race

@@ -93,7 +93,7 @@ def long_run_share(
 
 def _shares_by_limit(series: Series, via: Way) -> tuple[float, float]:
     """Return the fractions of racks that player 1 wins and loses."""
-    from evenbreak.chains.limit_of import limit_of  # the formulas do without scipy
+    from evenbreak.chains.limits import limit_of  # the formulas do without scipy
 
     broken, rack = limit_of(series, via=via), series.rack
     win, lose = (

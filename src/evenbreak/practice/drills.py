@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from evenbreak.chains.limit_of import limit_of
+from evenbreak.chains.limits import limit_of
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.games.drill import Drill
 from evenbreak.practice.levels import level_gains, level_lifts

@@ -15,7 +15,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.birth_death import birth_death_law
-from evenbreak.chains.limit_of import limit_of
+from evenbreak.chains.limits import limit_of
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number_probabilities
 from evenbreak.errors import InputError
