@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
-
 _FEW = 400
 """So few groups are solved for directly."""
 _DAMPING = 0.7

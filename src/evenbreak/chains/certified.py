@@ -39,11 +39,8 @@ from evenbreak.errors import AccuracyError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
-
-    Floats = NDArray[np.float64]
 
 GUARANTEED = 1e-14
 """Answers whose entries may be off by more than this, relatively, are not returned."""

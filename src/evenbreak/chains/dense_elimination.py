@@ -27,7 +27,6 @@ from scipy.linalg.blas import ddot, dgemm, dtrsm, dtrsv
 if TYPE_CHECKING:
     from evenbreak.arrays import Floats
 
-
 MOST_ENTRIES = 40_000_000
 """Of an array or of factors: those of some 6,000 states with arcs to all others."""
 _ONE_BY_ONE = 64

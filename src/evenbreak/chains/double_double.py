@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
-
 ROUND = 2.0**-53
 _SPLITTER = 2.0**27 + 1.0
 _BITS = 3

@@ -152,10 +152,7 @@ class Elimination:
 
 
 def limit_in(
-    structure: Structure,
-    rows: Sequence[dict[int, Any]],
-    v: Mapping[int, Any],
-    visits_of: VisitsOf,
+    structure: Structure, rows: Sequence[dict[int, Any]], v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
     """Return the stochastic limit of the states that it reaches, in any kind of numbers.
 
@@ -180,10 +177,7 @@ def limit_in(
 
 
 def masses_in(
-    structure: Structure,
-    rows: Sequence[dict[int, Any]],
-    v: Mapping[int, Any],
-    visits_of: VisitsOf,
+    structure: Structure, rows: Sequence[dict[int, Any]], v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
     """Return the probability of ending in each class that is reached; see `limit_in`."""
     label, recurrent = structure.label.tolist(), structure.recurrent.tolist()

@@ -185,15 +185,13 @@ class Factorisation:
     @property
     def bound(self) -> float | None:
         """A proved bound on the relative errors so far; None where elimination needed none."""
-        solvers = (piece.__dict__.get("solver") for piece in self._pieces)
-        errors = [solver.error for solver in solvers if isinstance(solver, CertifiedSolve)]
+        errors = [solver.error for _, solver in self._used if isinstance(solver, CertifiedSolve)]
         return sum(errors) if errors else None
 
     @property
     def is_proved(self) -> bool:
         """Whether all answers are proved, so that underflow has not touched them unnoticed."""
-        solvers = [p.solver for p in self._pieces if "solver" in p.__dict__]
-        return all(isinstance(solver, CertifiedSolve) for solver in solvers)
+        return all(isinstance(solver, CertifiedSolve) for _, solver in self._used)
 
     @property
     def pivots(self) -> Floats:
@@ -202,10 +200,13 @@ class Factorisation:
         It is 0 where no flow has arrived so far, for want of arcs or by underflow.
         """
         pivots = np.zeros(self._pieces[-1].last)
-        for piece in self._pieces:
-            if "solver" in piece.__dict__:
-                pivots[piece.first : piece.last] = piece.solver.pivots
+        for piece, solver in self._used:
+            pivots[piece.first : piece.last] = solver.pivots
         return pivots if self.order is None else put_back(pivots, self.order)
+
+    @property
+    def _used(self) -> list[tuple[_Piece, _Solver]]:
+        return [(piece, piece.solver) for piece in self._pieces if "solver" in vars(piece)]
 
     def visits(self, b: Floats) -> Floats:
         """Return the visits to each state from b >= 0, shape (m, k): (I - T)^-1 b."""

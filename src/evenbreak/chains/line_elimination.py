@@ -25,6 +25,7 @@ from evenbreak.chains.arcs import put_back
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
     Wide = NDArray[np.longdouble]
@@ -72,7 +73,7 @@ class LineElimination:
         the order of the states along the line.
     """
 
-    def __init__(self, T: csc_array, leak: NDArray[np.float64], order: Places) -> None:
+    def __init__(self, T: csc_array, leak: Floats, order: Places) -> None:
         self._order = order
         self._rounds: list[_Round] = []
         line = csc_array(T[:, order])[order]
@@ -99,15 +100,15 @@ class LineElimination:
         pivots[place] = leaks
         self.pivots = put_back(pivots, order)
 
-    def visits(self, b: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
         return self._solved(b, transposed=False)
 
-    def values(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
         return self._solved(r, transposed=True)
 
-    def _solved(self, b: NDArray[np.float64], *, transposed: bool) -> NDArray[np.float64]:
+    def _solved(self, b: Floats, *, transposed: bool) -> Floats:
         x = b[self._order].astype(np.longdouble)
         rounds = [(r.pivot, r.into, r.out) if transposed else r for r in self._rounds]
         waiting = []

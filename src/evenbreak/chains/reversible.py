@@ -44,11 +44,10 @@ from evenbreak.errors import AccuracyError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
     from evenbreak.chains.unit_pairs import UnitPairs
-
-    Floats = NDArray[np.float64]
 
 DENSE = 2000
 """Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""
@@ -78,7 +77,7 @@ class SymmetricForm:
     roots: Floats
     line: Places | None
 
-    def pairs(self, k: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def pairs(self, k: int) -> tuple[Floats, Floats]:
         """Return k eigenvalues of S, ascending, and their orthonormal vectors as columns.
 
         All m of them up to `DENSE` states; beyond that those nearest to 1.

@@ -35,6 +35,7 @@ from evenbreak.errors import AccuracyError, ChainError, InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Floats
     from evenbreak.chains.chain import Chain
 
 MOST_ENTRIES = 20_000_000

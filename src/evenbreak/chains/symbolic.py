@@ -116,12 +116,21 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
     arcs, own_start = _arcs(source)
     rows: Rows = {}
     for k, arc in enumerate(arcs, 1):
-        origin, target, chance = _checked(k, arc)
-        row = rows.setdefault(origin, {})
-        rows.setdefault(target, {})
+        try:
+            origin, target, chance = arc
+            row = rows.setdefault(origin, {})
+            rows.setdefault(target, {})
+            formula = sympy.sympify(chance)
+        except (TypeError, ValueError):
+            formula = None
+        if not isinstance(formula, sympy.Expr):
+            raise ChainError(
+                f"arc {k} is {arc!r}; give (source, target, probability), states that can be "
+                "hashed and a number or a formula"
+            )
         if target in row:
             raise ChainError(f"the arc {origin!r} -> {target!r} is listed twice; list it once")
-        row[target] = chance
+        row[target] = formula
     if not rows:
         raise ChainError("there are no arcs; give at least one (source, target, probability)")
     if start is None:
@@ -137,23 +146,6 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
             )
         rows[state] = {target: p for target, p in row.items() if sympy.simplify(p) != 0}
     return rows, start
-
-
-def _checked(k: int, arc: Any) -> Arc:
-    """Return the k-th arc with its probability as a sympy expression."""
-    sympy = _sympy()
-    try:
-        origin, target, chance = arc
-        hash(origin), hash(target)
-        formula = sympy.sympify(chance)
-    except (TypeError, ValueError):
-        formula = None
-    if not isinstance(formula, sympy.Expr):
-        raise ChainError(
-            f"arc {k} is {arc!r}; give (source, target, probability), states that can be "
-            "hashed and a number or a formula"
-        )
-    return origin, target, formula
 
 
 def _arcs(source: Any) -> tuple[Iterable[Any], Hashable | None]:

@@ -34,10 +34,9 @@ from evenbreak.errors import AccuracyError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from evenbreak.arrays import Bools, Floats
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
-
-    Floats = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
 _FEW, _MUCH_WORK = 1000, 1e11
@@ -112,7 +111,7 @@ class UnitPairs:
     def _all_laws(self) -> tuple[Floats, float]:
         return self._laws(np.ones(self.count, dtype=bool))
 
-    def _laws(self, wanted: NDArray[np.bool_]) -> tuple[Floats, float]:
+    def _laws(self, wanted: Bools) -> tuple[Floats, float]:
         """Return the laws of the wanted closed classes, by state, and a bound on the errors of one.
 
         With x = 1 at the state that is cut out of a class, the law is x over its sum. If x is off
