@@ -81,6 +81,7 @@ def test_what_is_earned_after_absorption_does_not_count():
 @pytest.mark.parametrize(
     ("rewards", "message"),
     [
+        ({}, "give per_state or per_arc"),
         ({"per_state": {"X": 1}}, "state 'X'"),
         ({"per_state": np.ones(2)}, r"shape \(2,\)"),
         ({"per_state": {"S1": np.nan}}, "nan for state 'S1'"),

@@ -212,13 +212,14 @@ def edge(source, target, **attributes):
     ("edges", "more", "part"),
     [
         ([edge("S", "W", probability=0.5)], {}, "'S' sum to 0.5"),
-        ([edge("S", "W")], {}, "'S' -> 'W' has probability None"),
+        ([edge("S", "W")], {}, "'S' -> 'W' has no probability"),
         ([edge("S", "W", probability=1.5)], {}, "1.5"),
         ([edge("S", "W", probability="1\x1b[2J")], {}, "'1\\x1b[2J'"),
         ([edge("S", "W", probability=10**400)], {}, "'S' -> 'W' has probability 1000"),
         ([edge("S", "W", probability=True)], {}, "'S' -> 'W' has probability True"),
         ([edge("S", "W", probability=0.5), edge("S", "W", probability=1.0)], {}, "listed twice"),
         ([edge("S", "W", weight=3.0)], {}, "'S' -> 'W' has probability 3.0"),
+        ([edge("S", "W", weight=3.0)], {}, "its weight divided by all that leave its source"),
         ([edge("S", "W", p=1.0)], {"nodes": [{"id": "S"}]}, "'W', which is not among the nodes"),
         ([{"source": "S"}], {"nodes": [{"id": "S"}]}, "arc 1 has no source or no target"),
         ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has winner 'Ann'; give the"),
@@ -310,6 +311,12 @@ def test_what_is_no_graph(tmp_path, name, content) -> None:
     path = tmp_path / name
     path.write_text(content)
     problem(path)
+
+
+def test_a_graph_in_another_form_of_json(tmp_path) -> None:
+    path = tmp_path / "graph.json"
+    path.write_text(json.dumps(nx.adjacency_data(nx.DiGraph([("S", "W", {"probability": 1.0})]))))
+    assert "it has no list of edges" in problem(path)
 
 
 def test_a_missing_file(tmp_path) -> None:

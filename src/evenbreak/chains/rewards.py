@@ -55,8 +55,8 @@ def long_run_reward(
     Raises
     ------
     ChainError
-        if a state or arc is unknown, a reward is not a finite number, or the start is
-        neither a state nor a density.
+        if there is no reward, a state or arc is unknown, a reward is not a finite number, or the
+        start is neither a state nor a density.
     AccuracyError
         if the limit cannot be guaranteed.
 
@@ -121,6 +121,8 @@ def _expected_reward(
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> Floats:
     """Return the expected reward of a step begun in each state; shape (n,)."""
+    if per_state is None and per_arc is None:
+        raise ChainError("there is no reward; give per_state or per_arc")
     per_state = {} if per_state is None else by_label(per_state, "per_state")
     if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)

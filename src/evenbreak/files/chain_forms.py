@@ -98,14 +98,16 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
     if not isinstance(data, dict) or not isinstance(data.get("nodes"), list):
         raise TypeError("it has no list of nodes")
     name = "links" if "links" in data else "edges"  # networkx before 3.6 wrote links
-    for k, arc in enumerate(data.get(name, ()), 1):
+    if not isinstance(data.get(name), list):
+        raise TypeError("it has no list of edges")
+    for k, arc in enumerate(data[name], 1):
         if not isinstance(arc, dict) or not {"source", "target"} <= arc.keys():
             raise TypeError(f"arc {k} has no source or no target")
     graph = nx.node_link_graph({"multigraph": False, **data}, edges=name)
     if len(graph) > len(data["nodes"]):
         stray = list(graph)[len(data["nodes"])]
         raise ValueError(f"an arc leads from or to {stray!r}, which is not among the nodes")
-    if graph.number_of_edges() < len(data.get(name, ())) and graph.is_directed():
+    if graph.number_of_edges() < len(data[name]) and graph.is_directed():
         raise ValueError("an arc is listed twice")
     return graph
 
@@ -131,9 +133,12 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     for j, i, attributes in graph.edges(data=True):
         chance: Any = next((attributes[name] for name in names if name in attributes), None)
         if type(chance) not in (int, float) or not 0.0 <= chance <= 1.0:
+            given = "no probability" if chance is None else f"probability {chance!r:.40}"
+            weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
+            scaled = ", such as its weight divided by all that leave its source" * weighted
             problems.append(
-                f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has probability "
-                f"{chance!r:.40}; give each arc a number from 0 to 1, named probability"
+                f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has {given}; give each "
+                f"arc a number from 0 to 1, named probability{scaled}"
             )
         triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]

@@ -46,6 +46,10 @@ _NUMBERS = (("m", "m"), ("n", "m"), ("by", "by"))
 _TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
 
 
+class NotAFormatError(InputError):
+    """A text that is not spelled as a match, rather than a match that cannot be."""
+
+
 @dataclass(frozen=True)
 class MatchFormat:
     """A match format, for any two players.
@@ -180,7 +184,7 @@ def match_format(text: str) -> MatchFormat:
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: 'nine games' is not a match format; write 9:5, 'race to 7', ...
+    evenbreak.matches.formats.NotAFormatError: 'nine games' is not a match format; write ...
     """
     words = " ".join(str(text).lower().split())
     words = re.sub(rf"(?<=\d) ?{BETWEEN} ?(?=\d)", ":", words)
@@ -200,7 +204,7 @@ def match_format(text: str) -> MatchFormat:
     for part in reversed(parts):
         kinds = [] if part is None else [part[kind] for kind in ("race", "ahead", "lead")]
         if part is None or kinds.count(None) < 2 or not (part["n"] or any(kinds)):
-            raise InputError(f"{text!r} is not a match format; write {_WAYS}")
+            raise NotAFormatError(f"{text!r} is not a match format; write {_WAYS}")
         ahead = bool(part["ahead"] or part["lead"])
         m, n, win_by = (int(part[name] or part[other] or 1) for name, other in _NUMBERS)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:

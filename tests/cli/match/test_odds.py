@@ -231,6 +231,8 @@ def test_a_person_at_a_terminal_reads_text():
         ("--p 0.5 --race 2:2 --set 3:3 --win-by 2", "--set"),
         ("six five --race 7:7", "'six'"),
         ("nan 5 --race 7:7", "'nan'"),
+        ("7:5 --p 0.6", "a match goes with --race 7:5"),
+        ("n-ahead_3 --p 0.6", "a match goes with --ahead 3:3"),
         ("1e999 5 --race 7:7", "too far apart"),
         ("612 521 --rac 7:7", "--race"),
         ("612,5 521 --race 7", "612.5"),

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import update_wrapper
 from typing import Any, TypeVar
 
@@ -12,7 +13,7 @@ from evenbreak.chains.ways import WAYS
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.values import NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
-from evenbreak.matches.formats import LONGEST
+from evenbreak.matches.formats import LONGEST, match_format
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 
@@ -50,8 +51,18 @@ class PlainCommand(click.Command):
                 known = [name for option in self.params for name in option.opts]
                 raise click.NoSuchOption(word.split("=")[0], possibilities=known, ctx=ctx)
             wanted = "give two numbers, such as 612 521, or say with --from where it stands"
-            refuse(f"{word!r} is not a rating; {wanted}{meant(word, -math.inf, math.inf)}")
+            wanted += self._as_match(word) or meant(word, -math.inf, math.inf)
+            refuse(f"{word!r} is not a rating; {wanted}")
         return rest
+
+    def _as_match(self, word: str) -> str:
+        """Return how a match is given, if that is what the word names and the command takes one."""
+        with suppress(InputError):
+            match = match_format(word)
+            option = "--ahead" if match.ahead else "--race"
+            if any(option in param.opts for param in self.params):
+                return f"; a match goes with {option} {match.m}:{match.n}"
+        return ""
 
 
 def _scale(name: str) -> Scale:

@@ -176,9 +176,8 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     except InputError as error:
         if meant := _meant(name):
             refuse(f"{name!r} is not a game; did you mean {meant!r}?")
-        if chances:
-            refuse(str(error))
-        refuse(f"{error}; or a match, such as 7:5; or a chart: {', '.join(CHARTS)}")
+        charts = "" if chances else f"; or a chart: {', '.join(CHARTS)}"
+        refuse(f"{error}; or a match, such as 7:5 or race to 7{charts}")
     shown = chances or _example_chances(played)
     return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
 
@@ -186,8 +185,8 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
 def _meant(name: str) -> str | None:
     """Return the game, match or chart whose words are spelled nearly so, if there is one.
 
-    >>> _meant("rcae to 7"), _meant("drlil 9-ball"), _meant("nlp_10"), _meant("chess")
-    ('race to 7', 'drill 9-ball', 'npl_10', None)
+    >>> _meant("rcae to 7"), _meant("drlil 9-ball"), _meant("nlp_10"), _meant("chess"), _meant("7")
+    ('race to 7', 'drill 9-ball', 'npl_10', None, 'race to 7')
     """
     from difflib import get_close_matches
 
@@ -195,6 +194,8 @@ def _meant(name: str) -> str | None:
     from evenbreak.handicaps.charts.chart import CHARTS
     from evenbreak.matches.formats import WORDS
 
+    if re.fullmatch(r"[1-9]\d*", name):
+        return f"race to {name}"
     words = {*WORDS, *re.findall(r"[a-z]+", " ".join(CATALOGUE))}
     near = re.sub(
         r"[^\W\d_]{3,}",
@@ -236,11 +237,11 @@ def _ladder(name: str) -> tuple[str, Game]:
 
 
 def _format(name: str) -> MatchFormat | None:
-    from evenbreak.matches.formats import match_format
+    from evenbreak.matches.formats import NotAFormatError, match_format
 
     try:
         return match_format(name)
-    except InputError:
+    except NotAFormatError:
         return None
 
 
