@@ -355,20 +355,16 @@ class _Scaled:
     def _times(self, y: Floats) -> Floats:
         return np.asarray(self.balance.outflow.high * y - self.balance.arcs @ y)
 
-    def _aggregated(self, b: Floats) -> Floats:
-        return self._about * self._aggregation(self._weight * b)
-
     @cached_property
-    def _weight(self) -> Floats:
-        return np.ldexp(self._system.left, self.shift)
-
-    @cached_property
-    def _aggregation(self) -> Aggregation:
+    def _aggregated(self) -> Callable[[Floats], Floats]:
+        """A function that returns roughly A^-1 b, on aggregates."""
+        weight = np.ldexp(self._system.left, self.shift)
         A = diags_array(self.balance.outflow.high) - self.balance.arcs
         try:
-            return Aggregation(csr_array(diags_array(self._weight) @ A @ diags_array(self._about)))
+            rough = Aggregation(csr_array(diags_array(weight) @ A @ diags_array(self._about)))
         except RuntimeError:
             raise NotCertifiedError from None
+        return lambda b: self._about * rough(weight * b)
 
 
 def _sum(y: Pair, more: Floats) -> Pair:

@@ -66,11 +66,6 @@ class Eigenpairs(NamedTuple):
             np.hstack((self.right, more.right)),
         )
 
-    def first(self, k: int) -> Eigenpairs:
-        """Return the first k, or one more, so that no conjugate pair is parted."""
-        k += int(self.values[k - 1].imag > 0.0)
-        return Eigenpairs(self.values[:k], self.left[:k], self.right[:, :k])
-
     def missed(self, M: NDArray[Any] | csc_array) -> float:
         """Return the largest entry of M R - R diag(values), L M - diag(values) L and L R - I."""
         real, turn = self.values.real, self.values.imag.clip(0.0)[:-1]
@@ -143,7 +138,8 @@ def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, f
         if n > DENSE:
             order = np.argsort(np.abs(known.values - 1.0), kind="stable")
             known = Eigenpairs(known.values[order], known.left[order], known.right[:, order])
-    pairs = known.first(k)
+    k += int(known.values[k - 1].imag > 0.0)  # so that no conjugate pair is parted
+    pairs = Eigenpairs(known.values[:k], known.left[:k], known.right[:, :k])
     return pairs, pairs.missed(M.toarray() if n <= DENSE else M)
 
 

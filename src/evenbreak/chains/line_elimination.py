@@ -123,11 +123,6 @@ class LineElimination:
             inner = len(x) - 1
             more = x[: len(pivot)] * left[:, None]
             more[:inner] += x[1:] * right[:inner, None]
-            x = _interleaved(x, odd + more / pivot[:, None])
+            even, x = x, np.empty((len(x) + len(odd), x.shape[1]), dtype=np.longdouble)
+            x[0::2], x[1::2] = even, odd + more / pivot[:, None]
         return put_back(x.astype(np.float64), self._order)
-
-
-def _interleaved(even: Wide, odd: Wide) -> Wide:
-    whole = np.empty((len(even) + len(odd), even.shape[1]), dtype=np.longdouble)
-    whole[0::2], whole[1::2] = even, odd
-    return whole

@@ -182,7 +182,11 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     k = whole(k, "k", at_least=units)
     if k > n:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
-    check_room(k, n)
+    if k * n > MOST_ENTRIES:
+        raise ChainError(
+            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
+            "the limit by elimination (stochastic_limit)"
+        )
     ones = UnitPairs(chain)
     if forms is None:
         pairs, residual = leading_pairs(chain, ones, k)
@@ -194,12 +198,3 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     values, left, right = pairs.in_complex()
     values, left, right = within_unit_disc(values[:k]), left[:k], right[:, :k]
     return Spectrum(chain, values, units, residual, ones.error, vectors, right, left)
-
-
-def check_room(k: int, n: int) -> None:
-    """Refuse more vectors than fit in memory: k pairs over n states."""
-    if k * n > MOST_ENTRIES:
-        raise ChainError(
-            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
-            "the limit by elimination (stochastic_limit)"
-        )
