@@ -24,7 +24,6 @@ import heapq
 import math
 from collections.abc import Callable, Mapping, Sequence
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
-from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -37,8 +36,9 @@ if TYPE_CHECKING:
     from evenbreak.chains.structure import Structure
 
 
-VisitsOf: TypeAlias = Callable[[list[int], list[Any]], list[Any]]
-Core: TypeAlias = Callable[[list[dict[int, Any]], list[Any]], Any]
+Rows: TypeAlias = list[dict[int, Any]]
+VisitsOf: TypeAlias = Callable[[Rows, Sequence[int], list[Any]], list[Any]]
+Core: TypeAlias = Callable[[Rows, list[Any]], Any]
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
 MOST_ARCS = 3e6
@@ -66,11 +66,7 @@ class Elimination:
     """
 
     def __init__(
-        self,
-        arcs: Sequence[dict[int, Any]],
-        leaks: Sequence[Any],
-        most: float = math.inf,
-        core: Core | None = None,
+        self, arcs: Rows, leaks: Sequence[Any], most: float = math.inf, core: Core | None = None
     ) -> None:
         into: list[dict[int, Any]] = [{} for _ in arcs]
         for j, row in enumerate(arcs):
@@ -152,7 +148,7 @@ class Elimination:
 
 
 def limit_in(
-    structure: Structure, rows: Sequence[dict[int, Any]], v: Mapping[int, Any], visits_of: VisitsOf
+    structure: Structure, rows: Rows, v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
     """Return the stochastic limit of the states that it reaches, in any kind of numbers.
 
@@ -165,25 +161,26 @@ def limit_in(
     v
         the start density, by position.
     visits_of
-        returns the visits to some states, given the density on them, until they are left.
+        returns the visits to some states, given all arcs and the density on the states, until
+        they are left.
     """
     limit: dict[int, Any] = {}
     for label, mass in masses_in(structure, rows, v, visits_of).items():
         first, *rest = structure.members(label).tolist()
-        visits = visits_of(rest, [rows[first].get(i, 0) for i in rest])
+        visits = visits_of(rows, rest, [rows[first].get(i, 0) for i in rest])
         limit[first] = share = mass / sum(visits, 1) if rest else mass
         limit.update((state, share * visit) for state, visit in zip(rest, visits, strict=True))
     return limit
 
 
 def masses_in(
-    structure: Structure, rows: Sequence[dict[int, Any]], v: Mapping[int, Any], visits_of: VisitsOf
+    structure: Structure, rows: Rows, v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
     """Return the probability of ending in each class that is reached; see `limit_in`."""
     label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
     inner = [state for state, inside in enumerate(recurrent) if not inside]
     entered = [(state, chance) for state, chance in v.items() if recurrent[state]]
-    visits = visits_of(inner, [v.get(state, 0) for state in inner])
+    visits = visits_of(rows, inner, [v.get(state, 0) for state in inner])
     for state, visit in zip(inner, visits, strict=True):
         if not _is_nothing(visit):
             entered += [(i, visit * p) for i, p in rows[state].items() if recurrent[i]]
@@ -195,10 +192,7 @@ def masses_in(
 
 
 def eliminated(
-    rows: Sequence[dict[int, Any]],
-    states: Sequence[int],
-    most: float = math.inf,
-    core: Core | None = None,
+    rows: Rows, states: Sequence[int], most: float = math.inf, core: Core | None = None
 ) -> Elimination:
     """Return I - T factored, with T the arcs among some of the states; the rows are kept."""
     place = {state: k for k, state in enumerate(states)}
@@ -212,9 +206,9 @@ def _is_nothing(value: Any) -> bool:
     return not hasattr(value, "shape") and not value
 
 
-def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> list[dict[int, Any]]:
+def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> Rows:
     """Return the arcs as a dictionary for each source: target to chance."""
-    rows: list[dict[int, Any]] = [{} for _ in range(arcs.size)]
+    rows: Rows = [{} for _ in range(arcs.size)]
     chances = map(number, arcs.chances.tolist())
     for j, i, chance in zip(arcs.sources.tolist(), arcs.targets.tolist(), chances, strict=True):
         rows[j][i] = chance
@@ -280,7 +274,7 @@ def decimal_masses(structure: Structure, v: Floats) -> Floats:
     """
     with localcontext(_CONTEXT):
         rows, density = rows_of(structure.arcs, Decimal), dict(enumerate(map(Decimal, v.tolist())))
-        masses = masses_in(structure, rows, density, partial(_visits, rows))
+        masses = masses_in(structure, rows, density, _visits)
         return _floats([masses.get(label, Decimal(0)) for label in range(structure.count)])
 
 
@@ -299,9 +293,7 @@ def decimal_law(arcs: Arcs) -> Floats:
         return _floats([value / total for value in law])
 
 
-def _visits(
-    rows: list[dict[int, Decimal]], states: Sequence[int], b: list[Decimal]
-) -> list[Decimal]:
+def _visits(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
     return eliminated(rows, states, MOST_ARCS).visits(b)
 
 

@@ -14,13 +14,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.elimination import Elimination, eliminated, limit_in, masses_in, rows_of
+from evenbreak.chains.elimination import (
+    Elimination,
+    Rows,
+    eliminated,
+    limit_in,
+    masses_in,
+    rows_of,
+)
 from evenbreak.chains.lifting import Lifting, whole_numbers
 from evenbreak.errors import ChainError
 
@@ -29,8 +35,6 @@ if TYPE_CHECKING:
 
     from evenbreak.arrays import Bools
     from evenbreak.chains.chain import Chain
-
-Rows = list[dict[int, Any]]
 
 _FILL = 8
 """States are eliminated in fractions as long as that makes no more than so many arcs a state."""
@@ -62,14 +66,14 @@ def exact_limit(chain: Chain, start: Any) -> dict[Any, Fraction]:
     {'rain': Fraction(3, 4), 'sun': Fraction(1, 4)}
     """
     rows, v = exact_rows(chain), exact_start(chain, start)
-    limit = limit_in(chain.structure, rows, v, partial(_visits, rows))
+    limit = limit_in(chain.structure, rows, v, _visits)
     return {state: Fraction(limit.get(k, 0)) for k, state in enumerate(chain.states)}
 
 
 def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
     """Return the probability of ending in each class, given the start."""
     rows, v = exact_rows(chain), exact_start(chain, start)
-    masses = masses_in(chain.structure, rows, v, partial(_visits, rows))
+    masses = masses_in(chain.structure, rows, v, _visits)
     return np.array([Fraction(masses.get(k, 0)) for k in range(chain.structure.count)], object)
 
 
@@ -146,11 +150,11 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     return density
 
 
-def _visits(rows: Rows, states: list[int], b: list[Any]) -> list[Any]:
+def _visits(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
     return _factor(rows, states).visits(b)
 
 
-def _factor(rows: Rows, states: list[int]) -> Elimination:
+def _factor(rows: Rows, states: Sequence[int]) -> Elimination:
     """Return I - T factored, with T the arcs among the states."""
     return eliminated(rows, states, _FILL * len(states), Lifting)
 

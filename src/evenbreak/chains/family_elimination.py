@@ -15,7 +15,7 @@ import numpy as np
 
 from evenbreak.chains.blocks import eliminate_together
 from evenbreak.chains.dense_elimination import is_dense
-from evenbreak.chains.elimination import eliminated, limit_in
+from evenbreak.chains.elimination import Rows, eliminated, limit_in
 
 if TYPE_CHECKING:
     from evenbreak.arrays import Bools, Floats
@@ -30,8 +30,6 @@ _SMALL = 1e-290
 
 _LEAST, _MOST = 1e-120, 1e40
 """Visits between these, with pivots above the first, are far from what `_SMALL` excludes."""
-
-_Row = dict[int, Any]
 
 
 def family_limits(
@@ -74,7 +72,7 @@ def family_limits(
     """
     rows, doubtful = _rows(structure, sources, targets, chances), np.zeros(count, dtype=bool)
 
-    def visits_of(states: list[int], b: list[Any]) -> list[Any]:
+    def visits_of(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
         nonlocal doubtful
         if _is_dense(rows, states):
             visits, pivots = _dense_visits(rows, states, b, count)
@@ -100,7 +98,7 @@ def limits_in_numbers(
     """
     rows, safe = _rows(structure, sources, targets, chances), True
 
-    def visits_of(states: list[int], b: list[Any]) -> list[Any]:
+    def visits_of(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
         nonlocal safe
         safe = safe and not _is_dense(rows, states)
         if not safe:
@@ -117,22 +115,22 @@ def limits_in_numbers(
 
 def _rows(
     structure: Structure, sources: Sequence[int], targets: Sequence[int], chances: Sequence[Any]
-) -> list[_Row]:
-    rows: list[_Row] = [{} for _ in structure.label]
+) -> Rows:
+    rows: Rows = [{} for _ in structure.label]
     for j, i, chance in zip(sources, targets, chances, strict=True):
         if i != j:
             rows[j][i] = chance
     return rows
 
 
-def _is_dense(rows: list[_Row], states: list[int]) -> bool:
+def _is_dense(rows: Rows, states: Sequence[int]) -> bool:
     inside = set(states)
     arcs = sum(len(rows[state].keys() & inside) for state in states)
     return len(states) >= _DENSE_FROM and is_dense(len(states), arcs)
 
 
 def _dense_visits(
-    rows: list[_Row], states: list[int], b: list[Any], count: int
+    rows: Rows, states: Sequence[int], b: list[Any], count: int
 ) -> tuple[list[Any], list[Any]]:
     """Return the visits to states and their pivots, by elimination in arrays.
 

@@ -82,14 +82,13 @@ def symbolic_limit(
     arcs: list[dict[int, Any]] = [{} for _ in rows]
     for (j, i, _), chance in zip(listed, chances, strict=True):
         arcs[place[j]][place[i]] = chance
-    limit = limit_in(
-        graph.structure,
-        arcs,
-        {place[start]: one},
-        lambda states, b: eliminated(arcs, states).visits(b),
-    )
+    limit = limit_in(graph.structure, arcs, {place[start]: one}, _visits)
     shares = (field.to_sympy(field.convert(limit.get(k, 0))) for k in range(len(graph)))
     return dict(zip(graph.states, map(_readable, shares), strict=True))
+
+
+def _visits(rows: Any, states: Any, b: list[Any]) -> list[Any]:
+    return eliminated(rows, states).visits(b)
 
 
 def _readable(formula: Any) -> Any:
