@@ -81,7 +81,7 @@ class _Piece:
         """The factors of the piece, made when first used."""
         size = self.last - self.first
         if len(self._offsets) > 2 or size <= SMALL:
-            return TriangularSolve(*self._inner, self._leaks, self._outflow, self._offsets)
+            return TriangularSolve(self._inner, self._leaks, self._outflow, self._offsets)
         order = line_order(self._arcs) if _WIDE else None
         if order is not None:
             return LineElimination(self._arcs, self._leaks, order)

@@ -17,7 +17,7 @@ solved in one call.
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
+    Triples = tuple[Places, Places, Floats]
+
 _ENTRIES = 2_000_000
 _FEW_TERMS = 256
 """More arcs into or out of a state are added up with a correction."""
@@ -43,8 +45,9 @@ class TriangularSolve:
 
     Parameters
     ----------
-    sources, targets, chances
-        the arcs among the states, which are numbered class by class, upstream first.
+    arcs
+        sources, targets and chances of the arcs among the states, which are numbered class by
+        class, upstream first.
     leak
         shape (m,): the chance of leaving all these states, given the state; only read for
         classes of several states.
@@ -55,15 +58,8 @@ class TriangularSolve:
         shape (classes + 1,): the first state of each class, and m.
     """
 
-    def __init__(
-        self,
-        sources: Places,
-        targets: Places,
-        chances: Floats,
-        leak: Floats,
-        outflow: Floats,
-        offsets: Places,
-    ) -> None:
+    def __init__(self, arcs: Triples, leak: Floats, outflow: Floats, offsets: Places) -> None:
+        sources, targets, chances = arcs
         m, sizes = int(offsets[-1]), np.diff(offsets)
         self.pivots = self._unit = outflow
         self._enter: Places | slice = slice(None)
@@ -87,7 +83,7 @@ class TriangularSolve:
         entries = [chances[across] / self._unit[sources[across]]]
         leaks = leak + sums(sources[across], chances[across], m)
         inner = sources[inside], targets[inside], chances[inside]
-        for states, A in _stacks(offsets, label, *inner, leaks):
+        for states, A in _stacks(offsets, label, inner, leaks):
             size = len(states)
             self.pivots[states] = pivot = eliminate_together(A, size)
             made, onward = A[:size] != 0.0, np.tri(size, k=-1, dtype=bool)[:, :, None]
@@ -101,13 +97,11 @@ class TriangularSolve:
 
     def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
-        flow = self._solve(self._system, b, self._enter, self._leave, lower=True)
-        return flow / self._unit[:, None]
+        return self._solved(b, transposed=False) / self._unit[:, None]
 
     def values(self, r: Floats) -> Floats:
         """Return (I - T)^-T r for r >= 0 of shape (m, k)."""
-        given = r / self._unit[:, None]
-        return self._solve(self._system.T, given, self._leave, self._enter, lower=False)
+        return self._solved(r / self._unit[:, None], transposed=True)
 
     @cached_property
     def _most_terms(self) -> int:
@@ -115,37 +109,30 @@ class TriangularSolve:
         into = np.bincount(self._system.indices).max(initial=0)
         return max(int(into), int(np.diff(self._system.indptr).max(initial=0)))
 
-    def _solve(
-        self,
-        system: csc_array | csr_array,
-        given: Floats,
-        put: Places | slice,
-        take: Places | slice,
-        *,
-        lower: bool,
-    ) -> Floats:
+    def _solved(self, given: Floats, *, transposed: bool) -> Floats:
+        system = self._system.T if transposed else self._system
+        put, take = (self._leave, self._enter) if transposed else (self._enter, self._leave)
         known = np.zeros((system.shape[0], given.shape[1]))
         known[put] = given
-        x: Floats = spsolve_triangular(
-            system, known, lower=lower, unit_diagonal=True, overwrite_A=True
+        solve = partial(
+            spsolve_triangular, system, lower=not transposed, unit_diagonal=True, overwrite_A=True
         )
+        x: Floats = solve(known)
         if self._most_terms > _FEW_TERMS:
             # Terms added up one after the other lose digits that one correction brings back.
-            missed = known - x + _flow(system, x)
-            x += spsolve_triangular(
-                system, missed, lower=lower, unit_diagonal=True, overwrite_A=True
-            )
+            x += solve(known - x + _flow(system, x))
         return x[take]
 
 
 def _stacks(
-    offsets: Places, label: Places, sources: Places, targets: Places, chances: Floats, leaks: Floats
+    offsets: Places, label: Places, arcs: Triples, leaks: Floats
 ) -> Iterator[tuple[Places, Floats]]:
     """Yield the classes of several states, those of one size together, as memory allows.
 
     Each stack is the states, shape (size, classes), and their arcs, shape (size + 1, size,
     classes): entry [i, j] is the arc from the j-th to the i-th state, and the last row the leaks.
     """
+    sources, targets, chances = arcs
     sizes = np.diff(offsets)
     layers = np.empty(len(sizes), dtype=np.intp)
     for size in np.unique(sizes[sizes > 1]).tolist():
