@@ -18,9 +18,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.linalg
-import scipy.sparse.linalg
+from scipy.linalg import eigvalsh_tridiagonal
 from scipy.sparse import csc_array, diags_array
+from scipy.sparse.linalg import ArpackNoConvergence, eigs
 
 from evenbreak.chains.birth_death import line_of
 from evenbreak.chains.chain import check_chain
@@ -180,9 +180,9 @@ def _ends_of_symmetric(diagonal: Floats, beside: Floats) -> Floats:
     """Return the two lowest and the two highest eigenvalues (all, if there are up to four)."""
     n = len(diagonal)
     if n <= 4:
-        return np.asarray(scipy.linalg.eigvalsh_tridiagonal(diagonal, beside))
+        return np.asarray(eigvalsh_tridiagonal(diagonal, beside))
     ends = [
-        scipy.linalg.eigvalsh_tridiagonal(diagonal, beside, select="i", select_range=ends)
+        eigvalsh_tridiagonal(diagonal, beside, select="i", select_range=ends)
         for ends in ((0, 1), (n - 2, n - 1))
     ]
     return np.concatenate(ends)
@@ -195,15 +195,9 @@ def _largest(block: csc_array, period: int) -> NDArray[Any]:
     while True:
         count = min(2 * count, n - 2) if count > period else period + 1
         try:
-            values = scipy.sparse.linalg.eigs(
-                block,
-                k=count,
-                v0=start,
-                ncv=min(max(2 * count + 1, _BASIS), n),
-                maxiter=300,
-                return_eigenvectors=False,
-            )
-        except scipy.sparse.linalg.ArpackNoConvergence as error:
+            basis = min(max(2 * count + 1, _BASIS), n)
+            values = eigs(block, count, v0=start, ncv=basis, maxiter=300, return_eigenvectors=False)
+        except ArpackNoConvergence as error:
             raise AccuracyError(
                 f"the iteration for the eigenvalues of a class of {n} states did not "
                 "converge: its gap is small; follow the chain with propagate"
