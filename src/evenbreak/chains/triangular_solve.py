@@ -21,7 +21,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve_triangular
 
 from evenbreak.chains.arcs import sums
@@ -120,7 +120,10 @@ class TriangularSolve:
         x: Floats = solve(known)
         if self._most_terms > _FEW_TERMS:
             # Terms added up one after the other lose digits that one correction brings back.
-            x += solve(known - x + _flow(system, x))
+            entries = system.tocoo()
+            terms = (entries.data * column[entries.col] for column in x.T)
+            found = np.stack([sums(entries.row, term, len(x)) for term in terms], axis=1)
+            x += solve(known - found)
         return x[take]
 
 
@@ -148,15 +151,6 @@ def _stacks(
             states = lowest + np.arange(size)[:, None]
             A[size] = leaks[states]
             yield states, A
-
-
-def _flow(system: csc_array | csr_array, x: Floats) -> Floats:
-    """Return E x for the system I - E, each entry right to about one rounding."""
-    entries = system.tocoo()
-    beside = entries.row != entries.col
-    row, column, chances = entries.row[beside], entries.col[beside], -entries.data[beside]
-    flows = [sums(row, chances * x[column, k], len(x)) for k in range(x.shape[1])]
-    return np.stack(flows, axis=1)
 
 
 def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> csc_array:
