@@ -89,6 +89,24 @@ def test_tables_are_about_the_same_states_and_classes():
     assert states.loc[states["winner"] == 1, "class_kind"].tolist() == ["absorbing"]
 
 
+@pytest.mark.parametrize(
+    ("levels", "words"),
+    [(1, "The only eigenvalue is 1."), (2, "Both eigenvalues are"), (3, "All 3 eigenvalues are")],
+)
+def test_eigenvalues_are_counted_in_plain_words(levels, words):
+    class Cycle:
+        start = 0
+
+        def moves(self, state):
+            return {(state + 1) % levels: 1}
+
+        def winner(self, state):  # noqa: ARG002
+            return None
+
+    text = str(graph_answer("A cycle", road_of(Cycle())))
+    assert words in " ".join(text.split())
+
+
 def test_a_ladder_that_goes_back_and_forth_for_ages_says_how_fast_it_settles():
     text = str(graph_answer("A ladder", road_of(Ladder(chart("npl_10")))))
     assert "falls by 2.2% with each step (the gap is 0.02168)" in " ".join(text.split())

@@ -161,6 +161,10 @@ def _spectrum_words(road: Road) -> str:
             "Only the eigenvectors of eigenvalue 1 are given. The others do not all exist (the "
             f"matrix of a race is defective), or are not certain.{gap}"
         )
+    if n == 1:
+        return f"The only eigenvalue is 1.{gap}"
+    if n == 2:
+        return f"Both eigenvalues are found, and both are real.{gap}"
     real = "all real" if np.isrealobj(values) else "some of them complex"
     which = "All" if len(values) == n else "The leading"
     first = f" The first {LEADING} are below." if len(values) > LEADING else ""
