@@ -18,6 +18,7 @@ from evenbreak.files import (
     read_chain,
 )
 from evenbreak.files.arcs import ArcsFile
+from evenbreak.files.chain_forms import OTHER_FORMS
 from evenbreak.game import Game
 from evenbreak.games import CATALOGUE
 from evenbreak.handicaps import Ladder, chart
@@ -317,6 +318,13 @@ def test_a_graph_in_another_form_of_json(tmp_path) -> None:
     path = tmp_path / "graph.json"
     path.write_text(json.dumps(nx.adjacency_data(nx.DiGraph([("S", "W", {"probability": 1.0})]))))
     assert "it has no list of edges" in problem(path)
+
+
+@pytest.mark.parametrize("form", OTHER_FORMS)
+def test_other_forms_of_graphs_and_matrices_are_named_and_not_read_as_tables(tmp_path, form):
+    path = tmp_path / f"mine{form}"
+    path.write_bytes(b"graph [ directed 1 ]")
+    assert f"a {form} file is not read here; write the graph as GraphML" in problem(path)
 
 
 def test_a_missing_file(tmp_path) -> None:

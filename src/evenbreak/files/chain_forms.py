@@ -29,6 +29,9 @@ STATES = {"state": ("name", "node")}
 MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period", "limit"), ())
 """Columns that it may have; `kind` says which state is the start, `winner` who has won there."""
 
+OTHER_FORMS = (".dot", ".gexf", ".gml", ".gv", ".gz", ".mat", ".net", ".npy", ".npz", ".pkl")
+"""What other programs write graphs and matrices to, and no table has for the end of its name."""
+
 MOST_MEGABYTES = 64
 """The largest graph: some 200,000 states with three arcs each, or a gigabyte of memory."""
 
@@ -72,6 +75,12 @@ def read_chain(
         raise DataError([f"{path}: only a Matrix Market file (.mtx) needs {option}; leave it out"])
     if form == ".mtx":
         return _of_matrix(path, states, rows)
+    if form in OTHER_FORMS:
+        _refuse(
+            str(path),
+            f"a {form} file is not read here; write the graph as GraphML (networkx.write_graphml), "
+            "the matrix in Matrix Market form (scipy.io.mmwrite), or the arcs as CSV",
+        )
     if form in (".graphml", ".xml"):
         return _of_graph(path, _graphml)
     return _of_graph(path, _node_link) if form == ".json" else read_arcs(path)
