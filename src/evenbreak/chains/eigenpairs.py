@@ -68,15 +68,12 @@ class Eigenpairs(NamedTuple):
 
     def missed(self, M: NDArray[Any] | csc_array) -> float:
         """Return the largest entry of M R - R diag(values), L M - diag(values) L and L R - I."""
-        real, turn = self.values.real, self.values.imag.clip(0.0)[:-1]
-        right, left = self.right * real, self.left * real[:, None]
-        right[:, :-1] -= turn * self.right[:, 1:]
-        right[:, 1:] += turn * self.right[:, :-1]
-        left[:-1] += turn[:, None] * self.left[1:]
-        left[1:] -= turn[:, None] * self.left[:-1]
+        turn = self.values.imag.clip(0.0)[:-1]
+        diagonals: Any = (self.values.real, turn, -turn)
+        values = diags_array(diagonals, offsets=(0, 1, -1))
         return max(
-            float(np.abs(M @ self.right - right).max()),
-            float(np.abs(self.left @ M - left).max()),
+            float(np.abs(M @ self.right - self.right @ values).max()),
+            float(np.abs(self.left @ M - values @ self.left).max()),
             float(np.abs(self.left @ self.right - np.eye(len(self.values))).max()),
         )
 
