@@ -19,14 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.elimination import (
-    Elimination,
-    Rows,
-    eliminated,
-    limit_in,
-    masses_in,
-    rows_of,
-)
+from evenbreak.chains.elimination import eliminated, limit_in, masses_in, rows_of
 from evenbreak.chains.lifting import Lifting, whole_numbers
 from evenbreak.errors import ChainError
 
@@ -35,6 +28,7 @@ if TYPE_CHECKING:
 
     from evenbreak.arrays import Bools
     from evenbreak.chains.chain import Chain
+    from evenbreak.chains.elimination import Elimination, Rows
 
 _FILL = 8
 """States are eliminated in fractions as long as that makes no more than so many arcs a state."""

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -127,10 +128,8 @@ def _parts(A: NDArray[np.object_]) -> Iterator[Ints]:
 def _inverse(A: NDArray[np.object_]) -> tuple[int, Ints]:
     """Return a prime, and the inverse of A modulo that prime."""
     for prime in _primes():
-        try:
+        with suppress(ValueError):  # a pivot is 0 modulo this prime
             return prime, _inverse_modulo(prime, (A % prime).astype(np.int64))
-        except ValueError:  # a pivot is 0 modulo this prime
-            continue
     raise AssertionError("unreachable")
 
 
