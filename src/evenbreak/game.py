@@ -189,7 +189,8 @@ def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
 
 def _too_many(max_states: int) -> GameError:
     return GameError(
-        f"the game has more than {max_states} states; raise max_states if its graph is finite"
+        f"the game has more than {max_states:,} states; if its graph is finite, walk it with "
+        "graph_of(game, max_states=...) and make the chain of that"
     )
 
 
