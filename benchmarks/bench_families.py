@@ -12,6 +12,7 @@ import numpy as np
 
 from evenbreak.chains import chain_of, limits_over, stochastic_limit
 from evenbreak.chains.family_elimination import family_limits
+from evenbreak.chains.family_numbers import Numbers
 from evenbreak.games import Ahead, OneBall, Rack, winner_breaks
 
 Beside = Callable[..., float]
@@ -74,8 +75,13 @@ def table_limits(tables: np.ndarray) -> Callable[[], Any]:
     count, n = tables.shape[:2]
     sources, targets = (places.ravel().tolist() for places in np.indices((n, n)))
     structure = chain_of(tables[0], rows="from").structure
-    chances = list(np.ascontiguousarray(tables.reshape(count, -1).T))
-    return lambda: family_limits(structure, sources, targets, chances, count)[0].T
+    chances = [Numbers(p) for p in np.ascontiguousarray(tables.reshape(count, -1).T)]
+
+    def laws() -> Any:
+        limits, _ = family_limits(structure, sources, targets, chances, count)
+        return np.array([limits[k].values for k in range(n)]).T
+
+    return laws
 
 
 def test_8192_chains_of_30_dense_states(beside: Beside) -> None:

@@ -27,7 +27,7 @@ from scipy.sparse import csc_array
 from evenbreak.arrays import own_arrays
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.explore import chain_of
-from evenbreak.chains.family_elimination import family_limits, limits_in_numbers
+from evenbreak.chains.family_elimination import family_limits
 from evenbreak.chains.family_numbers import Disagreement, Numbers, Program, Record
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.chains.structure import Structure, structure_of
@@ -299,23 +299,22 @@ class _Family:
         sources, targets, completed = _completed(len(states), sources, targets, numbers)
         structure = self._structure(len(states), sources, targets)
         period = math.lcm(*structure.periods[structure.closed].tolist())
-        chances = [p.values if isinstance(p, Numbers) else p for p in completed]
-        limits, doubtful = family_limits(structure, sources, targets, chances, len(members))
-        self._found.add(part, states, enumerate(limits), period)
+        limits, doubtful = family_limits(structure, sources, targets, completed, len(members))
+        plain = ((k, x.values if isinstance(x, Numbers) else x) for k, x in limits.items())
+        self._found.add(part, states, plain, period)
+        if doubtful is not None:
+            return members[doubtful]
         if self._count > _BATCH and len(self._programs) < _FEW:
-            with suppress(Disagreement), np.errstate(all="ignore"):
-                found = limits_in_numbers(structure, sources, targets, completed)
-                if found is not None:
-                    known = _Again(
-                        states,
-                        *moves,
-                        period,
-                        list(found),
-                        Program(record, found.values()),
-                        Program(record, numbers, answers=False),
-                    )
-                    self._programs.append(known)
-        return members[doubtful]
+            known = _Again(
+                states,
+                *moves,
+                period,
+                list(limits),
+                Program(record, limits.values()),
+                Program(record, numbers, answers=False),
+            )
+            self._programs.append(known)
+        return members[:0]
 
     def _check(
         self,

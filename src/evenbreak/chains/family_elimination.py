@@ -16,9 +16,10 @@ import numpy as np
 from evenbreak.chains.blocks import eliminate_together
 from evenbreak.chains.dense_elimination import is_dense
 from evenbreak.chains.elimination import Rows, eliminated, limit_in
+from evenbreak.chains.family_numbers import Disagreement, Numbers
 
 if TYPE_CHECKING:
-    from evenbreak.arrays import Bools, Floats
+    from evenbreak.arrays import Bools
     from evenbreak.chains.structure import Structure
 
 _DENSE_FROM = 8
@@ -27,7 +28,6 @@ _AT_ONCE = 512
 """So many dense chains at a time: the calls of numpy cost little, and the caches still help."""
 _SMALL = 1e-290
 """A float below this, beside the largest, may have lost digits to underflow."""
-
 _LEAST, _MOST = 1e-120, 1e40
 """Visits between these, with pivots above the first, are far from what `_SMALL` excludes."""
 
@@ -36,9 +36,9 @@ def family_limits(
     structure: Structure,
     sources: Sequence[int],
     targets: Sequence[int],
-    chances: Sequence[Floats | float],
+    chances: Sequence[Numbers | float],
     count: int,
-) -> tuple[Floats, Bools]:
+) -> tuple[dict[int, Numbers | float], Bools | None]:
     """Return the limits from state 0, and which of them have to be calculated one by one.
 
     Parameters
@@ -48,16 +48,17 @@ def family_limits(
     sources, targets
         the arcs, which may include self-loops.
     chances
-        for each arc, the positive chance of the target, given the source: shape (k,), or one
-        number for all chains.
+        for each arc, the positive chance of the target, given the source: k numbers, or one
+        for all chains.
     count
         the number of chains k.
 
     Returns
     -------
-    tuple of arrays
-        the limits, shape (n, k) for n states and k chains; and, of shape (k,), whether a limit
-        spans so many decades that underflow may have touched it.
+    dict, array
+        the limit of each state that is reached; and, of shape (k,), whether it spans so many
+        decades that underflow may have touched it. None: no limit does, nor one of other chains
+        that give the same answers.
 
     >>> from scipy.sparse import csc_array
     >>> from evenbreak.chains.arcs import arcs_of
@@ -65,12 +66,16 @@ def family_limits(
     >>> sources, targets = [0, 0, 2, 2], [1, 2, 3, 0]
     >>> one_ball = structure_of(arcs_of(csc_array((np.ones(4), (targets, sources)), shape=(4, 4))))
     >>> p1, p2 = np.array([0.5, 0.25]), 0.5
+    >>> p1 = Numbers(p1)
     >>> limits, doubtful = family_limits(one_ball, sources, targets, [p1, 1 - p1, p2, 1 - p2], 2)
-    >>> limits[[1, 3]]
-    array([[0.66666667, 0.4       ],
-           [0.33333333, 0.6       ]])
+    >>> limits[1].values, limits[3].values, doubtful
+    (array([0.66666667, 0.4       ]), array([0.33333333, 0.6       ]), None)
     """
-    rows, doubtful = _rows(structure, sources, targets, chances), np.zeros(count, dtype=bool)
+    rows: Rows = [{} for _ in structure.label]
+    for j, i, chance in zip(sources, targets, chances, strict=True):
+        if i != j:
+            rows[j][i] = chance
+    doubtful: Any = None
 
     def visits_of(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
         nonlocal doubtful
@@ -79,48 +84,14 @@ def family_limits(
         else:
             elimination = eliminated(rows, states)
             visits, pivots = elimination.visits(b), elimination.pivots
-        doubtful |= _doubtful([1.0, *visits], [1.0, *pivots], count)
+            if _are_safe(visits, pivots):
+                return visits
+        lost = _doubtful([*map(_plain, visits)], [*map(_plain, pivots)])
+        doubtful = lost if doubtful is None else doubtful | lost
         return visits
 
     with np.errstate(all="ignore"):
-        limit = np.zeros((len(rows), count))
-        for state, share in limit_in(structure, rows, {0: 1.0}, visits_of).items():
-            limit[state] = share
-    return limit, doubtful
-
-
-def limits_in_numbers(
-    structure: Structure, sources: Sequence[int], targets: Sequence[int], chances: Sequence[Any]
-) -> dict[int, Any] | None:
-    """Return the limits from state 0 that are not 0, in numbers that answer a comparison as one.
-
-    None for a dense class, and where numbers leave the range in which nothing can underflow.
-    """
-    rows, safe = _rows(structure, sources, targets, chances), True
-
-    def visits_of(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
-        nonlocal safe
-        safe = safe and not _is_dense(rows, states)
-        if not safe:
-            return b
-        elimination = eliminated(rows, states)
-        visits = elimination.visits(b)
-        safe = all(_LEAST < x < _MOST for x in visits)
-        safe = safe and all(x > _LEAST for x in elimination.pivots)
-        return visits
-
-    limit = limit_in(structure, rows, {0: 1.0}, visits_of)
-    return limit if safe else None
-
-
-def _rows(
-    structure: Structure, sources: Sequence[int], targets: Sequence[int], chances: Sequence[Any]
-) -> Rows:
-    rows: Rows = [{} for _ in structure.label]
-    for j, i, chance in zip(sources, targets, chances, strict=True):
-        if i != j:
-            rows[j][i] = chance
-    return rows
+        return limit_in(structure, rows, {0: 1.0}, visits_of), doubtful
 
 
 def _is_dense(rows: Rows, states: Sequence[int]) -> bool:
@@ -143,7 +114,7 @@ def _dense_visits(
         for target, chance in rows[state].items():
             at = place.get(target, last), j
             chances[at] = chances[at] + chance if at in chances else chance
-    arcs = [(i, j, np.broadcast_to(chance, count)) for (i, j), chance in chances.items()]
+    arcs = [(i, j, np.broadcast_to(_plain(chance), count)) for (i, j), chance in chances.items()]
     absent = np.ones((last + 1, last + 1), dtype=bool)
     absent[tuple(zip(*chances, strict=True))] = False
     visits, pivots = np.ones((2, last + 1, count))
@@ -157,16 +128,27 @@ def _dense_visits(
         pivots[:last, part] = eliminate_together(A, last)
         for k in range(last - 1, -1, -1):
             np.einsum("jc,jc->c", A[k, k + 1 :], visits[k + 1 :, part], out=visits[k, part])
-    return list(visits[:last]), list(pivots[:last])
+    return [*map(Numbers, visits[:last])], [*map(Numbers, pivots[:last])]
 
 
-def _doubtful(x: Sequence[Any], pivots: Sequence[Any], count: int) -> Bools:
-    """Return for which chains overflow or underflow may have touched the visits x."""
+def _are_safe(visits: Sequence[Any], pivots: Sequence[Any]) -> bool:
+    """Return whether visits and pivots are far from what underflow may touch, for all chains."""
+    try:
+        return all(_LEAST < x < _MOST for x in visits) and all(x > _LEAST for x in pivots)
+    except Disagreement:
+        return False
+
+
+def _doubtful(visits: Sequence[Any], pivots: Sequence[Any]) -> Any:
+    """Return for which chains overflow or underflow may have touched the visits."""
     top: Any = 1.0
-    for visited in x:
+    low: Any = 1.0
+    for visited, pivot in zip(visits, pivots, strict=True):
         top = np.maximum(top, visited)
-    least = _SMALL * len(x) * top
-    safe = np.broadcast_to(least < np.inf, count).copy()
-    for visited, pivot in zip(x, pivots, strict=True):
-        safe &= visited >= least / pivot
-    return ~safe
+        low = np.minimum(low, visited * pivot)
+    least = _SMALL * (len(visits) + 1) * top
+    return np.logical_not((low >= least) & (least < np.inf))
+
+
+def _plain(number: Any) -> Any:
+    return number.values if isinstance(number, Numbers) else number
