@@ -84,3 +84,11 @@ def test_a_program_asks_again(ask: Callable[[Any], Any], others: list[float]) ->
     assert again is not None
     assert again[0].tolist() == [1.3, 1.4]
     assert program.run([np.array(others)]) is None
+
+
+def test_numbers_of_which_some_are_nan_do_not_agree() -> None:
+    with pytest.raises(Disagreement) as who:
+        bool(Numbers(np.array([0.6, math.nan])) < 1.0)
+    assert who.value.true is not None
+    assert who.value.true.tolist() == [True, False]
+    assert not Numbers(np.array([math.nan, math.nan])) < 1.0

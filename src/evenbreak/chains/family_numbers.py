@@ -27,6 +27,17 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Bools, Floats
 
 
+_LEAST, _MOST = np.minimum.reduce, np.maximum.reduce
+_EXTREMES: dict[Any, Any] = {
+    np.less: (operator.lt, _MOST, _LEAST),
+    np.less_equal: (operator.le, _MOST, _LEAST),
+    np.greater: (operator.gt, _LEAST, _MOST),
+    np.greater_equal: (operator.ge, _LEAST, _MOST),
+}
+"""Which entry answers for all that a comparison with a constant is true, and which that it is
+not."""
+
+
 class Disagreement(Exception):  # noqa: N818  it is an answer, not a failure
     """The entries of `Numbers` do not answer alike.
 
@@ -58,7 +69,7 @@ class Record:
 
     def __init__(self) -> None:
         self.steps: list[_Step | None] = []
-        self.answers: list[tuple[_Place, bool]] = []
+        self.asked: dict[int, dict[Any, bool]] = defaultdict(dict)
         self._places: dict[Any, _Place] = {}
 
     def place(self, step: _Step | None = None) -> _Place:
@@ -108,14 +119,21 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
         """The shape of the values."""
         return np.shape(self.values)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Numbers:
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """Return a function of numpy, entry by entry."""
         if method != "__call__" or options or ufunc.nout != 1:
             raise Disagreement(None)
         if ufunc is np.add:  # sums begin with 0
             for one, other in (inputs, inputs[::-1]):
                 if isinstance(one, (int, float)) and one == 0:
-                    return other  # type: ignore[no-any-return]
+                    return other
+        if ufunc in _EXTREMES and inputs[0] is self and isinstance(inputs[1], (int, float)):
+            compare, *extremes = _EXTREMES[ufunc]
+            true, false = (extreme(self.values).item() for extreme in extremes)
+            answer = bool(compare(true, inputs[1]))
+            if true == true and answer == compare(false, inputs[1]):  # no NaN
+                self.record.asked[self.place][extremes[not answer], compare, inputs[1]] = answer
+                return answer
         return self._made(ufunc, inputs)
 
     def __array_function__(self, function: Any, _types: Any, args: Any, options: Any) -> Numbers:
@@ -134,7 +152,7 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
         answer = bool(true.all())
         if not answer and true.any():
             raise Disagreement(true)
-        self.record.answers.append((self.place, answer))
+        self.record.asked[self.place][np.all if answer else np.any, operator.eq, answer] = True
         return answer
 
     def _one(self, *_: Any) -> NoReturn:
@@ -157,15 +175,6 @@ _MEMORY = 2_500_000
 """Bytes of a cache that numbers under way should fit into."""
 _SHORTEST, _LONGEST = 4096, 32_000
 """Numbers at a time: more of them cost fewer calls, as far as the cache goes."""
-_LEAST, _MOST = np.minimum.reduce, np.maximum.reduce
-_EXTREMES: dict[Any, Any] = {
-    np.less: (operator.lt, _MOST, _LEAST),
-    np.less_equal: (operator.le, _MOST, _LEAST),
-    np.greater: (operator.gt, _LEAST, _MOST),
-    np.greater_equal: (operator.ge, _LEAST, _MOST),
-}
-"""Which entry answers for all that a comparison with a constant is true, and which that it is
-not."""
 
 
 class Program:
@@ -184,19 +193,8 @@ class Program:
     def __init__(self, record: Record, outputs: Iterable[Any], *, answers: bool = True) -> None:
         self._registers, self._given, self._acts = list[Any](), list[Any](), list[Any]()
         self._outputs = [x.place if isinstance(x, Numbers) else x for x in outputs]
-        self._tests: dict[int, list[Any]] = defaultdict(list)
-        needed = {place for place in self._outputs if isinstance(place, _Place)}
-        for place, answer in dict(record.answers).items() if answers else ():
-            step = record.steps[place]
-            compared = step is not None and step.function in _EXTREMES
-            x, limit = step.arguments if step and compared else (None, place)
-            if step and isinstance(x, _Place) and not isinstance(limit, _Place):
-                compare, true, false = _EXTREMES[step.function]
-                self._tests[x].append((true if answer else false, compare, limit, answer))
-                needed.add(x)
-            else:
-                self._tests[place].append((np.all if answer else np.any, None, None, answer))
-                needed.add(place)
+        self._tests = record.asked if answers else {}
+        needed = {place for place in (*self._outputs, *self._tests) if isinstance(place, _Place)}
         self._plan(record, needed)
         memory = [k for k, x in enumerate(self._registers) if isinstance(x, np.dtype)]
         self.size = min(_LONGEST, max(_SHORTEST, _MEMORY // (8 * len(memory) + 1)))
@@ -221,7 +219,7 @@ class Program:
         for place, step in enumerate(record.steps):
             if step is None:
                 at[place] = self._register(None)
-                self._given.append((at[place], self._tests.get(place, ())))
+                self._given.append((at[place], self._tests.get(place, {})))
             elif place in needed:
                 arguments = [
                     at[x] if isinstance(x, _Place) else self._register(x) for x in step.arguments
@@ -273,13 +271,13 @@ class Program:
         return [held[k] for k in self._outputs]
 
 
-def _passed(numbers: Any, tests: Sequence[Any]) -> bool:
+def _passed(numbers: Any, tests: dict[Any, bool]) -> bool:
     """Return whether numbers answer as those before did."""
     found: dict[Any, Any] = {}
-    for extreme, compare, limit, answer in tests:
+    for (extreme, compare, limit), answer in tests.items():
         x = found.get(extreme)
         if x is None:
             x = found[extreme] = extreme(numbers).item()
-        if bool(x if compare is None else compare(x, limit)) != answer or x != x:
+        if compare(x, limit) != answer or x != x:
             return False
     return True
