@@ -30,6 +30,7 @@ from evenbreak.chains.explore import chain_of
 from evenbreak.chains.family_elimination import family_limits
 from evenbreak.chains.family_numbers import Disagreement, Numbers, Program, Record
 from evenbreak.chains.limits import stochastic_limit
+from evenbreak.chains.matrices import ROUNDING, SUM_TOLERANCE
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.checks import probability, together
 from evenbreak.errors import ChainError, InputError
@@ -46,8 +47,6 @@ _FIRST = 1024
 """Of more than one batch so many are worked out first, and what was done is then repeated."""
 _FEW = 3
 """So few members are calculated one by one; from a larger part so many are checked."""
-_SUM_TOLERANCE, _ROUNDING = 1e-9, 1e-15
-"""As for one chain: how far a sum of arcs may be from 1, and from where on they are scaled."""
 _SAME = 1e-14
 """The relative difference up to which an arc is that of the game made from plain floats."""
 
@@ -364,13 +363,13 @@ def _completed(
     scales: list[Any] = [None] * size
     for j in set(sources):
         total = others[j] + (0.0 if loops[j] is None else loops[j])
-        if not 1.0 - _SUM_TOLERANCE <= total <= 1.0 + _SUM_TOLERANCE:
+        if not 1.0 - SUM_TOLERANCE <= total <= 1.0 + SUM_TOLERANCE:
             raise Disagreement(None)
         if loops[j] is not None:
             left = 1.0 - others[j]
             loops[j] = left if left > 0.0 else None
-        elif not (_all(total >= 1.0 - _ROUNDING) and _all(total <= 1.0 + _ROUNDING)):
-            scales[j] = np.where(abs(total - 1.0) <= _ROUNDING, 1.0, total)
+        elif not all(yes is True for yes in (total >= 1.0 - ROUNDING, total <= 1.0 + ROUNDING)):
+            scales[j] = np.where(abs(total - 1.0) <= ROUNDING, 1.0, total)
     kept_sources, kept_targets, completed = [], [], []
     for j, i, chance in zip(sources, targets, chances, strict=True):
         found = loops[j] if i == j else chance if scales[j] is None else chance / scales[j]
@@ -379,8 +378,3 @@ def _completed(
             kept_targets.append(i)
             completed.append(found)
     return kept_sources, kept_targets, completed
-
-
-def _all(truth: Any) -> bool:
-    """Return whether all say yes, without an answer where some do and others do not."""
-    return bool(truth) if not isinstance(truth, Numbers) or truth.values.all() else False

@@ -20,8 +20,9 @@ from evenbreak.errors import ChainError
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
-_SUM_TOLERANCE = 1e-9
-_ROUNDING = 1e-15
+SUM_TOLERANCE = 1e-9
+"""The arcs of a state may miss a sum of 1 by no more than this."""
+ROUNDING = 1e-15
 """Columns that miss a sum of 1 by no more than this are left as they are."""
 
 Rows: TypeAlias = Literal["from", "to"]
@@ -166,10 +167,10 @@ def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
     columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
     total = sums(columns, matrix.data, n)
     missed = np.abs(total - 1.0)
-    wrong = ~(missed <= _ROUNDING)
+    wrong = ~(missed <= ROUNDING)
     if not wrong.any():
         return matrix
-    if (far := np.flatnonzero(~(missed <= _SUM_TOLERANCE))).size:
+    if (far := np.flatnonzero(~(missed <= SUM_TOLERANCE))).size:
         more = f" (and so for {far.size - 1} more)" if far.size > 1 else ""
         raise ChainError(
             f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}; "
@@ -194,4 +195,4 @@ def sums_to_1(matrix: csc_array, *, axis: Literal[0, 1]) -> bool:
     n = matrix.shape[0]
     columns = np.repeat(np.arange(n), np.diff(matrix.indptr))
     total = sums(columns if axis == 0 else matrix.indices, matrix.data, n)
-    return bool((np.abs(total - 1.0) <= _SUM_TOLERANCE).all())
+    return bool((np.abs(total - 1.0) <= SUM_TOLERANCE).all())
