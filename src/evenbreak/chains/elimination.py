@@ -26,8 +26,6 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
@@ -253,7 +251,7 @@ class PlainElimination:
     def _columns(self, b: Floats, solve: Callable[[list[Any]], list[Any]]) -> Floats:
         with localcontext(_CONTEXT):
             columns = ([*map(self._number, column)] for column in b.T.tolist())
-            return np.array([_floats(solve(column)) for column in columns]).T
+            return _floats([solve(column) for column in columns]).T
 
 
 class DecimalElimination(PlainElimination):
@@ -297,5 +295,7 @@ def _visits(rows: Rows, states: Sequence[int], b: list[Any]) -> list[Any]:
     return eliminated(rows, states, MOST_ARCS).visits(b)
 
 
-def _floats(values: list[Decimal]) -> Floats:
-    return np.array([float(value) for value in values])
+def _floats(values: Sequence[Any]) -> Floats:
+    import numpy as np  # matches in plain numbers do without it
+
+    return np.array(values, dtype=np.float64)
