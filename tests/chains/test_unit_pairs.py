@@ -32,8 +32,11 @@ def test_they_are_laws_and_chances() -> None:
 
 def errors_from(chain: Chain, density: np.ndarray, exact: list[Fraction]) -> list[tuple]:
     """Return the true sum of errors and the bound, of the limit by one solve and by all vectors."""
-    units = UnitPairs(chain)
-    found = [units.limit(density), (limit_by(units.right, units.left, density), units.error)]
+    units, limit = UnitPairs(chain), stochastic_limit(chain, density, via="eigen")
+    found = [
+        (limit.probability, limit.bound),
+        (limit_by(units.right, units.left, density), units.error),
+    ]
     return [
         (
             float(sum(abs(Fraction(p) - q) for p, q in zip(limit.tolist(), exact, strict=True))),

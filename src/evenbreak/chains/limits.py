@@ -369,8 +369,7 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
             f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1; use elimination, "
             "which loses no digits there"
         )
-    missed = float(np.abs(chain.matrix @ limit - limit).max())
-    return Limit(chain, limit, _period_reached(chain, start), missed)
+    return Limit(chain, limit, _period_reached(chain, start), error)
 
 
 def _period_reached(chain: Chain, start: Any) -> int:
