@@ -181,7 +181,7 @@ def _gap_words(road: Road) -> str:
     what, ages = "long-run cycle" if road.limit.is_cesaro else "limit", ""
     if road.period != road.limit.period:
         what = f"limit, averaged over {road.period} steps,"
-        ages = f" For ages the chain goes round as if its period were {road.period}."
+        ages = f" For a very long time the chain goes round as if its period were {road.period}."
     return (
         f" In the end the distance to the {what} falls by {percent(road.gap)} with each step (the "
         f"gap is {road.gap:.4g}).{ages}"

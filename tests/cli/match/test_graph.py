@@ -116,10 +116,18 @@ def test_a_graph_too_large_to_write_is_refused_with_the_remedy(run, tmp_path) ->
     assert "arcs.csv: has 5,001 states; evenbreak graph writes up to 5,000" in result.stderr
 
 
-@pytest.mark.parametrize("name", ["nowhere.csv", "nowhere.graphml", "nowhere.mtx"])
-def test_a_missing_file_is_not_taken_for_a_game(run, tmp_path, name) -> None:
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("nowhere.csv", "no such file"),
+        ("nowhere.graphml", "no such file"),
+        ("nowhere.mtx", "no such file"),
+        ("nowhere.gml", "a .gml file is not read here"),
+    ],
+)
+def test_a_missing_file_is_not_taken_for_a_game(run, tmp_path, name, said) -> None:
     result = run("graph", str(tmp_path / name), "--out", str(tmp_path / "out"))
-    assert (result.exit_code, "no such file" in result.stderr) == (3, True)
+    assert (result.exit_code, said in result.stderr) == (3, True)
 
 
 def test_other_programs_open_the_files(write) -> None:

@@ -137,10 +137,11 @@ def command(
 
 def _is_file(name: str) -> bool:
     """Return whether a name is that of a file with a chain, and not with a chart."""
+    from evenbreak.files.chain_forms import OTHER_FORMS
     from evenbreak.files.chart import is_chart
 
     form = Path(name).suffix.lower()
-    if name == "-" or form in (".graphml", ".json", ".mtx", ".xml"):
+    if name == "-" or form in (".graphml", ".json", ".mtx", ".xml", *OTHER_FORMS):
         return True
     return (form in FORMS or Path(name).is_file()) and not is_chart(name)
 
