@@ -174,6 +174,26 @@ def test_what_underflows_on_the_way_is_not_lost():
 
 
 @each_method
+@pytest.mark.parametrize("chances", [(1e-316, 1e-8), (1e-290, 1e-300), (1e-20, 1e-4)])
+def test_what_loses_digits_between_large_classes_is_not_taken_for_proved(chances):
+    """Flows below 1e-308 have few digits; visits from a class that is rarely left have all."""
+    n, (link, leaving) = 6, chances
+    i = np.arange(n)
+    ring = np.zeros((n, n))
+    ring[(i + 1) % n, i], ring[(i + 2) % n, i] = 0.25, 0.125
+    matrix = np.zeros((2 * n + 1, 2 * n + 1))
+    matrix[:n, :n] = matrix[n:-1, n:-1] = ring
+    matrix[n, 0], matrix[-1, 3], matrix[-1, n + 4] = link, 0.1, leaving
+    chain = Chain(range(2 * n + 1), oracle.with_loops(csc_array(matrix)))
+    b = np.eye(2 * n)[1]
+    visits, values = exact_solves(chain, b)
+    normal = [k for k, x in enumerate(visits) if x > 2.0**-1020]
+    found = chain.transient.visits(b)[normal]
+    assert oracle.worst_relative_error(found, [visits[k] for k in normal]) < 5e-15
+    assert oracle.worst_relative_error(chain.transient.values(b), values) < 5e-15
+
+
+@each_method
 def test_more_visits_than_any_float_are_refused():
     matrix = np.array([[1.0, 0, 0], [0, 0.0, 0], [0, 0.0, 1.0]])
     matrix[2, 0] = 1e-310

@@ -89,6 +89,8 @@ class CertifiedSolve:
     ----------
     error
         the largest bound on a relative error of the answers so far.
+    pivots
+        shape (m,): so small a chance of leaving each state for good could not be proved.
     """
 
     def __init__(self, T: csc_array, leak: Floats, *, factored: bool) -> None:
@@ -96,9 +98,9 @@ class CertifiedSolve:
         out = Rows(T.indptr).sum(T.data)
         high, low = two_sum(out.high, leak)
         self._outflow = two_sum(high, low + out.low)
-        self.pivots = self._outflow.high
+        outflow = self._outflow.high
+        self.pivots = least = _RARE * outflow
         self.error = 0.0
-        least = _RARE * self.pivots
         sources = np.repeat(np.arange(len(leak)), np.diff(T.indptr))
         often = T.data >= least[sources]
         rare = not often.all() or ((leak > 0.0) & (leak < least)).any()
@@ -107,11 +109,11 @@ class CertifiedSolve:
         self._even = self._spread = np.ones(len(leak))
         self._factors: Callable[..., Floats] | None = None
         if factored:
-            self._unit = np.ldexp(1.0, -np.frexp(self.pivots)[1])
+            self._unit = np.ldexp(1.0, -np.frexp(outflow)[1])
             scaled = csc_array((T.data * self._unit[sources], T.indices, T.indptr), T.shape)
-            self._factors = _factors(scaled, self.pivots * self._unit)
+            self._factors = _factors(scaled, outflow * self._unit)
         else:
-            self._spread = spread(T, self.pivots)
+            self._spread = spread(T, outflow)
 
     def visits(self, b: Floats) -> Floats:
         """Return (I - T)^-1 b for b >= 0 of shape (m, k)."""
@@ -331,7 +333,7 @@ class _Scaled:
             top = int((np.frexp(b)[1] + self.shift).max())
             x = self._system.factors(np.ldexp(b, self.shift - top))
             return np.ldexp(x, top - self._power)
-        m, size = len(b), float(np.abs(b).max())
+        m, size = len(b), float(np.abs(b).max()) or 1.0
         A = LinearOperator((m, m), matvec=self._times, dtype=np.float64)
         # The iteration breaks down on a residual that few states have, and by an absolute measure.
         b, y = b / size, np.random.default_rng(0).random(m)

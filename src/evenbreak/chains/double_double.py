@@ -2,9 +2,10 @@
 
 A number is a pair of doubles, the rounded value and what rounding took from it. The sum of two
 doubles is such a pair exactly (Knuth), and so is their product (Dekker), unless it under- or
-overflows. With u = 2^-53, a sum of n products whose errors are added up beside it is off by at most
-u of itself and (n u)^2 of the sum of the sizes of its terms (Ogita, Rump and Oishi 2005, "Accurate
-sum and dot product", theorem 5.1). No longer type of the platform is needed.
+overflows. With u = 2^-53, a sum whose terms are added in pairs, pairs of pairs, and so on, L times, with all errors
+summed next to it, is off by at most u of itself and ((L + 1) u)^2 of the sum of the sizes of its
+terms (compare Ogita, Rump and Oishi 2005, "Accurate sum and dot product"). No longer type of the
+platform is needed.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _BITS = 3
 _DENSE = 0.2
 """A matrix with more than this share of its entries is kept with zeros in place of the others."""
 _TINY = 2.0**-1000
-"""More than underflow takes from a product."""
+"""More than underflow takes from all the products of a row."""
 
 
 class Pair(NamedTuple):
@@ -134,8 +135,8 @@ class Balance:
     """
 
     def __init__(self, arcs: csr_array, outflow: Pair, rows: Rows) -> None:
-        self.arcs, self.outflow, self._terms = arcs, outflow, rows.terms + 8
         m = len(rows.terms)
+        self.arcs, self.outflow, self._levels = arcs, outflow, m.bit_length() + 8
         if arcs.nnz > _DENSE * m * m:
             states = np.arange(m)
             blocks = [(states, states[:, None], np.ascontiguousarray(arcs.toarray().T))]
@@ -157,5 +158,5 @@ class Balance:
         whole, lost = two_sum(into.high, b)
         rest, more = two_sum(whole, -out.high)
         residual = rest + ((lost + more) + (into.low - (out.low + below)))
-        rounding = 2.0 * (ROUND * self._terms) ** 2 * (into.high + out.high + b)
-        return residual, (1.0 + 2.0 * ROUND) * np.abs(residual) + rounding + self._terms * _TINY
+        rounding = 2.0 * (ROUND * self._levels) ** 2 * (into.high + out.high + b)
+        return residual, (1.0 + 8.0 * ROUND) * np.abs(residual) + rounding + _TINY

@@ -169,5 +169,5 @@ def where_doubtful(x: Floats, gain: Floats) -> Bools:
     if low.any():
         # By logarithms, in which neither side can leave the range of floats.
         lost = np.log2(scale) - 1074 + np.log2(gain)[:, None]
-        low &= ~(lost <= np.maximum(np.log2(x) - 47, -1022))
+        low &= ~(lost <= np.where(x < 2.0**-1021, -1022, np.log2(x) - 47))
     return low
