@@ -9,12 +9,12 @@ entry by entry. So it does not matter how x was found: here by a sparse LU facto
 no few states cut the class in two and the factors would not fit, by Krylov iterations, on the
 aggregates of `aggregation` where plain ones are slow. Either is repeated on what is still missed.
 The residual is calculated in twice the precision of doubles, its own rounding errors are bounded,
-and the inequality for w is checked likewise.
+and the inequality for w is checked in the same way.
 
-Unknowns and equations are scaled by powers of 2 so that every unknown is near 1 and every diagonal
-entry near 1. This is exact, it turns the bound into one on relative errors, and entries of any
-size, 1e-200 beside 1, are found alike: digits that one round cannot see are those that the next
-one, scaled anew, begins with.
+Unknowns and equations are scaled by powers of 2 so that every unknown and every diagonal entry is
+near 1. This is exact and turns the bound into one on relative errors. Entries of any size, 1e-200
+next to 1, are found alike: each round, with new scales, finds digits that the last one could not
+see.
 
 References: Varga 1962, Matrix Iterative Analysis, and Neumaier 1999 for bounds by M-matrices; Rump
 2010, "Verification methods"; van der Vorst 1992 for the iteration.

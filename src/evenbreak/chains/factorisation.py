@@ -8,10 +8,10 @@
 | cut in two by few states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid |
 | others | iteration on aggregates, every entry proved (`certified`) | about linear |
 
-Consecutive small classes are solved together. Where an answer cannot be proved, since the class is
-left so rarely that twice the digits of a double do not suffice, it is eliminated without
-subtraction, which always succeeds: in fronts, up to 40 million factors, or in decimal numbers if
-the class is long and narrow, since doubles then repeat the same rounding error at each state.
+Consecutive small classes are solved together. A class that is left so rarely that twice the digits
+of a double prove nothing is eliminated without subtraction: in fronts, up to 40 million factors, or
+in decimal numbers if it is long and narrow, since doubles would repeat the same rounding error at
+each state. What would take more than that is refused.
 """
 
 from __future__ import annotations
@@ -197,7 +197,8 @@ class Factorisation:
     def pivots(self) -> Floats:
         """The chance of moving on to later states, given each state, when it is eliminated.
 
-        It is 0 where no flow has arrived so far, for want of arcs or by underflow.
+        Less, where answers are proved; 0 where no flow has arrived so far, for want of arcs or by
+        underflow.
         """
         pivots = np.zeros(self._pieces[-1].last)
         for piece, solver in self._used:

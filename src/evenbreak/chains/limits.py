@@ -73,9 +73,9 @@ class Limit(Mapping[Hashable, float]):
     period
         the least common multiple of the periods of the closed classes reached.
     bound
-        a proved bound: on the relative error of each entry, after solves whose residual was
-        measured (see `stochastic_limit`); by eigenvectors, on the sum of the absolute errors. None
-        after elimination without subtraction, which needs none.
+        a proved bound. After solves whose residual was measured (see `stochastic_limit`): on the
+        relative error of each number of visits; sums and quotients of these add a few roundings. By
+        eigenvectors: on the sum of the absolute errors. None after elimination without subtraction.
 
     >>> from evenbreak.chains import chain_of
     >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
@@ -199,9 +199,9 @@ def stochastic_limit(
     -----
     However stiff the chain, each entry is right to a few units in the last place times the
     length of the path to it (seen: 2e-14 over a line of 20,000 states, 4e-15 over 5,000
-    states with arcs at random). In classes of more than some hundreds of states that bound on the
-    relative error of every entry is proved by the residual, and the limit carries it: `bound` is a
-    few times 1e-16. One above 1e-14 is refused.
+    states with arcs at random). In classes of more than some hundreds of states the residual
+    proves a bound on the relative error of every number of visits. The limit carries it: `bound`
+    is a few times 1e-16. Where it would be above 1e-14, states are eliminated instead.
 
     Time and memory are about linear in the number of arcs, whatever the graph, except where a large
     class is left so rarely that nothing can be proved; see `factorisation`. Reference: O'Cinneide
