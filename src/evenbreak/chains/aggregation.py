@@ -47,7 +47,7 @@ class Aggregation:
     Parameters
     ----------
     B
-        sparse, shape (m, m): positive on the diagonal, not positive beside it.
+        sparse, shape (m, m): positive on the diagonal, nowhere else.
 
     Raises
     ------
@@ -82,37 +82,37 @@ class Aggregation:
 
 
 def _pairs(B: csr_array, rng: np.random.Generator) -> Places:
-    """Return a group for each state: pairs that each hold most dear, and who is left joins one."""
+    """Return a group for each state: a pair that exchanges much; states left over join a pair."""
     size = B.shape[0]
     flows = csr_array(abs(B) + abs(B.T))
     flows.setdiag(0.0)
     flows.eliminate_zeros()
     source, target = np.repeat(np.arange(size), np.diff(flows.indptr)), flows.indices
-    # Chance decides between equal flows, and later lets those pair whom nobody holds most dear.
+    # Chance decides between equal flows, and later pairs states that are nobody's largest flow.
     taste = rng.random(size)
     weight = flows.data * (1.0 + 0.01 * (taste[source] + taste[target]))
     group, states = np.full(size, -1), np.arange(size)
     for k in range(_MATCHINGS):
         free = group < 0
         wish = weight if k < _MATCHINGS // 2 else taste[source] + taste[target]
-        dearest = _dearest(flows.indptr, source, target, wish * (free[source] & free[target]))
-        mutual = (dearest >= 0) & (dearest[dearest] == states)
-        group[mutual] = np.minimum(states, dearest)[mutual]
+        wanted = _heaviest(flows.indptr, source, target, wish * (free[source] & free[target]))
+        mutual = (wanted >= 0) & (wanted[wanted] == states)
+        group[mutual] = np.minimum(states, wanted)[mutual]
         taste = rng.random(size)
     paired = group >= 0
-    dearest = _dearest(flows.indptr, source, target, weight * paired[target])
-    group = np.where(paired, group, np.where(dearest >= 0, group[dearest], states))
+    wanted = _heaviest(flows.indptr, source, target, weight * paired[target])
+    group = np.where(paired, group, np.where(wanted >= 0, group[wanted], states))
     return np.unique(group, return_inverse=True)[1]
 
 
-def _dearest(indptr: Places, source: Places, target: Places, weight: Floats) -> Places:
+def _heaviest(indptr: Places, source: Places, target: Places, weight: Floats) -> Places:
     """Return the target of each state's heaviest arc, -1 where all weigh nothing."""
     most = np.maximum.reduceat(np.append(weight, 0.0), indptr[:-1])
     most[np.diff(indptr) == 0] = 0.0
     heaviest = (weight > 0.0) & (weight == most[source])
-    dearest = np.full(len(indptr) - 1, -1)
-    dearest[source[heaviest]] = target[heaviest]
-    return dearest
+    wanted = np.full(len(indptr) - 1, -1)
+    wanted[source[heaviest]] = target[heaviest]
+    return wanted
 
 
 def _joined(B: csr_array, group: Places) -> csr_array:

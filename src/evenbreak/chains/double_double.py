@@ -2,10 +2,10 @@
 
 A number is a pair of doubles, the rounded value and what rounding took from it. The sum of two
 doubles is such a pair exactly (Knuth), and so is their product (Dekker), unless it under- or
-overflows. With u = 2^-53, terms that are added in pairs, pairs of pairs, and so on, L times, and
-their errors beside them, make a sum that is off by at most u of itself and ((L + 1) u)^2 of the sum
-of their sizes (compare Ogita, Rump and Oishi 2005, "Accurate sum and dot product"). No longer type
-of the platform is needed.
+overflows. With u = 2^-53, terms that are added in pairs, pairs of pairs, and so on, L times, with
+their errors added separately, make a sum that is off by at most u of itself and ((L + 1) u)^2 of
+the sum of their sizes (compare Ogita, Rump and Oishi 2005, "Accurate sum and dot product"). The
+platform needs no longer type.
 """
 
 from __future__ import annotations

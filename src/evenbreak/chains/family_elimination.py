@@ -27,7 +27,7 @@ _DENSE_FROM = 8
 _AT_ONCE = 512
 """So many dense chains at a time: the calls of numpy cost little, and the caches still help."""
 _SMALL = 1e-290
-"""A float below this, beside the largest, may have lost digits to underflow."""
+"""A float below this, relative to the largest, may have lost digits to underflow."""
 _LEAST, _MOST = 1e-120, 1e40
 """Visits between these, with pivots above the first, are far from what `_SMALL` excludes."""
 

@@ -256,7 +256,7 @@ def limit_of(
     game
         any game (see `evenbreak.game`), or a `networkx.DiGraph` as `chain_of` takes it.
     start
-        the state in which it begins; None: its own start.
+        the state to start in; None: its own start.
     via
         the way, as in `stochastic_limit`. With 'eigen' the game becomes a `networkx.DiGraph`
         first. None: the closed form where there is one, otherwise elimination.

@@ -9,7 +9,7 @@ reached) = h . x_t, hence
 which takes two solves without subtraction. The variance is the sum of what each step adds
 to it, E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares
 under the chances given that the target is reached (Doob's transform). No digits are lost
-where the variance is small beside the squared mean. The chain given that it reaches the target is
+where the variance is small next to the squared mean. The chain given that it reaches the target is
 
     P(i | j, target reached) = M[i, j] h_i / h_j.
 

@@ -158,7 +158,7 @@ def where_doubtful(x: Floats, gain: Floats) -> Bools:
     """Return where underflow may show in x, of shape (m, k); everywhere if x has overflowed.
 
     Underflow loses at most 2^-1074 a term, times the largest entry of x; `gain`, of shape
-    (m,), is how much of the answer a loss costs. It matters where that is not small beside
+    (m,), is how much of the answer a loss costs. It matters where that is not small next to
     x, unless x is below all normal floats anyway.
     """
     top = x.max()

@@ -1,6 +1,6 @@
 """The chances of an n-ahead match in closed form.
 
-The lead walks up and down by one. Let rho be the weight of a step down beside a step up, and
+The lead walks up and down by one. Let rho be the weight of a step down relative to a step up, and
 G(s) = 1 + rho + ... + rho^(s - 1). A player who is m games from winning and n from losing wins
 with the chance of the gambler's ruin, G(n)/G(m + n) (P5.27). Most break formats keep this form:
 
@@ -114,7 +114,7 @@ def _by_last_winner(m: int, n: int, rho: _Ratio, first: Pair, on: Pair, turn: Pa
 
 def _by_turns(m: int, n: int, rho: _Ratio, even: Pair, odd: Pair) -> Pair:
     def total(step: Pair, s: int) -> Any:
-        """Return p times the sum of s weights that begin with this step."""
+        """Return p times the sum of s weights that start with this step."""
         p, q = step
         if s % 2 == 0:
             return (p + q) * rho.total(s // 2)
