@@ -92,7 +92,7 @@ def _graphml(content: bytes) -> nx.Graph[Any]:
     import networkx as nx
 
     def refuse(*_: object) -> None:
-        raise ValueError("it defines entities, which could expand to more than the file holds")
+        raise ValueError("it has a DOCTYPE, which could expand to more than the file holds")
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse
