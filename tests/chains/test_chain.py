@@ -29,7 +29,7 @@ def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
 @pytest.mark.parametrize(
     ("start", "words"),
     [
-        ("d", "state 'd' is not in the chain; its states begin 'a', 'b', 'c'"),
+        ("d", "state 'd' is not in the chain; its first states are 'a', 'b', 'c'"),
         (["a"], "not in the chain"),
         ({"a": 0.5}, "sums to 0.5"),
         ({"a": 1.5, "b": -0.5}, "start density of state 'b' is negative"),

@@ -326,7 +326,7 @@ class Chain:
 
     def _unknown(self, state: Hashable) -> ChainError:
         known = ", ".join(repr(known) for known in self.states[:5])
-        return ChainError(f"state {state!r} is not in the chain; its states begin {known}")
+        return ChainError(f"state {state!r} is not in the chain; its first states are {known}")
 
 
 def check_chain(chain: object) -> None:

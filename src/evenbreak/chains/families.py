@@ -78,7 +78,7 @@ class FamilyLimit:
         except ValueError:
             known = ", ".join(repr(known) for known in self.states[:5])
             raise ChainError(
-                f"state {state!r} is in no game of the family; its states begin {known}"
+                f"state {state!r} is in no game of the family; its first states are {known}"
             ) from None
         return np.asarray(self.probability[..., place])
 
