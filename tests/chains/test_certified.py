@@ -1,6 +1,7 @@
 """Proved solves: every entry within its bound of the fraction, or no answer at all."""
 
 from fractions import Fraction
+from itertools import count
 
 import numpy as np
 import pytest
@@ -98,6 +99,28 @@ def test_a_wrong_answer_is_never_within_its_bound(monkeypatch, factored):
             except NotCertifiedError:
                 continue
             assert error(x[:, 0], right) <= solve.error
+
+
+@BOTH
+@pytest.mark.parametrize("good", range(1, 9))
+def test_a_correction_that_makes_an_answer_worse_is_not_returned(monkeypatch, factored, good):
+    """What is returned is what has been proved, not what came after it."""
+    T, leak = graph("expander", 3)
+    b = np.eye(len(T), 1)
+    calls, approximate = count(), certified._Scaled.solved
+    monkeypatch.setattr(certified, "_SHARP", 0.0)
+    monkeypatch.setattr(
+        certified._Scaled,
+        "solved",
+        lambda *given: approximate(*given) + (1e-3 if next(calls) >= good else 0.0),
+    )
+    solve = CertifiedSolve(csc_array(T), leak, factored=factored)
+    try:
+        x = solve.visits(b)
+    except NotCertifiedError:
+        assert good < 5
+    else:
+        assert error(x[:, 0], exact(T, leak, b[:, 0], transposed=False)) <= solve.error
 
 
 @BOTH

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 GUARANTEED = 1e-14
 """Answers whose entries may be off by more than this, relatively, are not returned."""
-_SHARP = 2.0 * ROUND
+_SHARP = 3.0 * ROUND
 _NEAR = 2.0**-50
 """What is missed when a bound is worth the work."""
 _SHARE = 1e-10
@@ -90,7 +90,7 @@ class CertifiedSolve:
     error
         the largest bound on a relative error of the answers so far.
     pivots
-        shape (m,): so small a chance of leaving each state for good could not be proved.
+        shape (m,): of each state at most the chance of not returning, as proved so far.
     """
 
     def __init__(self, T: csc_array, leak: Floats, *, factored: bool) -> None:
@@ -98,9 +98,8 @@ class CertifiedSolve:
         out = Rows(T.indptr).sum(T.data)
         high, low = two_sum(out.high, leak)
         self._outflow = two_sum(high, low + out.low)
-        outflow = self._outflow.high
-        self.pivots = least = _RARE * outflow
-        self.error = 0.0
+        self.pivots = outflow = self._outflow.high
+        self.error, least = 0.0, _RARE * outflow
         sources = np.repeat(np.arange(len(leak)), np.diff(T.indptr))
         often = T.data >= least[sources]
         rare = not often.all() or ((leak > 0.0) & (leak < least)).any()
@@ -140,8 +139,9 @@ class CertifiedSolve:
     def _solved(self, system: Equations, b: Floats) -> Floats:
         x = np.zeros_like(b)
         for k in np.flatnonzero(b.any(axis=0)):
-            x[:, k], error = system.solve(b[:, k])
+            x[:, k], error, w = system.solve(b[:, k])
             self.error = max(self.error, error)
+            self.pivots = np.minimum(self.pivots, self._outflow.high / w)
         return x
 
 
@@ -250,8 +250,10 @@ class Equations:
     def _as_they_are(self) -> _Scaled:
         return _Scaled(self, np.zeros(len(self.left), dtype=np.int64), np.ones(len(self.left)))
 
-    def solve(self, b: Floats) -> tuple[Floats, float]:
-        """Return A^-1 b > 0, and a bound on the relative error of every entry.
+    def solve(self, b: Floats) -> tuple[Floats, float, Floats]:
+        """Return A^-1 b > 0, a bound on the relative error of every entry, and a witness.
+
+        No diagonal entry of A^-1 is larger than the witness over that of A.
 
         Raises
         ------
@@ -262,15 +264,18 @@ class Equations:
         with np.errstate(all="ignore"):  # what overflows is not proved
             power = np.frexp(self._right)[1].astype(np.int64)
             equations = _Scaled(self, power, np.ldexp(self._right, -power))
-            y, w, bound, last, stalls = Pair(nothing, nothing), None, np.inf, np.inf, 0
+            y, w, last, stalls = Pair(nothing, nothing), None, np.inf, 0
+            best = nothing, np.inf, nothing
             for _ in range(_ROUNDS):
                 residual, size = equations.balance.missed(y, np.ldexp(b, -equations.shift))
                 missed = size.max()
                 if missed <= _NEAR and y.high.min() > 0.0:
                     w = equations.witness() if w is None else w
-                    bound = float((missed * w / y.high).max())
+                    bound = float((missed * w / y.high).max()) + ROUND
+                    if bound < best[1]:
+                        best = np.ldexp(y.high, power), bound, w
                 stalls += not missed <= last / 4.0
-                if bound <= _SHARP or stalls > _STALLS:
+                if best[1] <= _SHARP or stalls > _STALLS:
                     break
                 last = missed
                 y = _sum(y, equations.solved(residual, _SHARE))
@@ -279,10 +284,10 @@ class Equations:
                     power = power + move
                     y = Pair(*(np.ldexp(np.where(y.high > 0.0, part, 0.0), -move) for part in y))
                     equations = _Scaled(self, power, np.maximum(y.high, 0.5))
-                    w, bound, last = None, np.inf, np.inf
-        if not bound <= GUARANTEED:
+                    w, last = None, np.inf
+        if best[1] > GUARANTEED:
             raise NotCertifiedError
-        return np.ldexp(y.high, power), bound + ROUND
+        return best
 
 
 class _Scaled:
