@@ -145,6 +145,8 @@ def test_two_states_are_named() -> None:
         lumped(chain, {"s": "play", "t": "play"})
     with pytest.raises(ChainError, match="by is 'play'; give a function"):
         lumped(chain, "play")
+    with pytest.raises(ChainError, match=r"label of state 's' is \(\['s'\],\); give a name"):
+        coarsest_lumping(chain, lambda state: ([state],))
 
 
 def test_fractions_are_kept() -> None:

@@ -142,7 +142,15 @@ def _labelled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
     if not callable(by):
         raise ChainError(f"by is {by!r:.60}; give a function of a state, or a mapping")
     numbers: dict[Hashable, int] = {}
-    block = [numbers.setdefault(by(state), len(numbers)) for state in chain.states]
+    block = []
+    for state in chain.states:
+        label = by(state)
+        try:
+            block.append(numbers.setdefault(label, len(numbers)))
+        except TypeError:  # it cannot be hashed
+            raise ChainError(
+                f"the label of state {state!r} is {label!r}; give a name, a number or a tuple"
+            ) from None
     check_present(numbers)
     return list(numbers), np.array(block)
 
