@@ -271,7 +271,8 @@ class Equations:
                 missed = size.max()
                 if missed <= _NEAR and y.high.min() > 0.0:
                     w = equations.witness() if w is None else w
-                    bound = float((missed * w / y.high).max()) + ROUND
+                    # A little more, for the roundings of the bound itself and of y for the answer.
+                    bound = 1.001 * float((missed * w / y.high).max()) + (1.0 + 1e-9) * ROUND
                     if bound < best[1]:
                         best = np.ldexp(y.high, power), bound, w
                 stalls += not missed <= last / 4.0
