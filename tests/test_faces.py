@@ -126,7 +126,6 @@ ASKED = {
     "ladder_compare": "ladder --compare",
     "sandbag_pay": "sandbag pay --dumped 6 --in-a-row 4 --prize 500",
     "sandbag_charts": "sandbag pay --compare --stake 100 --dumped-stake 5",
-    "sandbag_power": "sandbag power --matches 20 --replicas 50",
     "sandbag_watch": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "
     "--dumps-in 'League night'",
     "sandbag_events": "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv "

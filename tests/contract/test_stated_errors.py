@@ -118,10 +118,6 @@ CASES = {
     "chips design": Drawn("chips design FIELD --bands 600 --most 3", of_chips),
     "matchups": Drawn("matchups TRIO --race-to 4 --minutes-per-game 8 --tables 2", of_evening),
     "simulate": Drawn("simulate LEAGUE --weeks 3 --replicas 40 --no-matches --out OUT", of_league),
-    "sandbag power": Drawn(
-        "sandbag power --matches 12 --replicas 60 --share 0.5 --points 120",
-        table("within", "flagged", "se"),
-    ),
     "drill": Drawn("drill --log data/drill_log.csv", of_tests),
     "validate": Drawn("validate RESULTS", of_intervals),
 }

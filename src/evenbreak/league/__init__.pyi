@@ -14,8 +14,6 @@ from .sandbag_pay import DumpRow as DumpRow
 from .sandbag_pay import Sandbagging as Sandbagging
 from .sandbag_pay import entering_low as entering_low
 from .sandbag_pay import sandbagging as sandbagging
-from .sandbag_power import WatchPower as WatchPower
-from .sandbag_power import watch_power as watch_power
 from .sandbag_watch import Watched as Watched
 from .sandbag_watch import watch as watch
 from .schedule import FixedSchedule as FixedSchedule

@@ -128,17 +128,6 @@ def test_export_writes_a_file_and_a_chart_says_the_races(night, tmp_path):
     assert (row["race_a"], row["score_b"], row["winner"]) == ("7", "1", "Ann")
 
 
-def test_the_bracket_goes_to_brackets_manager_and_back(begun, tmp_path):
-    begun("result", "W1.1", "3:2")
-    saved, again = tmp_path / "cup.json", str(tmp_path / "again.db")
-    begun("export", "--brackets-manager", str(saved))
-    words = ("--race", "3", "--ratings", begun.entrants, "--out", again)
-    assert begun.run("tournament", "import", str(saved), *words).exit_code == 0
-    shown = begun.run("tournament", "show", "--file", again, "--json")
-    read, written = json.loads(shown.stdout)["matches"], begun("show")["matches"]
-    assert sorted(map(str, read)) == sorted(map(str, written))
-
-
 def test_bad_entries_are_one_line(begun):
     for words, said in (
         (["odds", "--race", "5"], "--race"),

@@ -7,7 +7,6 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 COMMANDS = {
     "pay": Entry("sandbag.pay", "Show what it pays to lose matches on purpose."),
     "watch": Entry("sandbag.watch", "Check the results of a league for sandbagging."),
-    "power": Entry("sandbag.power", "Show how soon the watch flags a sandbagger."),
 }
 """Each command, in the module of its name, with its line of help."""
 
