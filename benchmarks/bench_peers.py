@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 from equal_information import PLACE, SYSTEMS, compare
 
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, fit
 
 

@@ -27,7 +27,7 @@ import numpy as np
 from scipy.special import expit
 
 from evenbreak.arrays import Floats
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Levels, Results, walk_forward
 from evenbreak.ratings.walk_forward import even_races

@@ -21,7 +21,7 @@ import time
 import urllib.parse
 from pathlib import Path
 
-from evenbreak.files.tournament_store import new_tournament, read_tournament
+from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
 

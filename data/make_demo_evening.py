@@ -11,7 +11,7 @@ import numpy as np
 
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament_matches import tournament_events_answer
-from evenbreak.files.entrants import read_entrants
+from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan, Scored, What

@@ -4,13 +4,12 @@ import json
 from pathlib import Path
 from typing import Any
 
-from evenbreak.files.evening_file import opened
-from evenbreak.files.match_phones import PROPOSED, phone_entries
-from evenbreak.files.saved_ratings import read_saved
-from evenbreak.files.several_results import read_seasons
-from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_desk import kept_prizes
-from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.files.lists.saved_ratings import read_saved
+from evenbreak.files.results.results_file import read_seasons
+from evenbreak.files.store.desk import PROPOSED, kept_prizes, phone_entries
+from evenbreak.files.store.evening_file import opened
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import read_events, read_tournament
 from evenbreak.ratings.scale import SCALES
 from evenbreak.teams.evening.fold import team_evening
 from evenbreak.web.league import League

@@ -10,8 +10,8 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.roster_matchups import all_pairs
 from evenbreak.answers.round import Round
 from evenbreak.answers.sheet import Sheet
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps import chart
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import Roster

@@ -13,7 +13,7 @@ import click
 import pytest
 
 from evenbreak.cli.program import COMMANDS, program
-from evenbreak.files.results_columns import OPTIONAL, REQUIRED
+from evenbreak.files.results.matches import OPTIONAL, REQUIRED
 from places import ROOT, SRC
 from terminal import on_a_terminal
 

@@ -32,7 +32,7 @@ from evenbreak.answers.faces.to_text import to_text
 from evenbreak.answers.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
-from evenbreak.files.tournament_store import new_tournament
+from evenbreak.files.store.tournament import new_tournament
 from evenbreak.sheets.answer_page import answer_page
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, What

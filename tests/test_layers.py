@@ -48,7 +48,7 @@ FACES_OUTWARD = {"files", "answers", "plots", "sheets", "source_text", "cli", "w
 OUTWARD_MODULES = {"click", "fileinput", "jinja2", "matplotlib", "pathlib", "rich", "tempfile"}
 OUTWARD_CALLS = {"input", "open", "print"}
 OUTWARD_STREAMS = {"stdin", "stdout", "stderr"}
-LONGEST_MODULE = 400
+LONGEST_MODULE = 500
 
 
 def room_of(parts: Sequence[str]) -> str:

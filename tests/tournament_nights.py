@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.files.saved_tournament import read_saved_tournament
+from evenbreak.files.foreign.tournament import read_saved_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import Evening, evening

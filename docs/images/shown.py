@@ -58,7 +58,7 @@ SHOWN: dict[str, tuple[Shown, ...]] = {
             "tutorial/first-evening.md",
             python="""\
 from evenbreak.answers import OfferedRaces, Sheet, most_active
-from evenbreak.files.results import read_results
+from evenbreak.files import read_results
 from evenbreak.ratings import scale_of, usual_ratings
 from evenbreak.sheets import sheet_pages
 

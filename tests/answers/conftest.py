@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import expit
 
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, validate
 from evenbreak.ratings.within_matches import play_races
 from places import DATA

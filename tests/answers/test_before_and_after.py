@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.before_and_after import before_and_after_answer
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats import compare
 
 BEFORE = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])

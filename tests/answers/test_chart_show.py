@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.answers.chart_show import chart_show_answer
-from evenbreak.files.chart import chart_table
+from evenbreak.files.charts import chart_table
 from evenbreak.handicaps import Chart, LevelChart, chart, level_chart
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.drill_log import drill_log_answer
-from evenbreak.files.drill_log import DrillLogFile
+from evenbreak.files.practice import DrillLogFile
 from evenbreak.practice import DrillLog, LogAnalysis, PlayedAgainTest, analyse_log
 
 LOG = DrillLog([1, 2, 3, 2, 3, 2, 1, 1, 2], [1, 1, 0, 1, 0, 0, 0, 1, 1])

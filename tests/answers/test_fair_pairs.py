@@ -8,8 +8,8 @@ from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.roster_matchups import NOT_LINKED, all_pairs, roster_matchups
 from evenbreak.files.csv_writer import to_csv
-from evenbreak.files.results import read_results
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results

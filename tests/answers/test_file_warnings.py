@@ -1,5 +1,5 @@
 from evenbreak.answers.file_warnings import warnings_of
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from leagues import league
 
 

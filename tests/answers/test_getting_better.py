@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.getting_better import getting_better_answer, interval_of
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats import mean_interval, trend
 
 WEEKS = np.arange("2024-09-02", "2024-11-11", 7, dtype="M8[D]")

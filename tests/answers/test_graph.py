@@ -17,7 +17,7 @@ from evenbreak.answers.graph import (
     states_table,
 )
 from evenbreak.answers.road import road_of
-from evenbreak.files.graph_forms import matrix_market_bytes
+from evenbreak.files.chain_files import matrix_market_bytes
 from evenbreak.games import CATALOGUE, Ahead, Rack
 from evenbreak.handicaps import CHARTS, Ladder, chart
 

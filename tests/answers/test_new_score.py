@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.new_score import new_score_answer
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats import was_it_luck
 
 EARLIER = ScoresFile(

@@ -4,8 +4,8 @@ import pytest
 
 from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.errors import DataError
-from evenbreak.files.results import read_results
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.systems.catalogue import system_of
 

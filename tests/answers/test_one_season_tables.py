@@ -6,8 +6,8 @@ import pytest
 
 from evenbreak.answers.one_season_tables import matches_frame, truth_frame
 from evenbreak.files.csv_writer import to_csv
-from evenbreak.files.league import read_league
-from evenbreak.files.results import read_results
+from evenbreak.files.lists.league import read_league
+from evenbreak.files.results.results_file import read_results
 from evenbreak.league import LeaguePlayers, PlayedSeason, Season, season_matches
 
 NAMES = ["Ann", "Bo", "Cy", "Di", "Ed"]

@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.answers.prior_words import choice_words, prior_words
 from evenbreak.answers.rate import rate_answer, unlinked_words
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings import PriorChoice, Results, fit
 
 

@@ -5,8 +5,8 @@ import pytest
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.answers.rating_changes import rating_changes_answer
-from evenbreak.files.results import read_results
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.systems.catalogue import system_of
 

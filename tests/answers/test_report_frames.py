@@ -5,7 +5,7 @@ from evenbreak import __version__
 from evenbreak.answers.fair_pairs import matchups_frame
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.report_frames import count_groups, dates_of, summary_frame
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 

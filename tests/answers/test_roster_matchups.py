@@ -11,7 +11,7 @@ from evenbreak.answers.roster_matchups import (
     roster_matchups,
 )
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.fair import fair_races
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings

@@ -15,8 +15,8 @@ from evenbreak.answers.sandbag_watch import (
     watch_rows,
 )
 from evenbreak.answers.season_nights import nights_of_files
-from evenbreak.files.results import read_results
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps import Ladder, chart, system_of
 from evenbreak.league.sandbag_watch import watch
 from evenbreak.ratings import Results

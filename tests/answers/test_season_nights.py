@@ -4,8 +4,8 @@ import pytest
 
 from evenbreak.answers.season_nights import events_marked, nights_of_files, with_even_races
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.results import read_results
-from evenbreak.files.roster import read_roster
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps import chart, system_of
 from evenbreak.ratings import walk_forward
 

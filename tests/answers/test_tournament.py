@@ -3,7 +3,7 @@
 import numpy as np
 
 from evenbreak.answers.tournament import Tournament, races_words, slot_words
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps import chart
 from evenbreak.ratings import SCALES, Roster
 from evenbreak.tournaments import Races, double_elimination, groups_then_knockout

@@ -5,7 +5,7 @@ import pytest
 from evenbreak.answers.faces.to_text import to_text
 from evenbreak.answers.validate import validate_answer
 from evenbreak.answers.validate_verdict import verdict
-from evenbreak.files.results import ResultsFile, read_results
+from evenbreak.files.results.results_file import ResultsFile, read_results
 from evenbreak.ratings import scale_of
 from places import DATA
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.validate_remarks import remarks
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, scale_of, validate
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.half_life import HalfLifeGain

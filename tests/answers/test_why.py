@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.why import why_answer
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings import Beginning, Levels, Results, fit
 from leagues import two_groups
 

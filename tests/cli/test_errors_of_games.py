@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 
 NAMES = ("Ann", "Bo", "Cy", "Di")
 RATINGS = (612, 540, 500, 480)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.drill_log import read_drill_log
+from evenbreak.files.practice import read_drill_log
 from places import DATA
 
 

@@ -18,7 +18,7 @@ from evenbreak.files import (
     read_chain,
 )
 from evenbreak.files.arcs import ArcsFile
-from evenbreak.files.chain_forms import OTHER_FORMS
+from evenbreak.files.chain_files import OTHER_FORMS
 from evenbreak.game import Game
 from evenbreak.games import CATALOGUE
 from evenbreak.handicaps import Ladder, chart
@@ -278,7 +278,7 @@ def test_a_graph_that_defines_entities_is_refused_unread(tmp_path, definition, e
 
 
 def test_a_graph_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("evenbreak.files.chain_forms.MOST_MEGABYTES", 0)
+    monkeypatch.setattr("evenbreak.files.chain_files.MOST_MEGABYTES", 0)
     path = json_file(tmp_path, [edge("S", "W", probability=1.0)])
     assert "larger than 0 MB; write its arcs as CSV" in problem(path)
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
-from evenbreak.files.chart import chart_table, find_chart, read_chart, read_chart_file
+from evenbreak.files.charts import chart_table, find_chart, read_chart, read_chart_file
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, Chart, LevelChart, chart, level_chart
 from evenbreak.handicaps.charts.rows import ChartRow

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.files.csv_writer import FORMULA_STARTS, csv_lines, to_csv, undefused
-from evenbreak.files.player_names import clean_name, is_name
+from evenbreak.files.tables.names import clean_name, is_name
 
 
 def test_every_kind_of_value():

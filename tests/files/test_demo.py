@@ -15,7 +15,7 @@ from evenbreak.cli.program import program
 from evenbreak.errors import DataError
 from evenbreak.files import demo
 from evenbreak.files.demo import DEMO, EVENING, write_demo, write_demo_evening
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 from places import DATA, ROOT
 from web.phones import Phone, running
 

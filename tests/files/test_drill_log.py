@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
-from evenbreak.files.drill_log import OPTIONAL, REQUIRED, WORDS, read_drill_log
+from evenbreak.files.practice import OPTIONAL, REQUIRED, WORDS, read_drill_log
 from places import DOCS
 
 

@@ -16,9 +16,9 @@ from click.testing import CliRunner, Result
 
 from evenbreak.cli.program import program
 from evenbreak.errors import DataError
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
+from files.foreign.test_saved_tournament import challonge, cuescore
 from files.mutants import VALUES
-from files.test_saved_tournament import challonge, cuescore
 from places import ROOT
 from tournament_nights import SAVED, night
 from tries import tries

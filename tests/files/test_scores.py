@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.scores import read_scores
+from evenbreak.files.practice import read_scores
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings import covariance as covariance_module
 from places import DATA

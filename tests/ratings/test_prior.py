@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.prior import AS_GOOD, WIDTHS

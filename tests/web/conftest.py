@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import pytest
 
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
 from web.chromium import browser as browser

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.tournament_store import add_events, read_events
+from evenbreak.files.store.tournament import add_events, read_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from web.conftest import Hall

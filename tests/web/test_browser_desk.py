@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.tournament_store import add_events
+from evenbreak.files.store.tournament import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from web.chromium import opened

@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 from evenbreak.web.site import Site
 from terminal import on_a_terminal
 from web.chromium import opened

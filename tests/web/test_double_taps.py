@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import read_events, read_tournament
 from evenbreak.web.app import make_app
 from evenbreak.web.once import OF_THE_SESSION
 from evenbreak.web.site import Site

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.match_phones import phone_entries
-from evenbreak.files.tournament_desk import kept_prizes
-from evenbreak.files.tournament_store import (
+from evenbreak.files.store.desk import kept_prizes, phone_entries
+from evenbreak.files.store.tournament import (
     add_events,
     new_tournament,
     read_events,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.store.tournament import read_events
 from evenbreak.web import night
 from evenbreak.web.site import Site
 from web.conftest import Hall

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from evenbreak.files.csv_writer import FORMULA_STARTS, undefused
-from evenbreak.files.player_names import clean_name, is_name, same_name
+from evenbreak.files.tables.names import clean_name, is_name, same_name
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site
 from tries import tries

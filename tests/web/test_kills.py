@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.tournament_desk import back_up, kept_secrets
-from evenbreak.files.tournament_store import new_tournament, read_tournament
+from evenbreak.files.store.desk import back_up, kept_secrets
+from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
 from tries import tries

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.results import read_results
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.results.results_file import read_results
+from evenbreak.files.store.tournament import read_tournament
 from evenbreak.ratings import usual
 from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.usual import usual_ratings

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 from tries import tries
 from web.conftest import Hall, begun
 from web.phones import Phone, Shown, running, two_phones

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 from web.phones import Phone, running
 
 NAMES = ["Tom and Jerry", "W1.1/Final", "Bo beat Ann 7:5", "winner of W1.1", "Jr. Smith", "Al in F"]

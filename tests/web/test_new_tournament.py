@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.tournament_store import new_tournament, read_tournament
+from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.opening import FORMATS
 from web.conftest import PLAYERS, Hall, begun

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.files.store.tournament import read_events, read_tournament
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site

@@ -11,14 +11,14 @@ from urllib.parse import urlsplit
 import pytest
 from starlette.requests import Request
 
-from evenbreak.files.tournament_store import new_tournament
+from evenbreak.files.store.tournament import new_tournament
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web import guard, server
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_tries
 from evenbreak.web.site import Site
-from files.test_hostile_workbooks import Make, cut, huge_row, repeated_columns, wide_cell
+from files.tables.test_hostile_workbooks import Make, cut, huge_row, repeated_columns, wide_cell
 from web.conftest import Hall, begun
 from web.phones import Phone, running
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.match_phones import phone_entries
-from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.store.desk import phone_entries
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import read_events
 from evenbreak.web.app import make_app
 from evenbreak.web.night import Night
 from evenbreak.web.once import OF_THE_SESSION

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from starlette.requests import Request
 
-from evenbreak.files.match_phones import CLAIMED, Entry, enter, phone_entries
-from evenbreak.files.tournament_store import add_events, read_tournament
+from evenbreak.files.store.desk import CLAIMED, Entry, enter, phone_entries
+from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening

@@ -14,8 +14,8 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_store import new_tournament, read_tournament
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.match_phones import PROPOSED, phone_entries
-from evenbreak.files.team_night_store import read_team_events
-from evenbreak.files.tournament_store import (
+from evenbreak.files.store.desk import PROPOSED, phone_entries
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import (
     add_events,
     new_tournament,
     read_events,
@@ -41,7 +41,7 @@ COMMANDS = """
 import sys
 from click.testing import CliRunner
 from evenbreak.cli.program import program
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.tournament import read_tournament
 path = sys.argv[1]
 print("ready", flush=True)
 while True:
@@ -52,8 +52,8 @@ while True:
 BACKUPS = """
 import sys
 from datetime import datetime
-from evenbreak.files.tournament_desk import back_up
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.desk import back_up
+from evenbreak.files.store.tournament import read_tournament
 path = sys.argv[1]
 print("ready", flush=True)
 while True:
@@ -63,8 +63,8 @@ while True:
 """
 HOLDS = """
 import sys
-from evenbreak.files.evening_file import opened
-from evenbreak.files.tournament_store import read_tournament
+from evenbreak.files.store.evening_file import opened
+from evenbreak.files.store.tournament import read_tournament
 path = sys.argv[1]
 read_tournament(path)
 with opened(path) as base:

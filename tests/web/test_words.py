@@ -8,7 +8,7 @@ from string import Formatter
 
 import pytest
 
-from evenbreak.files import evening_file
+from evenbreak.files.store import evening_file
 from evenbreak.tournaments.evening.opening import FORMATS_WITH
 from evenbreak.web.words import LANGUAGES, catalogue
 from evenbreak.web.words.sentences import in_language, patterns

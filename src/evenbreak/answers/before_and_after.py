@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats.compare import Comparison, Scores
 
 TWO = decimals(2)
@@ -41,7 +41,7 @@ def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Compar
         their comparison.
 
     >>> import numpy as np
-    >>> from evenbreak.files.scores import ScoresFile
+    >>> from evenbreak.files.practice import ScoresFile
     >>> from evenbreak.stats import compare
     >>> old = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
     >>> files = [ScoresFile(scores, None, "s.csv", ()) for scores in (old, old + 2)]

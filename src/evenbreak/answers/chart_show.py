@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.wording import race, range_words
-from evenbreak.files.chart import chart_table
+from evenbreak.files.charts import chart_table
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.points_chart import PointsChart

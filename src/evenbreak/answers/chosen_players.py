@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 
 from evenbreak.errors import InputError
-from evenbreak.files.known_names import KnownNames
-from evenbreak.files.player_names import clean_name
-from evenbreak.files.problems import quoted
+from evenbreak.files.tables.names import KnownNames, clean_name
+from evenbreak.files.tables.problems import quoted
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster

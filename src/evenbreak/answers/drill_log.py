@@ -8,7 +8,7 @@ from evenbreak.answers.drill import GAIN_WORDS, amount, better, spread
 from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
 from evenbreak.answers.simulated import luck_words
 from evenbreak.answers.wording import chance, count_of, decimals
-from evenbreak.files.drill_log import DrillLogFile
+from evenbreak.files.practice import DrillLogFile
 from evenbreak.practice.log_analysis import LogAnalysis
 from evenbreak.practice.log_tests import PlayedAgainTest
 

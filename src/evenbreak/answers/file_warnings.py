@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from evenbreak.answers.file_words import file_name
 from evenbreak.answers.remarks import Remark
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
 
 
 def warnings_of(

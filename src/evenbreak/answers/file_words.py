@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from evenbreak.answers.wording import listed
 
 if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
-    from evenbreak.files.roster import RosterFile
+    from evenbreak.files.lists.roster import RosterFile
+    from evenbreak.files.results.results_file import ResultsFile
 
 
 def file_name(file: ResultsFile | RosterFile) -> str:

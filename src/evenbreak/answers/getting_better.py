@@ -6,7 +6,7 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Part, Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, luck_words, percent
 from evenbreak.arrays import Floats
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats.confidence import MeanInterval, mean_interval, sd_of
 from evenbreak.stats.trend import Trend, TrendLine, trend, trend_line
 
@@ -24,7 +24,7 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
     """Return whether scores rise or fall over time, and what they average.
 
     >>> import numpy as np
-    >>> from evenbreak.files.scores import ScoresFile
+    >>> from evenbreak.files.practice import ScoresFile
     >>> weeks = np.arange("2024-09-02", "2024-11-04", 7, dtype="M8[D]")
     >>> rising = ScoresFile(np.array([44.0, 45, 47, 46, 48, 49, 49, 51, 52]), weeks, "s.csv", ())
     >>> print(getting_better_answer(rising).sentences[0])

@@ -38,7 +38,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
 
     >>> import numpy as np
     >>> from evenbreak.answers.roster_matchups import all_pairs
-    >>> from evenbreak.files.roster import RosterFile
+    >>> from evenbreak.files.lists.roster import RosterFile
     >>> from evenbreak.handicaps import chart
     >>> from evenbreak.ratings import SCALES
     >>> from evenbreak.ratings.roster import Roster

@@ -3,7 +3,7 @@
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Quantities, Quantity, statistic
 from evenbreak.answers.wording import chance, count_of, decimals, how_often, luck_words
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.stats.confidence import Luck, mean_interval, was_it_luck
 
 TWO = decimals(2)
@@ -22,7 +22,7 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
         of the interval of the average.
 
     >>> import numpy as np
-    >>> from evenbreak.files.scores import ScoresFile
+    >>> from evenbreak.files.practice import ScoresFile
     >>> earlier = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
     >>> print(new_score_answer(ScoresFile(earlier, None, "s.csv", ()), 53).sentences[0])
     53 is 4.80 above your average, and this may well be luck: if nothing has changed, a score this

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 
-from evenbreak.files.problems import Problems, quoted
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
-from evenbreak.files.similar_names import similar_names
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.night_problems import night_problems
 from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results

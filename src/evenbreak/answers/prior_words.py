@@ -5,7 +5,7 @@ from typing import Any
 
 from evenbreak.answers.parts import Column, Part, Show, Table
 from evenbreak.answers.wording import count_of, decimals, listed
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED

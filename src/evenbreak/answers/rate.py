@@ -19,7 +19,7 @@ from evenbreak.answers.prior_words import (
 )
 from evenbreak.answers.scale_words import like_scale_words
 from evenbreak.answers.wording import count_of, decimals, listed, percent, signed
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 
@@ -52,7 +52,7 @@ def rate_answer(
     warnings
         what else may be wrong.
 
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> night = Results.from_names(["Ann"], ["Bo"], [7], [4])
     >>> answer = rate_answer(ResultsFile(night, "r.csv", (), (), ""), fit(night), pairs=[(0, 1)])

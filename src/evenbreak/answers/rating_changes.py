@@ -11,9 +11,9 @@ from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Part, Table
 from evenbreak.answers.season_nights import count_dates
 from evenbreak.answers.wording import count_of, some_of
-from evenbreak.files.problems import quoted
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.files.tables.problems import quoted
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.rating_changes import MatchChange, RatingChanges
 from evenbreak.ratings.roster import NOT_STATED

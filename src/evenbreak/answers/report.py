@@ -40,7 +40,7 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
         how many players the face lists with their ratings, if it lists others than those.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")

@@ -7,7 +7,7 @@ from evenbreak import __version__
 from evenbreak.answers.file_words import file_name, fingerprints
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.scale_words import like_scale_words
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.errors import InputError
-from evenbreak.files.problems import Problems, quoted
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.given_ratings import (
     MOST_DOUBLINGS,

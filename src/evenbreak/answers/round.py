@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.roster_matchups import RosterMatchups, roster_matchups
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_scale import LevelScale

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from evenbreak.answers.night_results import rating_changes_of_files
 from evenbreak.answers.wording import count_of
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.rating_changes import RatingChanges
 from evenbreak.handicaps.systems.system import System

@@ -15,7 +15,7 @@ from evenbreak.answers.offered_races import OfferedRaces
 from evenbreak.answers.report_frames import summary_frame
 from evenbreak.answers.sure_pairs import SurePair, sure_pairs
 from evenbreak.answers.wording import race
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 

@@ -86,7 +86,7 @@ def how_rated(sheet: Sheet) -> str:
     """Return where ratings start, and what old matches count.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
     >>> ratings = fit(season, half_life=180, as_of="2026-02-01")

@@ -14,7 +14,7 @@ from evenbreak.answers.scale_words import scale_words
 from evenbreak.answers.starters import games_words
 from evenbreak.answers.wording import count_of, some_of
 from evenbreak.arrays import Floats
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale

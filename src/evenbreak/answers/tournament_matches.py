@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.wording import count_of
-from evenbreak.files.event_list import TITLES, event_rows
+from evenbreak.files.store.tournament import TITLES, event_rows
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import played_matches

@@ -52,7 +52,7 @@ def tournament_odds_answer(
     warnings
         about the question.
 
-    >>> from evenbreak.files.roster import RosterFile
+    >>> from evenbreak.files.lists.roster import RosterFile
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.tournaments import Races, double_elimination
     >>> club = Roster(["Ann", "Bo", "Cy", "Di"], [640, 600, 560, 520])

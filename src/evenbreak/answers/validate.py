@@ -12,7 +12,7 @@ from evenbreak.answers.validate_remarks import remarks
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
 from evenbreak.answers.wording import count_of, percent
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
@@ -39,7 +39,7 @@ def validate_answer(
     chart
         what `league_chart` found in the same results.
 
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, scale_of, validate
     >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])

@@ -13,7 +13,7 @@ from evenbreak.answers.parts import Column, Table
 from evenbreak.answers.prior_words import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.scale_words import decimals_of, like_scale_words
 from evenbreak.answers.wording import chance, percent, race
-from evenbreak.files.results import ResultsFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.rating_sources import rating_sources

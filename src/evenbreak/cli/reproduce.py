@@ -28,7 +28,7 @@ def command(out: str) -> Answer:
     from collections import Counter
 
     from evenbreak.answers.reproduction import reproduction_answer
-    from evenbreak.files.folder import check_folder, write_files
+    from evenbreak.files.store.folder import check_folder, write_files
     from evenbreak.source_text.findings import differing
     from evenbreak.source_text.reproduce import all_findings, reproduction
 

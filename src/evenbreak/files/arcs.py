@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import DataError
-from evenbreak.files.cells import numbers
-from evenbreak.files.problems import quoted
-from evenbreak.files.text_table import Texts, TextTable, read_table
+from evenbreak.files.tables.cells import numbers
+from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.table import Texts, TextTable, read_table
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -9,9 +9,8 @@ from importlib.resources import files
 from pathlib import Path
 
 from evenbreak.errors import DataError
-from evenbreak.files.event_list import read_event_list
-from evenbreak.files.folder import write_files
-from evenbreak.files.tournament_store import new_tournament
+from evenbreak.files.store.folder import write_files
+from evenbreak.files.store.tournament import new_tournament, read_event_list
 from evenbreak.tournaments.evening.fold import Evening
 
 DEMO: Mapping[str, str] = {

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from evenbreak.files.scores import ScoresFile
+from evenbreak.files.practice import ScoresFile
 from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, legend_below, new_axes
 from evenbreak.stats.confidence import MeanInterval
@@ -64,7 +64,7 @@ def plot_scores(
         the axes to draw on, which are returned; None: those of a new figure, which is.
 
     >>> import numpy as np
-    >>> from evenbreak.files.scores import ScoresFile
+    >>> from evenbreak.files.practice import ScoresFile
     >>> figure = plot_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
     >>> [text.get_text() for text in figure.legends[0].get_texts()]
     ['scores', 'mean 47.00']

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from evenbreak.files.problems import printable
+from evenbreak.files.tables.problems import printable
 from evenbreak.plots.picture import Picture, in_our_look
 from evenbreak.plots.style import LINES, legend_below, new_axes
 

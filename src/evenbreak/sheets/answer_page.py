@@ -15,8 +15,8 @@ from evenbreak.answers.file_warnings import warnings_of
 from evenbreak.answers.file_words import fingerprints
 from evenbreak.answers.parts import Part, Table
 from evenbreak.answers.remarks import Remarks
-from evenbreak.files.results import ResultsFile
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.sheets.html_page import html_page
 
 

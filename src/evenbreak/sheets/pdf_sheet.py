@@ -72,7 +72,7 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")

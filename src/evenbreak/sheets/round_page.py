@@ -53,7 +53,7 @@ def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
         if there are more than 500 listed matches, or all pairs of more than 48 players.
 
     >>> from evenbreak.answers.roster_matchups import all_pairs
-    >>> from evenbreak.files.roster import RosterFile
+    >>> from evenbreak.files.lists.roster import RosterFile
     >>> from evenbreak.handicaps import chart
     >>> from evenbreak.ratings import SCALES
     >>> from evenbreak.ratings.roster import Roster

@@ -34,7 +34,7 @@ def sheet_html(sheet: Sheet) -> bytes:
         as a mark, since HTML cannot hold it.
 
     >>> from evenbreak.answers.offered_races import OfferedRaces
-    >>> from evenbreak.files.results import ResultsFile
+    >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")

@@ -43,10 +43,10 @@ def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
     import segno
 
     from evenbreak.errors import EvenbreakError
-    from evenbreak.files.evening_file import TOURNAMENT, holds
-    from evenbreak.files.team_night_store import read_team_events
-    from evenbreak.files.tournament_desk import back_up
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.desk import back_up
+    from evenbreak.files.store.evening_file import TOURNAMENT, holds
+    from evenbreak.files.store.team_night import read_team_events
+    from evenbreak.files.store.tournament import read_tournament
     from evenbreak.web.server import server_of
     from evenbreak.web.site import Site
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from evenbreak.answers.scale_doubts import far_doubts
-from evenbreak.files.player_names import clean_name, is_name
-from evenbreak.files.roster import LARGEST
+from evenbreak.files.lists.roster import LARGEST
+from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from evenbreak.errors import DataError, EvenbreakError
-from evenbreak.files.folder import write_files
+from evenbreak.files.store.folder import write_files
 from evenbreak.ratings.scale import SCALES, Scale, scale_of
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
 from evenbreak.web.beside import Beside
@@ -82,7 +82,7 @@ class League:
         DataError
             with every problem of the results.
         """
-        from evenbreak.files.results import read_results
+        from evenbreak.files.results.results_file import read_results
 
         read_upload(content, read_results)
         name = f"{self.beside.stem}.league-{begun:%Y%m%d-%H%M%S}.csv"
@@ -98,7 +98,7 @@ class League:
         DataError
             with every problem of the results; earlier ones are then kept.
         """
-        from evenbreak.files.results import read_results
+        from evenbreak.files.results.results_file import read_results
 
         read_upload(content, read_results)
         ending = ending_of(content)
@@ -168,7 +168,7 @@ class League:
         from evenbreak.answers.chosen_players import most_active
         from evenbreak.answers.offered_races import OfferedRaces
         from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
-        from evenbreak.files.several_results import read_seasons
+        from evenbreak.files.results.results_file import read_seasons
         from evenbreak.ratings.usual import usual_ratings
 
         paths = self.paths

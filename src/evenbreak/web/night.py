@@ -19,10 +19,10 @@ from typing import Any
 
 from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
 from evenbreak.errors import InputError
-from evenbreak.files.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
-from evenbreak.files.match_phones import TABLE as PHONES
-from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
-from evenbreak.files.tournament_store import read_events, tournament_of
+from evenbreak.files.store.desk import TABLE as PHONES
+from evenbreak.files.store.desk import keep_prizes, kept_prizes
+from evenbreak.files.store.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
+from evenbreak.files.store.tournament import read_events, tournament_of
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook

@@ -17,7 +17,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
-from evenbreak.files.tournament_store import TakenBeforeError
+from evenbreak.files.store.tournament import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import begun_at, done, language
 from evenbreak.web.refusals import RefusalError

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from evenbreak.errors import DataError
-from evenbreak.files.evening_file import is_there
-from evenbreak.files.tournament_desk import change_secrets, kept_secrets, new_pin
+from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
+from evenbreak.files.store.evening_file import is_there
 from evenbreak.web.beside import Made
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, mark_of, now

@@ -12,9 +12,9 @@ from evenbreak.answers.scale_doubts import league_doubts
 from evenbreak.answers.starters import starters_words
 from evenbreak.answers.wording import some_of
 from evenbreak.errors import DataError
-from evenbreak.files.player_names import clean_name, is_name
-from evenbreak.files.roster import refuse_to_read
-from evenbreak.files.team_list import TeamList, read_team
+from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.files.lists.teams import TeamList, read_team
+from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of

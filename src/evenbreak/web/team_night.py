@@ -14,7 +14,7 @@ from starlette.requests import Request
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.lineup import lineup_answer
 from evenbreak.answers.sealed_lineup import sealed_answer
-from evenbreak.files.team_night_store import read_team_events, team_night_of
+from evenbreak.files.store.team_night import read_team_events, team_night_of
 from evenbreak.teams.advice import Advice, advice
 from evenbreak.teams.evening.events import Event
 from evenbreak.teams.evening.fold import TeamEvening

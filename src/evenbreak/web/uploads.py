@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from evenbreak.errors import DataError
-from evenbreak.files.roster import RosterFile
+from evenbreak.files.lists.roster import RosterFile
 from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError
 

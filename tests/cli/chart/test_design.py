@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from evenbreak.files.chart import read_chart
+from evenbreak.files.charts import read_chart
 from evenbreak.games import winner_breaks
 from evenbreak.handicaps import MatchRules, RaceLimits, chart, design, measure_chart, nearest_chart
 

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.store.tournament import read_events
 
 ENTRANTS = "player,rating\nAnn,720\nBo,705\nCy,660\nDi,655\nEd,\n"
 

@@ -17,7 +17,7 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from evenbreak.files.tournament_store import read_events, read_tournament
+from evenbreak.files.store.tournament import read_events, read_tournament
 from files.mutants import VALUES
 from places import ROOT
 from tournament_nights import SAVED
@@ -99,7 +99,7 @@ def test_a_kill_leaves_no_half_file(words: tuple[Any, ...], tmp_path: Path) -> N
     out, luck = tmp_path / "tonight.db", random.Random(3)
     code = f"""
 import sys
-from evenbreak.files import evening_file
+from evenbreak.files.store import evening_file
 whole = evening_file._placed
 def late(part, place):
     print("whole", flush=True)

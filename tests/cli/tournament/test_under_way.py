@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.store.tournament import read_events
 from places import ROOT
 
 SAVED = ROOT / "tests" / "files" / "saved"

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
-from evenbreak.files.results import read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.rating_changes import apply_results

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from evenbreak.answers.parts import Column, Quantities, Table
 from evenbreak.answers.remarks import Remark, Remarks
-from evenbreak.files.problems import printable
+from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer

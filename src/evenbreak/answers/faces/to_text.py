@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.parts import Quantities, Table
-from evenbreak.files.problems import printable
+from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
     from evenbreak.answers.answer import Answer

@@ -36,7 +36,7 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
     and overlaps. The plot shows the stronger player's chance by rating difference.
     """
     from evenbreak.answers.chart_audit import chart_audit_answer, level_audit_answer
-    from evenbreak.files.chart import find_chart_file
+    from evenbreak.files.charts import find_chart_file
 
     if beside is not None and plot is None:
         refuse("--beside adds a chart to the plot; give --plot FILE, or leave --beside out")
@@ -65,7 +65,7 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
 
 def other_chart(chart: str, scale: Scale) -> handicaps.ChartAudit:
     """Return the audit of the chart beside, on the same scale if it was made for about that."""
-    from evenbreak.files.chart import find_chart_file
+    from evenbreak.files.charts import find_chart_file
 
     found = find_chart_file(chart).found
     if not isinstance(found, handicaps.ChartDraft):

@@ -23,7 +23,7 @@ def command(chart: str) -> Answer:
     a file the chart is written as such a CSV file, which you can edit and use.
     """
     from evenbreak.answers.chart_show import chart_show_answer
-    from evenbreak.files.chart import find_chart_file
+    from evenbreak.files.charts import find_chart_file
 
     file = find_chart_file(chart)
     return chart_show_answer(file.chart, warnings=file.warnings)

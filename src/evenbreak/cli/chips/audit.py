@@ -36,6 +36,6 @@ def command(*, chart: str, field: ChipField, warnings: list[str], seed: int) -> 
     ratings are taken as right.
     """
     from evenbreak.answers.chips import chip_audit_answer
-    from evenbreak.files.chip_chart import chip_chart_of
+    from evenbreak.files.charts import chip_chart_of
 
     return chip_audit_answer(field, chip_chart_of(chart), seed=seed, warnings=warnings)

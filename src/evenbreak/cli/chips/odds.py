@@ -48,7 +48,7 @@ def command(
     The tournament is played out 10,000 times. The ratings are taken as right.
     """
     from evenbreak.answers.chips import chip_odds_answer
-    from evenbreak.files.chip_chart import chip_chart_of
+    from evenbreak.files.charts import chip_chart_of
 
     if (chart is None) == (left is None):
         refuse("give one of --chart NAME and --left NAME=CHIPS,...")

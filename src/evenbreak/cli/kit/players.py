@@ -66,7 +66,7 @@ def _named(
     from evenbreak.answers.starters import games_words
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
     from evenbreak.cli.kit.terminal import say
-    from evenbreak.files.roster import read_roster
+    from evenbreak.files.lists.roster import read_roster
     from evenbreak.ratings.roster import NOT_STATED, Roster
 
     if len(names) != 2:

@@ -75,7 +75,7 @@ def refuse_other_scale(
         whether the user stated the scale, which then is not doubted and may be of skill levels.
     """
     from evenbreak.answers.scale_words import scale_words
-    from evenbreak.files.roster import refuse_to_read
+    from evenbreak.files.lists.roster import refuse_to_read
 
     if file.scale is not None and not file.scale.same_points(scale):
         refuse(
@@ -115,7 +115,7 @@ def chart_by_difference(option: str, name: str) -> handicaps.Chart:
 
 def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:
     """Return the chart of --chart (None: the system's own), and warnings about it."""
-    from evenbreak.files.chart import find_chart_file
+    from evenbreak.files.charts import find_chart_file
 
     if name is None:
         chart: Any = system.usual_chart()

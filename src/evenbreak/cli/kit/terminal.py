@@ -10,7 +10,7 @@ from evenbreak.answers.faces.to_text import WIDTH, paragraph
 from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.progress import erase
 from evenbreak.cli.kit.values import refuse
-from evenbreak.files.problems import printable
+from evenbreak.files.tables.problems import printable
 
 
 def to_terminal() -> bool:
@@ -27,7 +27,7 @@ def write(text: str) -> None:
 
 def write_file(path: str, content: bytes) -> None:
     """Write the file that an option names, and say so."""
-    from evenbreak.files.folder import write_files
+    from evenbreak.files.store.folder import write_files
 
     place = Path(path)
     # The option itself is one that names it.
@@ -40,7 +40,7 @@ def write_file(path: str, content: bytes) -> None:
 
 def write_folder(out: str, files: Mapping[str, bytes]) -> None:
     """Write files into the folder of --out, and say so."""
-    from evenbreak.files.folder import write_files
+    from evenbreak.files.store.folder import write_files
 
     for name in files:
         for given in _named_by(Path(out, name)):

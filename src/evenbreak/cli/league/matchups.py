@@ -26,7 +26,7 @@ from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.files.roster import refuse_to_read
+from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ def command(
 
 
 def _chart(name: str) -> tuple[AnyChart, list[str]]:
-    from evenbreak.files.chart import find_chart_file
+    from evenbreak.files.charts import find_chart_file
 
     file = find_chart_file(name)
     if isinstance(file.chart, handicaps.PointsChart):
@@ -228,7 +228,7 @@ def _pairs(
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.roster_matchups import all_pairs
-    from evenbreak.files.pairs import read_pairs
+    from evenbreak.files.lists.fixtures import read_pairs
 
     if path is not None:
         file = read_pairs(path, roster)

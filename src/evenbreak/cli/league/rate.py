@@ -172,7 +172,7 @@ def _rate(
 def _save(path: str, file: files.ResultsFile, ratings: Ratings) -> None:
     """Write the ratings, with which the next season can begin."""
     from evenbreak.cli.kit.terminal import write_file
-    from evenbreak.files.saved_ratings import saved_csv
+    from evenbreak.files.lists.saved_ratings import saved_csv
     from evenbreak.ratings.decay import last_day
 
     day = ratings.as_of or last_day(file.results)

@@ -12,8 +12,8 @@ from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     from evenbreak.answers.offered_races import OfferedRaces
-    from evenbreak.files.date_cells import DateOrder
-    from evenbreak.files.results import ResultsFile
+    from evenbreak.files.results.results_file import ResultsFile
+    from evenbreak.files.tables.cells import DateOrder
     from evenbreak.ratings.beginning import Beginning
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
@@ -44,7 +44,7 @@ def read_day(text: str, order: DateOrder | None = None) -> str:
     """
     import numpy as np
 
-    from evenbreak.files.date_cells import is_two_dates, read_date
+    from evenbreak.files.tables.cells import is_two_dates, read_date
 
     day = read_date(text.strip(), order)
     if day is None:
@@ -164,7 +164,7 @@ def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
     from evenbreak.answers.scale_doubts import league_doubts
     from evenbreak.errors import InputError
-    from evenbreak.files.saved_ratings import read_saved
+    from evenbreak.files.lists.saved_ratings import read_saved
     from evenbreak.ratings.unstated_scale import refuse_contradicted
 
     saved = read_saved(path, scale, file.results.players)

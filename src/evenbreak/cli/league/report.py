@@ -25,12 +25,12 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.league.rate_options import how_to_rate, offered_races, rated
-from evenbreak.files.player_names import clean_name, is_name
-from evenbreak.files.problems import quoted
+from evenbreak.files.tables.names import clean_name, is_name
+from evenbreak.files.tables.problems import quoted
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.files.results import ResultsFile
+    from evenbreak.files.results.results_file import ResultsFile
 
 
 MOST_PAIRED = 1000
@@ -147,7 +147,7 @@ def command(
         from evenbreak.sheets.workbook import check_workbook
 
         check_workbook()
-    from evenbreak.files.folder import check_folder
+    from evenbreak.files.store.folder import check_folder
 
     check_folder(out)
     named = ["standard input" if path == "-" else path for path in results]

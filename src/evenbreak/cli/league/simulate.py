@@ -138,8 +138,8 @@ def command(
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.season import season_answer
     from evenbreak.answers.season_tables import season_tables
-    from evenbreak.files.folder import check_folder
-    from evenbreak.files.league import read_league
+    from evenbreak.files.lists.league import read_league
+    from evenbreak.files.store.folder import check_folder
 
     refuse_contradictions(roster, jobs, cluster, played)
     file = read_league(roster, day_sd=played["day_sd"])

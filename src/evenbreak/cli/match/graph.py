@@ -100,7 +100,7 @@ def command(
     """
     from evenbreak.answers.graph import graph_answer
     from evenbreak.answers.road import road_of
-    from evenbreak.files.folder import check_folder
+    from evenbreak.files.store.folder import check_folder
 
     if p is not None and (p1 is not None or p2 is not None):
         refuse("--p cannot be combined with --p1 and --p2; leave it out")
@@ -137,8 +137,8 @@ def command(
 
 def _is_file(name: str) -> bool:
     """Return whether a name is that of a file with a chain, and not with a chart."""
-    from evenbreak.files.chain_forms import OTHER_FORMS
-    from evenbreak.files.chart import is_chart
+    from evenbreak.files.chain_files import OTHER_FORMS
+    from evenbreak.files.charts import is_chart
 
     form = Path(name).suffix.lower()
     if name == "-" or form in (".graphml", ".json", ".mtx", ".xml", *OTHER_FORMS):

@@ -16,7 +16,7 @@ from evenbreak.errors import DataError
 from evenbreak.stats.confidence import LARGEST
 
 if TYPE_CHECKING:
-    from evenbreak.files.scores import ScoresFile
+    from evenbreak.files.practice import ScoresFile
 
 
 SCORE = Number(-LARGEST, LARGEST, " is not a score; give a number, such as 53")
@@ -61,7 +61,7 @@ def command(
     With --new: was one more score luck? With --versus: did something help? SCORES.csv has
     a column score and, if known, the columns date and drill; - reads standard input.
     """
-    from evenbreak.files.scores import read_scores
+    from evenbreak.files.practice import read_scores
 
     if new is not None and versus is not None:
         refuse("--new and --versus cannot be combined; leave one out")

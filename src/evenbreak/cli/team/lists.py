@@ -12,12 +12,12 @@ from evenbreak import handicaps, teams
 from evenbreak.cli.kit.options import SAY_WHICH, Command, chart_option, with_options
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.files.roster import refuse_to_read
+from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.ratings.unstated_scale import unstated_scale
 from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 if TYPE_CHECKING:
-    from evenbreak.files.team_list import TeamList
+    from evenbreak.files.lists.teams import TeamList
     from evenbreak.ratings.scale import Scale
 
 _AT_MOST = re.compile(r"\s*(\d+)\s*(?::|x|of)\s*(\d+(?:\.\d+)?)\s*\+?\s*", re.ASCII)

@@ -9,7 +9,7 @@ from evenbreak import ratings, teams
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.team.scores import check_score
-from evenbreak.files.known_names import KnownNames
+from evenbreak.files.tables.names import KnownNames
 from evenbreak.teams.meeting import SEALED
 from evenbreak.teams.order import LOSER, WINNER, order_of
 

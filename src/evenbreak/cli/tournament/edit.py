@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @faces()
 def command(*, player: str, name: str, rating: float | None, file: str, at: str) -> Answer:
     """Correct PLAYER's name or rating before the draw; they keep their place in the list."""
-    from evenbreak.files.player_names import NAME, clean_name, is_name
+    from evenbreak.files.tables.names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
 
     right = clean_name(name)

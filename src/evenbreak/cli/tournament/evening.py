@@ -117,7 +117,7 @@ def _moment(at: int | None, file: str | None) -> str:
 
 def _last(file: str) -> datetime:
     """Return when something happened last."""
-    from evenbreak.files.tournament_store import read_events
+    from evenbreak.files.store.tournament import read_events
 
     return datetime.fromisoformat(read_events(file)[-1].at)
 
@@ -155,7 +155,7 @@ def add(
     meant.
     """
     from evenbreak.answers.tournament_moves import lost_words
-    from evenbreak.files.tournament_store import add_events
+    from evenbreak.files.store.tournament import add_events
     from evenbreak.tournaments.evening.events import Event
 
     def events(state: Evening) -> list[Event]:
@@ -179,7 +179,7 @@ def answer_of(file: str, state: Evening, at: str, said: Sequence[str] = ()) -> A
 
 def outlook_of(file: str, at: str) -> Outlook:
     """Return what is to be expected of the tournament in a file; refuse one without a draw."""
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
 
     if not Path(file).exists():

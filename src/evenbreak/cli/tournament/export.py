@@ -38,7 +38,7 @@ def command(*, file: str, out: str | None, events: bool) -> Answer:
         tournament_events_answer,
         tournament_matches_answer,
     )
-    from evenbreak.files.tournament_store import read_events, read_tournament
+    from evenbreak.files.store.tournament import read_events, read_tournament
 
     name = PurePath(file).stem
     if events:

@@ -72,10 +72,9 @@ def command(
     from evenbreak.answers.starters import games_words
     from evenbreak.answers.tournament import unrated_words
     from evenbreak.answers.wording import count_of
-    from evenbreak.files.evening_file import is_database
-    from evenbreak.files.event_list import is_event_list, read_event_list
-    from evenbreak.files.saved_tournament import read_saved_tournament
-    from evenbreak.files.tournament_store import new_tournament
+    from evenbreak.files.foreign.tournament import read_saved_tournament
+    from evenbreak.files.store.evening_file import is_database
+    from evenbreak.files.store.tournament import is_event_list, new_tournament, read_event_list
     from evenbreak.ratings.scale import SCALES
     from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
     from evenbreak.tournaments.evening.events import Entrant, Plan

@@ -34,7 +34,7 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
 
     from evenbreak.answers.scale_doubts import far_doubts
     from evenbreak.answers.tournament_moves import entry_words
-    from evenbreak.files.player_names import NAME, clean_name, is_name
+    from evenbreak.files.tables.names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
     from evenbreak.tournaments.evening.events import Entrant
 

@@ -57,7 +57,7 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
 
     import numpy as np
 
-    from evenbreak.files.tournament_store import new_tournament
+    from evenbreak.files.store.tournament import new_tournament
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
     from evenbreak.tournaments.evening.fold import ELIMINATIONS, evening
     from evenbreak.tournaments.evening.opening import opened

@@ -32,7 +32,7 @@ def command(*, prizes: str | None, file: str, at: str) -> Answer:
     called first. In a chip tournament it shows who is at which table and who is next in the line.
     """
     from evenbreak.answers.tournament_night import night_answer
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
 
     state = read_tournament(file)

@@ -26,7 +26,7 @@ from evenbreak.cli.tournament.checked_options import (
     refuse_of_other_formats,
     refuse_races,
 )
-from evenbreak.files.chip_chart import chip_chart_of
+from evenbreak.files.charts import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan

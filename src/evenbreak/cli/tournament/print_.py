@@ -49,7 +49,7 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
     from evenbreak.answers.printed import printed_answer
     from evenbreak.answers.score_cards import score_cards
     from evenbreak.answers.wording import count_of
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.tournament import read_tournament
 
     state, name = read_tournament(file), PurePath(file).stem
     if state.plan.form == "chips":

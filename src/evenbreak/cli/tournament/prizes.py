@@ -13,7 +13,7 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import NUMBER, Number, refuse
 from evenbreak.cli.tournament.evening import at_option, file_option, outlook_of
 from evenbreak.errors import InputError
-from evenbreak.files.known_names import KnownNames
+from evenbreak.files.tables.names import KnownNames
 
 if TYPE_CHECKING:
     from evenbreak.tournaments import PrizeMoney
@@ -81,8 +81,8 @@ def command(
     bid at which it wins back what it costs.
     """
     from evenbreak.answers.tournament_prizes import calcutta_answer, tournament_prizes_answer
-    from evenbreak.files.tournament_desk import keep_prizes, kept_prizes
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.desk import keep_prizes, kept_prizes
+    from evenbreak.files.store.tournament import read_tournament
 
     state = read_tournament(file)
     entrants, name = len(state.entrants), PurePath(file).name

@@ -36,7 +36,7 @@ def command(*, out: str | None, file: str, at: str) -> Answer:
     Of a chip tournament it shows the tables, the line and everybody's chips.
     """
     from evenbreak.answers.tournament_night import bracket_table
-    from evenbreak.files.tournament_store import read_tournament
+    from evenbreak.files.store.tournament import read_tournament
 
     state = read_tournament(file)
     chips = state.plan.form == "chips"

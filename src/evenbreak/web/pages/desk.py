@@ -25,8 +25,8 @@ from evenbreak.answers.tournament_moves import (
     undone_words,
 )
 from evenbreak.answers.tournament_night import bracket_table
-from evenbreak.files.match_phones import phone_entries, sides_between
-from evenbreak.files.tournament_store import add_events
+from evenbreak.files.store.desk import phone_entries, sides_between
+from evenbreak.files.store.tournament import add_events
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result, What
 from evenbreak.tournaments.evening.fold import Evening, evening

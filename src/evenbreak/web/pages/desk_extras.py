@@ -14,9 +14,8 @@ from starlette.routing import Route
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.tournament_moves import history_words
 from evenbreak.answers.tournament_under_way import time_under_way
-from evenbreak.files.match_phones import ENTERED, phone_entries
-from evenbreak.files.tournament_desk import back_up
-from evenbreak.files.tournament_store import read_events
+from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
+from evenbreak.files.store.tournament import read_events
 from evenbreak.tournaments.evening.events import Undone
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook

@@ -16,11 +16,11 @@ from evenbreak.answers.starters import games_words
 from evenbreak.answers.tournament import unrated_words
 from evenbreak.answers.tournament_moves import entry_words
 from evenbreak.errors import EvenbreakError
-from evenbreak.files.chart import find_chart
-from evenbreak.files.entrants import read_entrants
-from evenbreak.files.roster import refuse_to_read
-from evenbreak.files.tournament_desk import back_up
-from evenbreak.files.tournament_store import add_events, new_tournament, read_events
+from evenbreak.files.charts import find_chart
+from evenbreak.files.lists.entrants import read_entrants
+from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.files.store.desk import back_up
+from evenbreak.files.store.tournament import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale

@@ -17,7 +17,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.files.match_phones import (
+from evenbreak.files.store.desk import (
     CLAIMED,
     ENTERED,
     PROPOSED,
@@ -28,7 +28,7 @@ from evenbreak.files.match_phones import (
     phone_entries,
     sides_between,
 )
-from evenbreak.files.tournament_store import add_events, read_tournament
+from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result
 from evenbreak.tournaments.evening.fold import Evening

@@ -11,7 +11,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.tournament_prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
-from evenbreak.files.tournament_desk import kept_prizes
+from evenbreak.files.store.desk import kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.web.forms import Form, form_of

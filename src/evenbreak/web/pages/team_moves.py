@@ -11,7 +11,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.files.team_night_store import add_team_events
+from evenbreak.files.store.team_night import add_team_events
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What
 from evenbreak.teams.evening.fold import TeamEvening

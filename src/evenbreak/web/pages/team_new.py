@@ -12,7 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.errors import EvenbreakError
-from evenbreak.files.team_night_store import add_team_events
+from evenbreak.files.store.team_night import add_team_events
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.scale import NAMES
 from evenbreak.teams.evening import moves

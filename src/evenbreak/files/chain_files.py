@@ -1,0 +1,346 @@
+"""A Markov chain as a file, read and written: arcs, GraphML, node-link JSON, Matrix Market.
+
+`networkx.read_graphml`, `networkx.node_link_graph` and `scipy.io.mmread` read what is written
+here, and so does `read_chain`. Every number is written with the digits that give it back exactly.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from evenbreak.chains.matrices import sums_to_1
+from evenbreak.errors import DataError
+from evenbreak.files.arcs import COLUMNS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
+from evenbreak.files.tables.problems import printable, quoted
+from evenbreak.files.tables.rows import content_of
+from evenbreak.files.tables.table import read_table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import networkx as nx
+    from scipy.sparse import csc_array
+
+    from evenbreak.chains.chain import Chain
+    from evenbreak.chains.matrices import Rows
+
+
+STATES = {"state": ("name", "node")}
+"""The column of a list of states, with its other names."""
+MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period", "limit"), ())
+"""Columns that it may have; `kind` says which state is the start, `winner` who has won there."""
+
+OTHER_FORMS = (".dot", ".gexf", ".gml", ".gv", ".gz", ".mat", ".net", ".npy", ".npz", ".pkl")
+"""What other programs write graphs and matrices to, and no table has for the end of its name."""
+
+MOST_MEGABYTES = 64
+"""The largest graph: some 200,000 states with three arcs each, or a gigabyte of memory."""
+
+
+def read_chain(
+    path: str | Path, *, states: str | Path | None = None, rows: Rows | None = None
+) -> ArcsFile:
+    r"""Read a chain; the end of its name says its form.
+
+    Parameters
+    ----------
+    path
+        `.graphml`, `.json` (node-link), `.mtx` (Matrix Market), or a table of arcs (see
+        `read_arcs`), as '-', standard input, always is.
+    states
+        a CSV file with the names of the states of a matrix, in its order; without it they are
+        numbered from 1.
+    rows
+        how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row holds
+        the chances into its state, so that the columns sum to 1, as in this package. None: 'to',
+        but a matrix whose rows alone sum to 1 is refused, and one whose rows and columns do is
+        read with a warning.
+
+    Raises
+    ------
+    DataError
+        with what is wrong in the file: its form, missing or wrong probabilities, arcs or states
+        listed twice, sums that are not 1.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "matrix.mtx"
+    ...     _ = path.write_text("%%MatrixMarket matrix coordinate real general\n2 2 3\n"
+    ...                         "1 1 0.75\n2 1 0.25\n1 2 1\n")
+    ...     read_chain(path).probabilities
+    array([0.75, 0.25, 1.  ])
+    """
+    form = PurePath(path).suffix.lower()
+    if form != ".mtx" and (states is not None or rows is not None):
+        option = "states" if states is not None else "rows"
+        raise DataError([f"{path}: only a Matrix Market file (.mtx) needs {option}; leave it out"])
+    if form == ".mtx":
+        return _of_matrix(path, states, rows)
+    if form in OTHER_FORMS:
+        _refuse(
+            str(path),
+            f"a {form} file is not read here; write the graph as GraphML (networkx.write_graphml), "
+            "the matrix in Matrix Market form (scipy.io.mmwrite), or the arcs as CSV",
+        )
+    if form in (".graphml", ".xml"):
+        return _of_graph(path, _graphml)
+    return _of_graph(path, _node_link) if form == ".json" else read_arcs(path)
+
+
+def _graphml(content: bytes) -> nx.Graph[Any]:
+    from xml.parsers import expat
+
+    import networkx as nx
+
+    def refuse(*_: object) -> None:
+        raise ValueError("it has a DOCTYPE, which could expand to more than the file holds")
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = refuse
+    parser.Parse(content, True)
+    return nx.read_graphml(io.BytesIO(content))
+
+
+def _node_link(content: bytes) -> nx.Graph[Any]:
+    import networkx as nx
+
+    data = json.loads(content.decode("utf-8-sig"))
+    if not isinstance(data, dict) or not isinstance(data.get("nodes"), list):
+        raise TypeError("it has no list of nodes")
+    name = "links" if "links" in data else "edges"  # networkx before 3.6 wrote links
+    if not isinstance(data.get(name), list):
+        raise TypeError("it has no list of edges")
+    for k, arc in enumerate(data[name], 1):
+        if not isinstance(arc, dict) or not {"source", "target"} <= arc.keys():
+            raise TypeError(f"arc {k} has no source or no target")
+    graph = nx.node_link_graph({"multigraph": False, **data}, edges=name)
+    if len(graph) > len(data["nodes"]):
+        stray = list(graph)[len(data["nodes"])]
+        raise ValueError(f"an arc leads from or to {stray!r}, which is not among the nodes")
+    if graph.number_of_edges() < len(data[name]) and graph.is_directed():
+        raise ValueError("an arc is listed twice")
+    return graph
+
+
+def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
+    source, content = content_of(path)
+    if len(content) > MOST_MEGABYTES << 20:
+        _refuse(source, f"is larger than {MOST_MEGABYTES} MB; write its arcs as CSV")
+    try:
+        graph = parsed(content)
+    except Exception as error:
+        form = "GraphML" if parsed is _graphml else "node-link JSON, with nodes and edges"
+        reason = printable(" ".join(str(error).split()))
+        _refuse(source, f"cannot be read as {form} ({reason}); check the file")
+    if not graph.is_directed() or graph.is_multigraph():
+        what = "is a multigraph" if graph.is_directed() else "is not directed"
+        _refuse(source, f"{what}; write a directed graph, with one arc from a state to another")
+    if not len(graph):
+        _refuse(source, "has no states; write a node for each")
+    names = ("probability", *COLUMNS["probability"], WEIGHT)
+    problems, triples = [], []
+    position = {state: k for k, state in enumerate(graph)}
+    for j, i, attributes in graph.edges(data=True):
+        chance: Any = next((attributes[name] for name in names if name in attributes), None)
+        if type(chance) not in (int, float) or not 0.0 <= chance <= 1.0:
+            given = "no probability" if chance is None else f"probability {chance!r:.40}"
+            weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
+            scaled = ", such as its weight divided by all that leave its source" * weighted
+            problems.append(
+                f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has {given}; give each "
+                f"arc a number from 0 to 1, named probability{scaled}"
+            )
+        triples.append((position[j], position[i], chance))
+    states = [str(state) for state in graph]
+    if len(set(states)) < len(states):
+        _refuse(source, "has two states that are written alike; give each a name of its own")
+    _raise_any(problems)
+    ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
+    sources, targets = ends.T
+    p = np.array([triple[2] for triple in triples], dtype=np.float64)
+    _raise_any(f"{source}: {text}" for text in sum_problems(states, sources, p).values())
+    nodes = dict(zip(states, graph.nodes.values(), strict=True))
+    starts = [state for state, node in nodes.items() if node.get("kind") == "start"]
+    if len(starts) > 1:
+        _refuse(source, f"has {len(starts)} nodes of the kind start; leave one")
+    start = starts[0] if starts else None
+    winners = _winners({state: node.get("winner") for state, node in nodes.items()}, source)
+    return ArcsFile(states, sources, targets, p, source, (), start, winners)
+
+
+def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
+    """Return the players who have won, without the states in which nobody has."""
+    found = {}
+    for state, winner in winners.items():
+        if winner is None or winner == "":
+            continue
+        try:
+            found[state] = int(str(winner))
+        except ValueError:
+            found[state] = 0
+        if found[state] < 1:
+            _refuse(
+                source,
+                f"state {quoted(state)} has winner {quoted(str(winner))}; give the number of the "
+                "player who has won there, 1, 2, ...",
+            )
+    return found
+
+
+def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -> ArcsFile:
+    source, content = content_of(path)
+    matrix = _square(content, source)
+    wrong = np.flatnonzero(~((matrix.data >= 0.0) & (matrix.data <= 1.0)))
+    if wrong.size:
+        _refuse(source, f"has the entry {matrix.data[wrong[0]]:.12g}; give numbers from 0 to 1")
+    by_columns, by_rows = (sums_to_1(matrix, axis=axis) for axis in (0, 1))
+    warnings: tuple[str, ...] = ()
+    if rows is None and by_rows and not by_columns:
+        _refuse(
+            source,
+            "is row-stochastic: its rows sum to 1 and its columns do not, so a row holds the "
+            "chances out of its state; say so with rows='from' (--rows from), or transpose it",
+        )
+    if rows is None and by_rows and (matrix - matrix.T).count_nonzero():
+        warnings = (
+            f"{source}: its rows and its columns sum to 1; a column was read as the chances out "
+            "of its state. Give --rows from if a row holds them, or --rows to if this is right",
+        )
+    if rows == "from":
+        matrix = matrix.T.tocsc()
+    n = matrix.shape[0]
+    names, start = [str(k + 1) for k in range(n)], None
+    winners: dict[str, int] = {}
+    if states is not None:
+        names, start, winners, more = _states(states, n)
+        warnings += more
+    sources = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    targets = matrix.indices.astype(np.int64)
+    line = "row" if rows == "from" else "column"
+    sums = np.bincount(sources, weights=matrix.data, minlength=n)
+    _raise_any(
+        f"{source}: {line} {k + 1} sums to {sums[k]:.12g}, not 1; give probabilities out of each "
+        "state, with a 1 on the diagonal for a state that is never left"
+        for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist()
+    )
+    return ArcsFile(names, sources, targets, matrix.data, source, warnings, start, winners)
+
+
+def _square(content: bytes, source: str) -> csc_array[np.float64]:
+    """Return the square matrix of real numbers in a Matrix Market file."""
+    from scipy.io import mminfo, mmread
+    from scipy.sparse import coo_array, csc_array, issparse
+
+    try:
+        # The reader goes past the end of a line with a NUL byte, and of a last one without an end.
+        if b"\0" in content:
+            raise ValueError("it holds a NUL byte")
+        content += b"\n"
+        *shape, entries, _, _, _ = mminfo(io.BytesIO(content))
+        if max(shape) > 2 * entries or entries > len(content):  # room would be made for them all
+            raise ValueError(f"it does not hold the {entries:,} entries of {max(shape):,} states")
+        read: Any = mmread(io.BytesIO(content))
+    except Exception as error:
+        reason = printable(" ".join(str(error).split()))
+        _refuse(source, f"cannot be read as a Matrix Market file ({reason}); check the file")
+    found = coo_array(read)
+    if found.dtype.kind not in "iuf" or found.shape[0] != found.shape[1] or not found.shape[0]:
+        kind = "complex " if found.dtype.kind == "c" else ""
+        size = " x ".join(map(str, found.shape))
+        _refuse(source, f"holds a {kind}matrix of {size}; give a square one of real numbers")
+    matrix: csc_array[np.float64] = csc_array(found.astype(np.float64))
+    if issparse(read) and matrix.nnz < found.nnz:
+        _refuse(source, "lists an entry twice; keep one of the two")
+    return matrix
+
+
+def _states(
+    path: str | Path, n: int
+) -> tuple[list[str], str | None, dict[str, int], tuple[str, ...]]:
+    """Return the names of n states, the one of the kind 'start', who has won, and warnings."""
+    table = read_table(path, STATES, MORE_OF_STATES, rows="states")
+    table.problems.raise_any()
+    names = table.cells("state")
+    if len(names) != n or len(set(names)) < n or not all(names):
+        _refuse(
+            table.source,
+            f"names {len(set(filter(None, names)))} states in {len(names)} rows, and the matrix "
+            f"has {n}; give each a name of its own, in the order of the matrix",
+        )
+    kinds = table.cells("kind") if "kind" in table else []
+    start = next((name for name, kind in zip(names, kinds, strict=False) if kind == "start"), None)
+    winners = dict(zip(names, table.cells("winner"), strict=True))
+    return names, start, _winners(winners, table.source), table.warnings
+
+
+def _refuse(source: str, text: str) -> NoReturn:
+    raise DataError([f"{source}: {text}"])
+
+
+def _raise_any(problems: Any) -> None:
+    if found := list(problems):
+        raise DataError(found)
+
+
+HEADER = """Transition matrix of an evenbreak chain, column-stochastic: the entry in row i and
+column j is the probability of going from state j to state i, and each column sums to 1.
+States are numbered from 1, in the order of states.csv."""
+
+
+def graphml_bytes(graph: nx.DiGraph[Any]) -> bytes:
+    """Return a graph as GraphML; attributes that are None are left out, as GraphML has no such.
+
+    >>> import networkx as nx
+    >>> graph = nx.DiGraph([("S", "W", {"probability": 1.0})])
+    >>> read = nx.read_graphml(io.BytesIO(graphml_bytes(graph)))
+    >>> read.edges["S", "W"]["probability"]
+    1.0
+    """
+    import networkx as nx
+
+    written = graph.copy()
+    for _, attributes in written.nodes(data=True):
+        for name in [name for name, value in attributes.items() if value is None]:
+            del attributes[name]
+    out = io.BytesIO()
+    nx.write_graphml_xml(written, out, named_key_ids=True)
+    return out.getvalue() + b"\n"
+
+
+def node_link_bytes(graph: nx.DiGraph[Any]) -> bytes:
+    """Return a graph as node-link JSON: a list of `nodes` and a list of `edges`.
+
+    >>> import networkx as nx
+    >>> graph = nx.DiGraph([("S", "W", {"probability": 0.5})])
+    >>> data = json.loads(node_link_bytes(graph))
+    >>> data["edges"]
+    [{'probability': 0.5, 'source': 'S', 'target': 'W'}]
+    >>> nx.node_link_graph(data, edges="edges").edges["S", "W"]["probability"]
+    0.5
+    """
+    import networkx as nx
+
+    data = nx.node_link_data(graph, edges="edges")
+    return (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode()
+
+
+def matrix_market_bytes(chain: Chain) -> bytes:
+    """Return the transition matrix in Matrix Market form, column-stochastic.
+
+    >>> from evenbreak.chains import chain_of
+    >>> from scipy.io import mmread
+    >>> chain = chain_of([("rain", "rain", 0.7), ("rain", "sun", 0.3), ("sun", "rain", 1.0)])
+    >>> mmread(io.BytesIO(matrix_market_bytes(chain))).toarray()
+    array([[0.7, 1. ],
+           [0.3, 0. ]])
+    """
+    from scipy.io import mmwrite
+
+    out = io.BytesIO()
+    mmwrite(out, chain.matrix.tocoo(), comment=HEADER, field="real", symmetry="general")
+    return out.getvalue()

@@ -1,0 +1,1 @@
+"""Tournaments that other programs have saved: one parser each, then results or events of them."""

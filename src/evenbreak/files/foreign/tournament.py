@@ -1,0 +1,323 @@
+"""A tournament saved from another program, as the events of an evening."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from evenbreak.errors import DataError, EvenbreakError, InputError
+from evenbreak.files.foreign import brackets_manager as export_brackets_manager
+from evenbreak.files.foreign import challonge as export_challonge
+from evenbreak.files.foreign import cuescore as export_cuescore
+from evenbreak.files.foreign.brackets import (
+    SavedBracket,
+    SavedMatch,
+    of_brackets_manager,
+    of_challonge,
+    of_cuescore,
+)
+from evenbreak.files.foreign.match import FEWER_GAMES, ExportError, Found, Match
+from evenbreak.files.foreign.results import PROGRAMS
+from evenbreak.files.tables.rows import text_of
+from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.brackets.drafts import Draft
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.events import (
+    NAMES,
+    Called,
+    Drawn,
+    Entrant,
+    Event,
+    Opened,
+    Plan,
+    Result,
+    Scored,
+    What,
+    as_dict,
+    event_of,
+)
+from evenbreak.tournaments.evening.fold import evening
+
+_READERS: tuple[tuple[Any, Callable[[Any], SavedBracket]], ...] = (
+    (export_cuescore, of_cuescore),
+    (export_challonge, of_challonge),
+    (export_brackets_manager, of_brackets_manager),
+)
+_DISCIPLINES = {"8": "8-ball", "9": "9-ball", "10": "10-ball"}
+
+
+def read_saved_tournament(
+    path: str | Path, plan: Plan, entrants: Mapping[str, Entrant], at: str
+) -> list[Event]:
+    """Return the events of a tournament that CueScore, Challonge or brackets-manager saved.
+
+    Each match is checked: its players must be those whom the results before it send there.
+
+    Parameters
+    ----------
+    path
+        the JSON file.
+    plan
+        the ratings' scale, the tables and whatever the file does not say; a race of 0 is that of
+        the file.
+    entrants
+        those with ratings, by name; the others are new players.
+    at
+        the time of what the file has no time for.
+
+    Raises
+    ------
+    DataError
+        if the file is not such a tournament, or contradicts itself.
+    """
+    source = str(path)
+    try:
+        body, encoding, _ = text_of(Path(path).read_bytes(), source)
+        data = json.loads(body.decode(encoding))
+    except OSError as error:
+        raise DataError([f"{source}: {error.strerror}"]) from None
+    except (ValueError, RecursionError) as error:
+        line = getattr(error, "lineno", 1)
+        raise DataError([f"{source}:{line}: is damaged JSON from here on"]) from None
+    fitting = [both for both in _READERS if both[0].is_one(data)]
+    if not fitting:
+        raise DataError([f"{source}: is not a tournament saved from {PROGRAMS}"])
+    reader, bracket = fitting[0]
+    try:
+        saved = bracket(data)
+        found = [_read(number, read) for number, read in enumerate(reader.matches(data), 1)]
+        return _events(saved, found, plan, entrants, at)
+    except (ExportError, InputError) as error:
+        raise DataError([f"{source}: {error}"]) from None
+    except EvenbreakError:
+        raise
+    except (LookupError, TypeError, ValueError, AttributeError, StopIteration):
+        raise DataError(
+            [f"{source}: is not built as expected; save it again in the other program"]
+        ) from None
+
+
+def _read(number: int, read: Callable[[], list[Found]]) -> list[Found]:
+    try:
+        return read()
+    except ExportError as error:
+        raise ExportError(f"match {number} {error}") from None
+
+
+def _events(
+    saved: SavedBracket,
+    found: Sequence[list[Found]],
+    plan: Plan,
+    known: Mapping[str, Entrant],
+    at: str,
+) -> list[Event]:
+    players = saved.players
+    if len(players) < 2:
+        raise InputError("has no two players with names")
+    entrants = tuple(
+        known.get(name, Entrant(name, plan.starter, plan.starter_error)) for name in players
+    )
+    plan = _with_races(_planned(saved, plan), saved, names := _names(saved))
+    happened = _happened(saved, found, names, _tables(saved, plan.tables))
+    times = [one for one in (_moment(event[0]) for event in happened) if one]
+    first = min(times, default=at)
+    events = [Event(first, Opened(plan, entrants)), Event(first, Drawn(players, None))]
+    now = first
+    for stated, what in happened:
+        now = max(now, _moment(stated) or now)
+        events.append(Event(now, what))
+    _check(events)
+    return events
+
+
+def _planned(saved: SavedBracket, plan: Plan) -> Plan:
+    game = plan.discipline or next(
+        (name for key, name in _DISCIPLINES.items() if saved.discipline.startswith(key)),
+        "9-ball",
+    )
+    tables = plan.tables or max(1, len({one.table for one in saved.matches} - {""}))
+    plan = replace(plan, discipline=game, tables=tables)
+    if saved.everybody:
+        return replace(plan, form="round-robin")
+    names = _names(saved)
+    sides = _sides(saved.matches)
+    seat = {name: k for k, name in enumerate(saved.players)}
+    layout = []
+    for one in saved.matches:
+        slots = [
+            Source(names[slot[0]], slot[1])
+            if isinstance(slot, tuple)
+            else None
+            if slot is None
+            else seat[slot]
+            for slot in one.slots
+        ]
+        layout.append(Draft(names[one.key], sides[one.key], one.round, (slots[0], slots[1])))
+    double = any(one.side == "losers" for one in saved.matches)
+    form = f"{'double' if double else 'single'} elimination, imported"
+    return replace(plan, form=form, layout=tuple(layout))
+
+
+def _sides(matches: Sequence[SavedMatch]) -> dict[Any, str]:
+    """Return the side of each match, the finals and the match for third place among them."""
+    sides = {one.key: one.side for one in matches}
+    sources = {one.key: [slot for slot in one.slots if isinstance(slot, tuple)] for one in matches}
+    won = {slot[0] for slots in sources.values() for slot in slots if slot[1] == "winner"}
+    for one in matches:
+        if one.key in won:
+            continue
+        came = sources[one.key]
+        if len(came) == 2 and came[0][0] == came[1][0]:
+            sides[one.key], sides[came[0][0]] = "second final", "final"
+        elif len(came) == 2 and {outcome for _, outcome in came} == {"loser"}:
+            sides[one.key] = "third place"
+        elif one.side == "winners":
+            sides[one.key] = "final"
+    return sides
+
+
+def _names(saved: SavedBracket) -> dict[Any, str]:
+    """Return the names of the matches, such as W1.1, L2.1 and F."""
+    if saved.everybody:
+        return _pair_names(saved)
+    special = {"final": "F", "second final": "F2", "third place": "T"}
+    sides, count, names = _sides(saved.matches), Counter[tuple[str, int]](), {}
+    for one in saved.matches:
+        side = sides[one.key]
+        if side in special:
+            names[one.key] = special[side]
+            continue
+        count[side, one.round] += 1
+        letter = "L" if side == "losers" else "W"
+        names[one.key] = f"{letter}{one.round}.{count[side, one.round]}"
+    return names
+
+
+def _pair_names(saved: SavedBracket) -> dict[Any, str]:
+    """Return the name of the match of each two players, where everybody plays everybody."""
+    bracket = bracket_of(Plan("round-robin", 1), saved.players, None)
+    name_of = {}
+    for match in bracket.matches:
+        pair = frozenset(bracket.players[int(slot)] for slot in match.slots)  # type: ignore[arg-type]
+        name_of[pair] = match.name
+    pairs = [frozenset(filter(None, one.slots)) for one in saved.matches]
+    if len(set(pairs)) < len(pairs):
+        raise InputError("has two matches of the same two players in a round robin")
+    return {
+        one.key: name_of[pair]  # type: ignore[index]
+        for one, pair in zip(saved.matches, pairs, strict=True)
+        if len(pair) == 2
+    }
+
+
+def _with_races(plan: Plan, saved: SavedBracket, names: Mapping[Any, str]) -> Plan:
+    """Return the plan with the races of the file, where it states any."""
+    stated = {names[one.key]: one.race for one in saved.matches if one.race and one.key in names}
+    if plan.race:
+        return plan
+    if not stated:
+        raise InputError("does not say what is raced to; give --race")
+    usual = Counter(stated.values()).most_common(1)[0][0]
+    inside = bracket_of(replace(plan, race=usual), saved.players, None).by_name
+    others = {name: race for name, race in stated.items() if race != usual and name in inside}
+    return replace(plan, race=usual, by_match=others)
+
+
+def _tables(saved: SavedBracket, tables: int) -> dict[str, int]:
+    """Return the number of each table; those without a number come last."""
+    texts = sorted({one.table for one in saved.matches} - {""}, key=lambda text: (len(text), text))
+    numbers = {text: int(text) for text in texts if text.isdigit() and 1 <= int(text) <= tables}
+    free = (k for k in range(1, tables + len(texts) + 1) if k not in numbers.values())
+    return {text: numbers[text] if text in numbers else next(free) for text in texts}
+
+
+def _happened(
+    saved: SavedBracket,
+    found: Sequence[list[Found]],
+    names: Mapping[Any, str],
+    tables: Mapping[str, int],
+) -> list[tuple[str, What]]:
+    """Return what happened in the matches, with its time as the file states it, in its order."""
+    happened: list[tuple[str, str, int, What]] = []
+    order = _order(saved)
+    matches = [one for one in saved.matches if one.key is not None]
+    for one, read in zip(matches, found, strict=True):
+        played = [part for part in read if isinstance(part, Match)]
+        name, place = names.get(one.key, ""), order[one.key]
+        if not played and one.score is None:
+            continue
+        pair = one.pair if not played else (played[0].player_a, played[0].player_b)
+        if one.table and one.started:
+            call = Called(name, tables[one.table], pair)
+            happened.append((one.started, one.started, place, call))
+        if not played:
+            score = Scored(name, pair, one.score or (0, 0))
+            happened.append((one.started, one.started, place, score))
+            continue
+        result = _result(name, pair, played, one.winner)
+        happened.append((one.ended or one.started, one.ended or one.started, place, result))
+    if all(time for time, *_ in happened):
+        happened.sort(key=lambda row: (_moment(row[0]) or "", row[2], isinstance(row[3], Result)))
+    else:
+        happened.sort(key=lambda row: (row[2], isinstance(row[3], Result)))
+    return [(time, what) for time, _, _, what in happened]
+
+
+def _order(saved: SavedBracket) -> dict[Any, int]:
+    """Return how many matches at least come before each."""
+    came = {one.key: [s[0] for s in one.slots if isinstance(s, tuple)] for one in saved.matches}
+    depth: dict[Any, int] = {}
+    for _ in saved.matches:
+        for key, before in came.items():
+            depth[key] = 1 + max((depth.get(one, 0) for one in before), default=0)
+    return depth
+
+
+def _result(name: str, pair: tuple[str, str], played: Sequence[Match], winner: int) -> Result:
+    score = sum(one.score_a for one in played), sum(one.score_b for one in played)
+    if not winner:
+        fewer = any(FEWER_GAMES in one.remarks for one in played)
+        winner = 1 if (score[0] > score[1]) != fewer else 2
+    forfeit = any(one.forfeit for one in played)
+    first = played[0]
+    uneven = not forfeit and len(played) == 1 and first.race_a != first.race_b
+    return Result(
+        name,
+        pair,
+        (0, 0) if forfeit else score,
+        pair[winner - 1],
+        forfeit=forfeit,
+        race=(first.race_a, first.race_b) if uneven else None,
+    )
+
+
+def _moment(text: str) -> str:
+    """Return a time such as 2025-03-01T19:30:00, '' where there is none."""
+    try:
+        return datetime.fromisoformat(text).replace(tzinfo=None, microsecond=0).isoformat()
+    except ValueError:
+        return ""
+
+
+def _check(events: Sequence[Event]) -> None:
+    """Check that all numbers can be true, and that the results fit together, match by match."""
+    for event in events:
+        try:
+            event_of(NAMES[type(event.what)], as_dict(event.what))
+        except InputError as error:
+            raise InputError(f"{getattr(event.what, 'match', 'tournament')}: {error}") from None
+    state = evening(events)
+    for one in state.aside:
+        seats = state.standing.seats.get(one.result.match)
+        if seats is None:
+            raise InputError(f"{one.result.match} is a bye, but has a result")
+        now = " and ".join("nobody yet" if k is None else state.order[k] for k in seats)
+        raise InputError(
+            f"{' and '.join(one.result.players)} played {one.result.match}, but the matches before "
+            f"it send {now} there"
+        )

@@ -1,0 +1,1 @@
+"""Lists of who plays: rosters, entrants, teams, fixtures, and the ratings to begin from."""

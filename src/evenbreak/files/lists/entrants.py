@@ -1,0 +1,194 @@
+"""Who is in: a list of entrants, and their ratings from the league's list."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import DataError
+from evenbreak.files.lists.roster import (
+    OPTIONAL,
+    REQUIRED,
+    WRITTEN,
+    RosterFile,
+    refuse_to_read,
+    roster_of,
+)
+from evenbreak.files.lists.typed_list import read_players
+from evenbreak.files.tables.names import KnownNames
+from evenbreak.files.tables.problems import quoted
+from evenbreak.ratings.roster import Roster
+
+if TYPE_CHECKING:
+    from evenbreak.files.lists.league import LeagueFile
+
+
+PLAYER = {"player": REQUIRED["player"]}
+MORE = {"rating": REQUIRED["rating"], **OPTIONAL, **WRITTEN}
+
+APART = 0.5
+"""Points by which an entrant's stated rating may differ from the league's without a warning."""
+
+
+def read_entrants(path: str | Path) -> RosterFile:
+    r"""Read who has entered: a player on each line, or a table with the columns of a roster.
+
+    A line is a name, or a name and a rating, such as `Ann Lee,612`; lines without a name are
+    skipped. In a table all columns but the name may be missing.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file: no names, a name that appears twice, cells that cannot
+        be read.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "entrants.txt"
+    ...     _ = path.write_text("Ann Lee,612\n\n Bo  Diaz\n")
+    ...     read_entrants(path).roster.players
+    ('Ann Lee', 'Bo Diaz')
+    """
+    if str(path) == "-":
+        raise DataError(["the entrants cannot come from standard input; name a file"])
+    return roster_of(read_players(path, PLAYER, MORE))
+
+
+@dataclass(frozen=True, eq=False)
+class Entered:
+    """Entrants, matched with the players of a list.
+
+    Parameters
+    ----------
+    names
+        in the spelling of the list where that has them.
+    places
+        of each in the list, -1 for those who are not on it.
+    warnings
+        who is not on the list, with the names that may be meant, and whose rating differs.
+    """
+
+    names: tuple[str, ...]
+    places: tuple[int, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def new(self) -> list[str]:
+        """The names of those who are not on the list."""
+        return [name for name, place in zip(self.names, self.places, strict=True) if place < 0]
+
+
+def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered:
+    """Match entrants with the players of a list; upper and lower case and blanks may differ.
+
+    Parameters
+    ----------
+    entrants
+        as `read_entrants` reads them.
+    players
+        the players of the list.
+    whose
+        what the list is called in warnings.
+
+    >>> file = RosterFile(Roster(["ann lee", "Bo Dias"], [80, 70]), np.array([1, 2]), "e", (), "")
+    >>> found = entered(file, ["Ann Lee", "Bo Diaz"], "r.csv")
+    >>> found.names, found.places
+    (('Ann Lee', 'Bo Dias'), (0, -1))
+    >>> found.warnings
+    ("e:2: 'Bo Dias' is not in r.csv (did you mean 'Bo Diaz'?) and is taken as a new player",)
+    """
+    known = KnownNames(players)
+    names, places, warnings = [], [], []
+    for line, name in zip(entrants.lines.tolist(), entrants.roster.players, strict=True):
+        place = known.place(name)
+        names.append(name if place is None else players[place])
+        places.append(-1 if place is None else place)
+        if place is None:
+            warnings.append(
+                f"{entrants.source}:{line}: {quoted(name)} is not in {whose}{known.hint(name)} and "
+                "is taken as a new player"
+            )
+    return Entered(tuple(names), tuple(places), (*entrants.warnings, *warnings))
+
+
+def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
+    """Return the entrants with their ratings from the league's list.
+
+    Those who are not on it have the rating that the list of entrants states, or none: they are
+    new players.
+
+    Raises
+    ------
+    DataError
+        if the ratings of the two files are not on one scale.
+    """
+    check_one_scale(league, entrants)
+    found = entered(entrants, league.roster.players, league.source)
+    known, stated = league.roster, entrants.roster
+    at = np.array(found.places, dtype=np.int64)
+    on_list = at >= 0
+
+    def column(name: str) -> NDArray[Any]:
+        values: NDArray[Any] = np.where(on_list, getattr(known, name)[at], getattr(stated, name))
+        return values
+
+    # A player without any rating has not played here yet.
+    games = np.where(~on_list & np.isnan(stated.rating), 0, column("games"))
+    roster = Roster(
+        found.names,
+        column("rating"),
+        column("standard_error"),
+        games,
+        component=column("component"),
+        matches=column("matches"),
+    )
+    differ = on_list & (np.abs(stated.rating - roster.rating) > APART)
+    warnings = [
+        f"{entrants.source}:{entrants.lines[k]}: the rating {stated.rating[k]:g} of "
+        f"{quoted(roster.players[k])} is not used; {league.source} has {roster.rating[k]:g}"
+        for k in np.flatnonzero(differ).tolist()
+    ]
+    return replace(
+        league,
+        roster=roster,
+        lines=entrants.lines,
+        source=entrants.source,
+        warnings=(*league.warnings, *found.warnings, *warnings),
+        by_quasi=frozenset(np.flatnonzero(on_list & np.isin(at, list(league.by_quasi))).tolist()),
+        scale=league.scale or entrants.scale,
+        levels=league.levels or entrants.levels,
+    )
+
+
+def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> None:
+    """Refuse entrants whose ratings are on another scale than those of the league's list.
+
+    Raises
+    ------
+    DataError
+        if the two files state different scales, or one has skill levels and the other points.
+    """
+    if np.isnan(entrants.roster.rating).all():
+        return None
+    if league.scale and entrants.scale and not league.scale.same_points(entrants.scale):
+        ours, theirs = league.scale.text, entrants.scale.text
+    elif league.levels != entrants.levels and not (league.scale and entrants.scale):
+        ours, theirs = (
+            "of skill levels" if levels else "of points"
+            for levels in (league.levels, entrants.levels)
+        )
+    elif league.scale:
+        return refuse_to_read(entrants, league.scale, league.source, "put all ratings on one scale")
+    else:
+        return None
+    raise DataError(
+        [
+            f"{entrants.source}: its scale {theirs} differs from {ours} in {league.source}; "
+            "put all ratings on one scale"
+        ]
+    )

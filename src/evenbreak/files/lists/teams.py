@@ -1,0 +1,320 @@
+"""Teams: the players of one or of all, and the matches of a season, played and to come."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import compress
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import Floats, Ints, array_values
+from evenbreak.errors import DataError
+from evenbreak.files.lists.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
+from evenbreak.files.lists.typed_list import read_players
+from evenbreak.files.tables.cells import numbers, whole_numbers
+from evenbreak.files.tables.names import clean_name, same_name
+from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.tables.table import TextTable, read_table
+
+_LEVELS = ("skill level", "handicap", "sl")
+COLUMNS = {"player": (*REQUIRED["player"], "team player")}
+MORE = {
+    "rating": tuple(name for name in REQUIRED["rating"] if name not in (*_LEVELS, "level")),
+    "level": _LEVELS,
+    **OPTIONAL,
+    **WRITTEN,
+    "team": (),
+    "division": (),
+}
+
+
+@array_values
+@dataclass(frozen=True)
+class TeamList:
+    """The players of one team.
+
+    Parameters
+    ----------
+    file
+        their names and ratings; the levels stand in for the ratings where the file has no others.
+    levels
+        each player's skill level; NaN where the file states none.
+    """
+
+    file: RosterFile
+    levels: Floats
+
+    @property
+    def weights(self) -> Floats:
+        """What a cap counts: the levels, or the ratings where the file states no level."""
+        return self.file.roster.rating if np.isnan(self.levels).all() else self.levels
+
+    @property
+    def without_weight(self) -> str:
+        """A player for whom there is nothing to count; '' if there is none."""
+        unknown = np.isnan(self.weights)
+        return self.file.roster.players[int(unknown.argmax())] if unknown.any() else ""
+
+
+def read_team(path: str | Path) -> TeamList:
+    r"""Read a team from a CSV file with the columns player, rating and level.
+
+    Either of rating and level may be missing. Other columns are those of a roster. Without a
+    header, each line is a name and the rating and the level if they are known.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file: no players, a name that appears twice, cells that are not
+        numbers.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "team.csv"
+    ...     _ = path.write_text("player,rating,level\nAnn,612,6\nBo,540,5\n")
+    ...     team = read_team(path)
+    >>> team.file.roster.rating, team.levels
+    (array([612., 540.]), array([6., 5.]))
+    """
+    return _team_of(read_players(path, COLUMNS, MORE, numbers=("rating", "level")))
+
+
+def read_squads(path: str | Path) -> dict[str, TeamList]:
+    r"""Read all teams of a league from a CSV file with the columns team, player, rating and level.
+
+    Raises
+    ------
+    DataError
+        with every problem of a team as for `read_team`, if a player has no team, or there are
+        fewer than two teams.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "teams.csv"
+    ...     _ = path.write_text("team,player,rating\nRacks,Ann,612\nCues,Bo,540\nRacks,Cy,500\n")
+    ...     {team: one.file.roster.players for team, one in read_squads(path).items()}
+    {'Racks': ('Ann', 'Cy'), 'Cues': ('Bo',)}
+    """
+    table = read_table(path, {"team": MORE["team"], **COLUMNS}, MORE, rows="players")
+    teams: dict[str, list[int]] = {}
+    for line, name in zip(table.lines.tolist(), map(clean_name, table.cells("team")), strict=True):
+        if not name:
+            table.problems.add(line, "team is empty; name the team of each player")
+        teams.setdefault(name, []).append(line)
+    table.problems.raise_any()
+    if len(teams) < 2:
+        raise DataError([f"{table.source}: names one team only; a league has two or more"])
+    every = set(table.lines.tolist())
+    return {name: _team_of(table.without(every - set(lines))) for name, lines in teams.items()}
+
+
+def _team_of(table: TextTable) -> TeamList:
+    levels = numbers(
+        table, "level", at_least=0, at_most=1000, remedy="write a skill level", may_be_empty=True
+    ).values
+    if "rating" not in table and "level" in table:
+        table = replace(
+            table,
+            columns={**table.columns, "rating": table.columns["level"]},
+            found=table.found | {"rating"},
+            titles={**table.titles, "rating": table.titles["level"]},
+        )
+    return TeamList(roster_of(table), np.asarray(levels))
+
+
+PAIR = {
+    "home": ("home team", "team a", "team 1", "player a", "a"),
+    "away": ("away team", "visitor", "visitors", "guest", "team b", "team 2", "player b", "b"),
+}
+SCORES = {
+    "home_score": ("home sets", "home points", "score home", "score a", "score 1"),
+    "away_score": ("away sets", "away points", "score away", "score b", "score 2"),
+}
+ROUND = {"round": ("week", "matchday", "night", "date", "day")}
+TEAM = {"team": ("name", "team name")}
+POINTS = {"points": ("head start", "bonus", "deduction", "adjustment")}
+
+
+@array_values
+@dataclass(frozen=True)
+class TeamMatches:
+    """The matches in a file.
+
+    Parameters
+    ----------
+    pairs
+        home and away: positions in the list of teams, a row each.
+    scores
+        the sets that each won, a row each; no columns for matches to come.
+    rounds
+        what the file says of the round, the week or the date; '' where nothing.
+    warnings
+        what to check, a line each.
+    """
+
+    pairs: Ints
+    scores: Ints
+    rounds: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    def among(self, rows: NDArray[np.bool_]) -> TeamMatches:
+        """Return the matches in some rows."""
+        rounds = tuple(compress(self.rounds, rows))
+        return replace(self, pairs=self.pairs[rows], scores=self.scores[rows], rounds=rounds)
+
+
+@dataclass
+class TeamNames:
+    """The teams, in the order in which files name them first."""
+
+    names: list[str]
+    fixed: bool = False
+
+    def place(self, name: str) -> int | None:
+        """Return the position of a team, a new one unless the list is fixed."""
+        wanted = same_name(name)
+        for place, known in enumerate(self.names):
+            if same_name(known) == wanted:
+                return place
+        if self.fixed:
+            return None
+        self.names.append(name)
+        return len(self.names) - 1
+
+
+def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
+    r"""Read the teams of a league, and the points they have besides their matches.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "teams.csv"
+    ...     _ = path.write_text("team,points\nAcers,\nBankers,-2\n")
+    ...     teams, points, _ = read_teams(path)
+    >>> teams.names, points.tolist()
+    (['Acers', 'Bankers'], [0.0, -2.0])
+    """
+    table = read_table(path, TEAM, POINTS, rows="teams")
+    found = TeamNames([])
+    for line, text in zip(table.lines.tolist(), table.cells("team"), strict=True):
+        name, before = clean_name(text), len(found.names)
+        if not name:
+            table.problems.add(line, "team is empty; write a name")
+        elif found.place(name) != before:
+            table.problems.add(line, f"team {quoted(name)} is listed twice; delete one of the two")
+    points = numbers(
+        table,
+        "points",
+        at_least=-10_000,
+        at_most=10_000,
+        remedy="write points such as -2, or leave it empty",
+        may_be_empty=True,
+    ).values
+    table.problems.raise_any()
+    return TeamNames(found.names, fixed=True), np.nan_to_num(points), table.warnings
+
+
+def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, TeamMatches]:
+    r"""Read the matches that have been played, with the sets that each team won, and the others.
+
+    A match without a score, or with 0:0, has not been played.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "results.csv"
+    ...     rows = "home,away,home_score,away_score\nAcers,Bankers,3,2\nBankers,Acers,,\n"
+    ...     _ = path.write_text(rows)
+    ...     played, to_come = read_team_results(path, TeamNames([]))
+    >>> played.pairs.tolist(), played.scores.tolist(), to_come.pairs.tolist()
+    ([[0, 1]], [[3, 2]], [[1, 0]])
+    """
+    table = read_table(path, {**PAIR, **SCORES}, ROUND, rows="matches")
+    home, away = (whole_numbers(table, name, may_be_empty=True) for name in SCORES)
+    table.problems.add_rows(
+        table.lines,
+        np.flatnonzero(home.stated != away.stated),
+        lambda _: "one score is empty; write both, or neither where the match was not played",
+    )
+    scores = np.stack([home.values, away.values], axis=1)
+    unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
+    every = _matches(table, teams, scores)
+    if unplayed.all():
+        raise DataError([f"{table.source}: no match in it has been played; fill in the scores"])
+    to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
+    return every.among(~unplayed), replace(to_come, warnings=())
+
+
+def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:
+    """Read the matches to come: home and away, and the round if the file has it.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+    """
+    table = read_table(path, PAIR, ROUND, rows="matches")
+    return _matches(table, teams, np.zeros((len(table), 0), dtype=np.int64))
+
+
+def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
+    pairs = np.zeros((len(table), 2), dtype=np.int64)
+    cells = [[clean_name(text) for text in table.cells(side)] for side in PAIR]
+    for row, (line, *both) in enumerate(zip(table.lines.tolist(), *cells, strict=True)):
+        for side, name in enumerate(both):
+            place = teams.place(name) if name else None
+            if place is None:
+                what = f"{quoted(name)} is not in the list of teams" if name else "is empty"
+                table.problems.add(line, f"{list(PAIR)[side]} {what}; write the team's name")
+            else:
+                pairs[row, side] = place
+        if both[0] and same_name(both[0]) == same_name(both[1]):
+            table.problems.add(line, f"{quoted(both[0])} meets itself; correct one of the teams")
+    table.problems.raise_any()
+    rounds = tuple(table.cells("round"))
+    twice = _twice(table, pairs, scores, rounds, teams.names)
+    similar: Sequence[str] = ()
+    if not teams.fixed:
+        similar = similar_name_warnings(
+            similar_names(teams.names), table.source, "if so, write both alike", of="team"
+        )
+    return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar, *twice))
+
+
+def _twice(
+    table: TextTable, pairs: Ints, scores: Ints, rounds: Sequence[str], names: Sequence[str]
+) -> list[str]:
+    """Return warnings about matches that may be entered twice, and teams twice in a round."""
+    seen: dict[tuple[object, ...], int] = {}
+    busy: dict[tuple[str, int], int] = {}
+    said = []
+    for row, line in enumerate(table.lines.tolist()):
+        home, away = pairs[row].tolist()
+        key = (home, away, rounds[row], *scores[row].tolist())
+        if key in seen:
+            said.append(
+                f"{table.source}:{line}: {names[home]} against {names[away]} is in line "
+                f"{seen[key]} already; if it was entered twice, delete one"
+            )
+            continue
+        seen[key] = line
+        for team in (home, away) if rounds[row] else ():
+            if (rounds[row], team) in busy:
+                said.append(
+                    f"{table.source}:{line}: {names[team]} plays in round {rounds[row]} in line "
+                    f"{busy[rounds[row], team]} already"
+                )
+            busy.setdefault((rounds[row], team), line)
+    return said

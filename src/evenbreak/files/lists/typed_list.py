@@ -1,0 +1,316 @@
+"""A list as people type it: a name on each line, perhaps with numbers around it, and no header.
+
+A line is taken apart only where its signs leave no doubt. What is left over is the name, and where
+that still has numbers or signs of a list in it, the line is doubted or refused, never guessed at.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from evenbreak.files.tables.header import Header
+from evenbreak.files.tables.names import clean_name, same_name
+from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.rows import content_of, is_spreadsheet, text_of
+from evenbreak.files.tables.table import Texts, TextTable, read_table
+
+_ONE = r"[0-9]+(?:[.,][0-9]{1,2})?"
+_NUMBER = rf"[-+]?{_ONE}"
+_PICTURES = r"\u2600-\u27bf\U0001f000-\U0001faff\ufe0f"
+_AROUND = re.compile(rf"^[\s*•·‣◦▪●○–—{_PICTURES}-]+(?=\S)|[\s{_PICTURES}]+$")
+_MARKED = re.compile(
+    r"(?:(?:no\.?|nr\.?|#|№)\s*([0-9]{1,3})\b\s*[.):\]]?"  # no. 3, #3
+    r"|[(\[]\s*([0-9]{1,3})\s*[)\]]"  # (3)
+    r"|([0-9]{1,3})\s*(?:[.):\]]|[-–—](?=\s)))"  # 3. 3) 3: 3 -
+    r"\s*(?=[^\s0-9])",
+    re.IGNORECASE,
+)
+_PLAIN = re.compile(r"([0-9]+)\s+(?=[^\s0-9])")
+_COLUMN_IN_FRONT = re.compile(r"([0-9]+)\t(?=[^\t]*[^\s0-9][^\t]*(?:\t|$))")
+_TRAILING = re.compile(r"[\s,;|]+$")
+_APART = (
+    re.compile(rf"(.*[^\s,;:(\[])[\s,;:]*[(\[]\s*({_ONE})\s*[)\]]"),  # Ann (560)
+    re.compile(rf"(.*[^\s:=+/–—-])\s*(?:[:=–—]|\s-\s|-\s)\s*({_ONE})"),  # Ann: 560, Ann – 560
+)
+_AFTER_BLANKS = re.compile(r"(.*?[^\s0-9].*?)((?:\s+[0-9](?:[0-9.,]*[0-9])?)+)")
+_LEFT_OVER = re.compile(
+    r"[;|\t=±]|\+/-|[0-9]\s*[,:]|[,:]\s*[0-9]|[(\[]\s*[0-9]|\s[-–—]+\s*[0-9]|^[0-9]{3}"
+)
+
+
+@dataclass(frozen=True)
+class TypedLine:
+    """A line: where it is, the name, the numbers after it, and how they were set apart.
+
+    Parameters
+    ----------
+    number
+        of the line.
+    name
+        what is left without the numbers that are set apart by a sign.
+    cells
+        the numbers after the name.
+    front
+        the number in front of the name, None if there is none.
+    after_blank
+        whether a mere blank sets the numbers apart.
+    joined
+        whether only a comma stands between a number in the name and the next: 92,5 or 1,612.
+    """
+
+    number: int
+    name: str
+    cells: tuple[str, ...] = ()
+    front: int | None = None
+    after_blank: bool = False
+    joined: bool = False
+
+    @property
+    def left_over(self) -> bool:
+        """Whether there are signs of a list in the name, or a number could be two: 1,612."""
+        several = self.joined and re.search(r"\s[0-9]+\s+[0-9]+$", self.name)
+        grouped = self.after_blank and not all(re.fullmatch(_ONE, cell) for cell in self.cells)
+        return bool(_LEFT_OVER.search(self.name) or several or grouped)
+
+    def split_at_blanks(self, most: int) -> TypedLine:
+        """Return the line with up to so many numbers after blanks set apart from its name.
+
+        >>> TypedLine(1, "Ann Lee 612").split_at_blanks(1).cells
+        ('612',)
+        """
+        text = f"{self.name},{self.cells[0]}" if self.joined else self.name
+        found = None if self.cells and not self.joined else _AFTER_BLANKS.fullmatch(text)
+        cells = tuple(found[2].split()) if found else ()
+        if found is None or len(cells) > most:
+            return self
+        return replace(
+            self, name=found[1].rstrip(" ,;:/"), cells=cells, after_blank=True, joined=False
+        )
+
+
+def typed_line(number: int, text: str, most: int, *, numbered: bool = False) -> TypedLine:
+    """Return what a line says.
+
+    Parameters
+    ----------
+    number
+        of the line.
+    text
+        the line.
+    most
+        how many numbers may follow a name.
+    numbered
+        whether a number in front needs no sign after it, as all lines have one.
+
+    >>> found = typed_line(1, "2) Łukasz Żak - 620", 1)
+    >>> found.front, found.name, found.cells
+    (2, 'Łukasz Żak', ('620',))
+    >>> typed_line(1, "LEE, Ann (560)", 1).name
+    'LEE, Ann'
+    """
+    rest = _AROUND.sub("", re.sub(r"[^\S\t]+", " ", text))
+    front = None
+    rest = _TRAILING.sub("", rest)  # an empty cell after the last that is filled
+    found = (
+        _MARKED.match(rest)
+        or _COLUMN_IN_FRONT.match(rest)
+        or (_PLAIN.match(rest) if numbered else None)
+    )
+    if found:
+        front, rest = int(next(filter(None, found.groups()))), rest[found.end() :]
+    name, cells, joined = _apart(rest.strip(), most)
+    # A column in between is no part of the name, and clean_name would hide where it began.
+    clean = "\t".join(map(clean_name, name.split("\t")))
+    return TypedLine(number, clean, cells, front, joined=joined)
+
+
+def _apart(text: str, most: int) -> tuple[str, tuple[str, ...], bool]:
+    """Return the name, the numbers that a sign sets apart from it, and whether they may be one."""
+    for separator in "\t;|,":
+        name, *cells = (cell.strip() for cell in text.split(separator))
+        if cells and len(cells) <= most and all(not c or re.fullmatch(_NUMBER, c) for c in cells):
+            joined = separator == "," and bool(re.search(r"\s[0-9]+,[0-9.]+$", text))
+            return name, tuple(cells), joined
+    for pattern in _APART:
+        if found := pattern.fullmatch(text):
+            return found[1], (found[2],), False
+    return text, (), False
+
+
+_RATING_DIGITS = 3
+"""A number after a blank that is as long as this is a rating rather than part of a name."""
+
+_HIGHEST_PLACE = 256
+"""A number in front of a name that is higher than this is no place on a list."""
+
+_LONGEST_LINE = 1000
+"""Letters of a line: far more than a name and its numbers have."""
+
+_WRITE_IT = "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
+
+
+def read_players(
+    path: str | Path,
+    required: Mapping[str, Sequence[str]],
+    optional: Mapping[str, Sequence[str]],
+    *,
+    numbers: Sequence[str] = ("rating",),
+) -> TextTable:
+    r"""Read a list of players: a table with a header, or a player on each line.
+
+    Parameters
+    ----------
+    path
+        the file; '-' is standard input, which must have a header.
+    required, optional
+        the columns of the table, as for `read_table`; `player` is among them.
+    numbers
+        the columns of the numbers that may follow a name on its line, in this order.
+
+    Raises
+    ------
+    DataError
+        as `read_table` does.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "tonight.txt"
+    ...     _ = path.write_text("Ann Lee, 612\nBo Diaz 540\n\nCy\n")
+    ...     table = read_players(path, {"player": ()}, {"rating": ()})
+    >>> table.cells("player"), table.cells("rating"), table.lines
+    (['Ann Lee', 'Bo Diaz', 'Cy'], ['612', '540', ''], array([1, 2, 4]))
+    """
+    if str(path) == "-":
+        return read_table(path, required, optional, rows="players")
+    source, content = content_of(path)
+    if is_spreadsheet(content):
+        return read_table(path, required, optional, rows="players")
+    text = text_of(content, source)
+    lines = text.body.decode(text.encoding).splitlines()
+    header = Header(required, optional, {})
+    if _has_header(lines, header):
+        return read_table(path, required, optional, rows="players")
+    problems = Problems(source)
+    most = len(numbers)
+    for number, line in enumerate(lines, 1):
+        if len(line) > _LONGEST_LINE:
+            has = f"{quoted(line)} has {len(line):,} letters"
+            problems.add(number, f"{has}, which is no name; {_WRITE_IT}")
+    found = _lines([line if len(line) <= _LONGEST_LINE else "" for line in lines], most)
+    warnings = _fronts(found, problems)
+    rows = _with_numbers_after_blanks(found, most)
+    _refuse_other_text(rows, problems)
+    if not rows and not len(problems):
+        problems.add(None, "names nobody; write one player on each line")
+    columns = {name: Texts.of([""] * len(rows)) for name in header.columns}
+    columns["player"] = Texts.of([one.name for one in rows])
+    for k, name in enumerate(numbers):
+        columns[name] = Texts.of([one.cells[k] if k < len(one.cells) else "" for one in rows])
+    stated = {name for name in numbers if any(columns[name].distinct)}
+    return TextTable(
+        source,
+        np.array([one.number for one in rows], dtype=np.int64),
+        columns,
+        frozenset({"player", *stated}),
+        problems,
+        (*text.warnings, *warnings, *_doubts(rows, source)),
+        content,
+        {name: name for name in ("player", *stated)},
+    )
+
+
+def _has_header(lines: Sequence[str], header: Header) -> bool:
+    """Return whether the first line that is not empty has a title by which players are known."""
+    first = next((line for line in lines if line.strip()), "")
+    return any(
+        "player" in header.places(first.split(separator), 1, Problems(""))[0]
+        for separator in ",;\t"
+    )
+
+
+def _lines(lines: Sequence[str], most: int) -> list[TypedLine]:
+    """Return the lines that are not empty; a number in front needs no sign if all have one."""
+
+    def read(*, numbered: bool) -> list[TypedLine]:
+        every = (typed_line(k, text, most, numbered=numbered) for k, text in enumerate(lines, 1))
+        return [one for one in every if one.name]
+
+    rows = read(numbered=True)
+    counted = [one.front for one in rows] == list(range(1, len(rows) + 1))
+    return rows if counted else read(numbered=False)
+
+
+def _fronts(rows: Sequence[TypedLine], problems: Problems) -> list[str]:
+    """Return a warning if places in front of the names are left out; refuse what is no place."""
+    numbered = [one for one in rows if one.front is not None]
+    fronts = [one.front or 0 for one in numbered]
+    if fronts == list(range(1, len(fronts) + 1)):
+        return []
+    if fronts != sorted(set(fronts)) or fronts[-1] > _HIGHEST_PLACE:
+        first = next(
+            one
+            for k, one in enumerate(numbered)
+            if fronts[k] > _HIGHEST_PLACE or (k and fronts[k] <= fronts[k - 1])
+        )
+        problems.add(
+            first.number,
+            f"the number {first.front} in front of {quoted(first.name)} is no place in that order; "
+            f"sort the lines or leave the numbers out, and {_WRITE_IT}",
+        )
+        return []
+    one = numbered[0]
+    return [
+        f"{problems.source}:{one.number}: the number {one.front} in front of {quoted(one.name)} is "
+        "left out, and so are the others; the order is that of the lines"
+    ]
+
+
+def _with_numbers_after_blanks(rows: list[TypedLine], most: int) -> list[TypedLine]:
+    """Return the lines, those with a rating after a blank split: Ann Lee 612, but not Player 7."""
+    split = [one.split_at_blanks(most) for one in rows]
+    if not all(one.cells for one in split):
+        split = [
+            after if len(after.cells and after.cells[0]) >= _RATING_DIGITS else one
+            for one, after in zip(rows, split, strict=True)
+        ]
+    names = Counter(same_name(one.name) for one in split)
+    return [
+        after if names[same_name(after.name)] == 1 else one
+        for one, after in zip(rows, split, strict=True)
+    ]
+
+
+def _refuse_other_text(rows: list[TypedLine], problems: Problems) -> None:
+    """Refuse lines that look like a title or a slip, and those that could mean two ratings."""
+    rated = any(one.cells for one in rows)
+    for one in rows:
+        slip = rated and not one.cells and re.search(r",|[0-9]{2}", one.name)
+        if one.left_over or slip:
+            problems.add(one.number, f"{quoted(one.name)} is not a name and a rating; {_WRITE_IT}")
+
+
+def _doubts(rows: list[TypedLine], source: str) -> list[str]:
+    """Return a warning for each kind of line that could mean something else."""
+    kinds: dict[str, list[str]] = {}
+    for one in (row for row in rows if not row.left_over):
+        at, rating = f"{source}:{one.number}: ", one.cells[0] if one.cells else ""
+        if one.after_blank:
+            whole = quoted(f"{one.name} {rating}")
+            said = f"{at}{whole} is read as {one.name} with the rating {rating}"
+            kinds.setdefault("split", []).append(said)
+        elif re.search(r"^\W*[0-9]" if one.cells else r"[0-9()\[\]]", one.name):
+            said = f"{at}{quoted(one.name)} is taken as a name"
+            kinds.setdefault("name", []).append(said)
+        if rating and float(rating.replace(",", ".")) <= 0:
+            said = f"{at}{quoted(one.name)} has the rating {rating}; leave it out if it means none"
+            kinds.setdefault("low", []).append(said)
+    return [
+        said[0] + (f", and so are {len(said) - 1} more" if said[1:] else "")
+        for said in kinds.values()
+    ]

@@ -1,0 +1,153 @@
+"""What is doubtful in results: rows that cannot be read, scores that are no games, odd dates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.files.tables.problems import Problems
+from evenbreak.files.tables.table import TextTable
+from evenbreak.ratings.doubtful_scores import doubtful_scores, usual_score
+from evenbreak.ratings.results import Results
+
+MOST_LISTED = 20
+"""How many rows are listed; the rest are counted."""
+
+
+def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
+    """Return warnings of the scores that can hardly be games won, which count all the same."""
+    texts = _score_doubts(results, lines, source)
+    if not texts:
+        return []
+    more = len(texts) - MOST_LISTED
+    end = f"and {more:,} more such scores; " if more > 0 else ""
+    scores = "such a score counts" if len(texts) == 1 else "such scores count"
+    remedy = "correct them, or leave them out with --skip-bad"
+    return [*texts[:MOST_LISTED], f"{source}: {end}{scores} as games won; {remedy}"]
+
+
+def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
+    rows = np.flatnonzero(doubtful_scores(results))
+    score = np.maximum(results.score_a, results.score_b)
+    usual = usual_score(score[(score > 0) & ~results.given_away]) if len(rows) else 0.0
+    return [
+        f"{source}:{lines[row]}: {results.score_a[row]}-{results.score_b[row]} can hardly be games "
+        f"won, as nearly all winners here have {usual:.0f} or fewer; they may be points"
+        for row in rows.tolist()
+    ]
+
+
+def without_bad_rows(
+    table: TextTable, read: Callable[[TextTable], Results]
+) -> tuple[TextTable, list[str], int]:
+    """Return a table without rows that cannot be read or hold no games, and what was left out.
+
+    What was left out is listed and counted, with the rows that were not cut into cells.
+
+    Parameters
+    ----------
+    table
+        the rows of the file.
+    read
+        reads them; what it cannot read, it adds to the table's problems.
+
+    Raises
+    ------
+    DataError
+        with all problems if they are not those of single rows, or no row is left.
+    """
+    read(table)
+    unread = {line for line in table.problems.lines if line > table.header}
+    if len(unread) < len(table.problems.lines):
+        table.problems.raise_any()
+    kept = table.without(unread)
+    if not len(kept):
+        table.problems.raise_any()
+    found = list(table.problems.listed())
+    trial = replace(kept, problems=Problems(table.source))
+    results = read(trial)
+    trial.problems.raise_any()
+    doubtful = doubtful_scores(results)
+    found += _score_doubts(results, kept.lines, table.source)
+    left_out = {*unread, *kept.lines[doubtful].tolist()}
+    return kept.without(left_out), _counted(found, len(left_out), table.source), len(left_out)
+
+
+def _counted(found: Sequence[str], rows: int, source: str) -> list[str]:
+    if not rows:
+        return []
+    many = "1 row is" if rows == 1 else f"{rows:,} rows are"
+    listed = list(found[:MOST_LISTED])
+    more = len(found) - len(listed)
+    end = [f"{source}: and {more:,} more problems"] if more else []
+    return [f"{source}: {many} left out, as --skip-bad asks", *listed, *end]
+
+
+YEARS_APART = 5
+"""Dates this many years from all the others are doubted."""
+
+FEW = 0.1
+"""The largest share of the matches that can be far from all the others."""
+
+MOST_DATES_LISTED = 10
+"""How many doubtful dates are listed; the rest are counted."""
+
+_GAP = np.timedelta64(round(365.25 * YEARS_APART), "D")
+
+
+def date_warnings(
+    dates: NDArray[np.datetime64],
+    lines: NDArray[np.int64],
+    source: str,
+    today: np.datetime64 | None = None,
+) -> list[str]:
+    """Return a warning for each match with a doubtful date.
+
+    Parameters
+    ----------
+    dates, lines
+        of the matches; NaT where no date is stated.
+    source
+        what the file is called.
+    today
+        the present day if not that of the clock. The day after it is not yet the future: it
+        has begun in other time zones.
+
+    >>> days = np.array(["2024-09-03", "2204-09-10", "2024-09-17"], dtype="datetime64[D]")
+    >>> date_warnings(days, np.array([2, 3, 4]), "r.csv")
+    ['r.csv:3: date 2204-09-10 is in the future; correct it if it was mistyped']
+    """
+    today = np.datetime64("today", "D") if today is None else today
+    future = dates > today + 1
+    far, others = _far(dates, ~future & ~np.isnat(dates))
+    found = []
+    for row in np.flatnonzero(future | far):
+        why = "in the future" if future[row] else f"{YEARS_APART} years or more from {others}"
+        found.append(
+            f"{source}:{lines[row]}: date {dates[row]} is {why}; correct it if it was mistyped"
+        )
+    more = len(found) - MOST_DATES_LISTED
+    return [
+        *found[:MOST_DATES_LISTED],
+        *([f"{source}: and {more:,} more such dates"] if more > 0 else []),
+    ]
+
+
+def _far(
+    dates: NDArray[np.datetime64], considered: NDArray[np.bool_]
+) -> tuple[NDArray[np.bool_], str]:
+    """Return which of the dates are far from all the others, and from when to when those are."""
+    far = np.zeros(len(dates), dtype=bool)
+    days = np.sort(dates[considered])
+    if len(days) < 2:
+        return far, ""
+    starts = np.flatnonzero(np.diff(days) >= _GAP) + 1
+    parts = np.split(days, starts)
+    most = max(parts, key=len)
+    if len(days) - len(most) > max(1, FEW * len(days)) or len(most) == len(days) / 2:
+        return far, ""
+    far[considered] = (dates[considered] < most[0]) | (dates[considered] > most[-1])
+    return far, f"all others ({most[0]} to {most[-1]})"

@@ -1,0 +1,392 @@
+"""From the table of a results file to its matches: columns, layouts, rows that fit together.
+
+A table may list the winner first, hold the score in one cell such as 7-5, and the race in one
+such as 7 or 7-5: `one_layout` brings them all to player_a, player_b, score_a, score_b, race_a and
+race_b, so that what reads those columns need not know how they were written.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.files.tables.cells import (
+    DateOrder,
+    Values,
+    dates,
+    read_date,
+    texts,
+    whole_numbers,
+    words,
+)
+from evenbreak.files.tables.names import PlayerNames, clean_name
+from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.table import Texts, TextTable
+from evenbreak.matches.formats import BETWEEN
+from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, letters
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.results_frame import GROUPS
+
+BY_WINNER = {
+    "score": ("result", "final score", "match score"),
+    "race": ("race to", "match race"),
+    "loser": ("losing player", "loser name", "lost by"),
+    "winner_score": ("winner games", "winners score", "games won by winner"),
+    "loser_score": ("loser games", "losers score", "games won by loser"),
+    "winner_race": ("winner needs", "winners race"),
+    "loser_race": ("loser needs", "losers race"),
+    "winner_team": ("winners team",),
+    "loser_team": ("losers team",),
+    "winner_level": ("winners level", "winner class", "winner rating"),
+    "loser_level": ("losers level", "loser class", "loser rating"),
+}
+"""The columns that are brought to another layout here, with their other names."""
+
+WALKOVERS = ("walkover", "wo", "forfeit", "forfeited", "ff", "bye", "noshow", "dq", "default")
+"""What stands in place of the score of a match that was not played."""
+
+_SCORE = re.compile(rf"(\d{{1,7}})\s*{BETWEEN}\s*(\d{{1,7}})", re.ASCII)
+_RACE = re.compile(rf"(?:race to )?(\d{{1,7}})(?:\s*{BETWEEN}\s*(\d{{1,7}}))?", re.ASCII)
+_MONTH = re.compile(r"\d{1,4}[-./ ][a-zäéû]{3,4}\.?|[a-zäéû]{3,4}\.?[-./ ]\d{1,4}")
+_LEADING_ZERO = re.compile(r"0\d[-/]\d{1,2}|\d{1,2}[-/]0\d", re.ASCII)
+_OF_WINNER = {
+    "winner": "player_a",
+    "loser": "player_b",
+    "winner_score": "score_a",
+    "loser_score": "score_b",
+    "winner_race": "race_a",
+    "loser_race": "race_b",
+    "winner_team": "team_a",
+    "loser_team": "team_b",
+    "winner_level": "level_a",
+    "loser_level": "level_b",
+}
+
+Pair = tuple[str, str]
+
+
+def one_layout(table: TextTable) -> TextTable:
+    """Return a table of results with its players, scores and races in columns of their own.
+
+    Where winner and loser are columns, the winner is player a, and the first number of a score
+    or race is the winner's. Cells without a meaning are added to the table's problems.
+    """
+    by_winner = {"winner", "loser"} <= table.found and not {"player_a", "player_b"} <= table.found
+    columns = dict(table.columns)
+    read = {name for name in table.found if name not in BY_WINNER}
+    if by_winner:
+        for name, side in _OF_WINNER.items():
+            if name in table and (name in ("winner", "loser") or side not in table):
+                columns[side] = table.columns[name]
+                read |= {name, side}
+    for name, (sides, meaning) in _IN_ONE_CELL.items():
+        if name in table and read.isdisjoint(sides):
+            columns.update(zip(sides, _split(_pairs(table, name, meaning)), strict=True))
+            read |= {name, *sides}
+    if "score" in read:
+        walkovers = [letters(text) in WALKOVERS for text in table.cells("score")]
+        if any(walkovers):
+            marked = zip(walkovers, table.cells("forfeit"), strict=True)
+            columns["forfeit"] = Texts.of(["yes" if one else text for one, text in marked])
+            read.add("forfeit")
+    made = replace(
+        table,
+        columns=columns,
+        found=frozenset(read),
+        warnings=(*table.warnings, *_not_used(sorted(table.found - read), table.source)),
+    )
+    return _with_winners(made) if by_winner else made
+
+
+def _not_used(names: list[str], source: str) -> list[str]:
+    """Return a warning if columns say what others say too."""
+    if not names:
+        return []
+    listed = ", ".join(map(quoted, names))
+    return [f"{source}: columns not used, since others say the same: {listed}"]
+
+
+def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> list[Pair]:
+    """Return the two numbers in each cell of a column, noting cells that have none."""
+    distinct, codes = table.columns[name]
+    meant = [read(text) for text in distinct]
+    pairs: list[Pair] = []
+    for row, code in enumerate(codes.tolist()):
+        found = meant[code]
+        if isinstance(found, str):
+            text = quoted(distinct[code])
+            table.problems.add(int(table.lines[row]), f"{name} {text} {found}")
+            found = "0" if name == "score" else "", "0" if name == "score" else ""
+        pairs.append(found)
+    return pairs
+
+
+def _split(pairs: list[Pair]) -> tuple[Texts, Texts]:
+    return Texts.of([a for a, _ in pairs]), Texts.of([b for _, b in pairs])
+
+
+def _score(text: str) -> Pair | str:
+    """Return the two numbers of a score, or why it is none.
+
+    >>> _score("7 – 5"), _score("'7/5"), _score("w/o"), _score("7")
+    (('7', '5'), ('7', '5'), ('', ''), 'is not a score; write 7-5')
+    """
+    text = text.removeprefix("'").strip()
+    if not text or letters(text) in WALKOVERS:
+        return "", ""
+    if _is_date(text):
+        return (
+            "looks like a date that a spreadsheet made of a score; format the column as text and "
+            "type the scores again"
+        )
+    found = _SCORE.fullmatch(text)
+    if found is not None:
+        return str(int(found[1])), str(int(found[2]))
+    if len(_SCORE.findall(text)) > 1:
+        return "is more than one score; write a row for each set"
+    return "is not a score; write 7-5"
+
+
+def _race(text: str) -> Pair | str:
+    """Return what the two players need, or why a text is no race.
+
+    >>> _race("7"), _race("7:5"), _race("Race to 9"), _race("long")
+    (('7', '7'), ('7', '5'), ('9', '9'), 'is not a race; write 7, or 7-5')
+    """
+    text = " ".join(text.removeprefix("'").lower().split())
+    if not text:
+        return "", ""
+    found = None if _is_date(text) else _RACE.fullmatch(text)
+    if found is None:
+        return "is not a race; write 7, or 7-5"
+    return str(int(found[1])), str(int(found[2] or found[1]))
+
+
+def _is_date(text: str) -> bool:
+    known = read_date(text) is not None or _LEADING_ZERO.fullmatch(text)
+    return bool(known or _MONTH.fullmatch(text.lower()))
+
+
+_IN_ONE_CELL: dict[str, tuple[Pair, Callable[[str], Pair | str]]] = {
+    "score": (("score_a", "score_b"), _score),
+    "race": (("race_a", "race_b"), _race),
+}
+
+
+def _with_winners(table: TextTable) -> TextTable:
+    """Return a table without the winners whose scores say otherwise, noted as problems."""
+    cells = [table.cells(name) for name in ("winner", "score_a", "score_b", "race_a", "race_b")]
+    winners = []
+    for row, (winner, *counts) in enumerate(zip(*cells, strict=True)):
+        numbers = [int(text) if text.isdecimal() else 0 for text in counts]
+        problem = _not_won(*numbers)
+        if problem:
+            table.problems.add(int(table.lines[row]), problem)
+        winners.append("" if problem else winner)
+    return replace(table, columns={**table.columns, "winner": Texts.of(winners)})
+
+
+def _not_won(won: int, lost: int, needed: int, other: int) -> str:
+    """Return why the first player did not win this match, or nothing."""
+    score = f"{won}-{lost}"
+    if needed and other:
+        if won < needed and lost >= other:
+            return (
+                f"the loser reached the race ({score} in a race {needed}:{other}); write the "
+                "winner's number first, in the score and the race"
+            )
+    elif 0 < won == lost:
+        return (
+            f"the score is tied ({score}), so there is no winner; correct it, or give the race if "
+            "it was a handicap race"
+        )
+    elif won < lost:
+        return (
+            f"the loser won more games ({score}); write the winner's games first, or give the "
+            "race if it was a handicap race"
+        )
+    return ""
+
+
+NAMES = ("player_a", "player_b")
+
+REQUIRED = {
+    "player_a": ("player 1", "player a name", "home", "home player", "a"),
+    "player_b": ("player 2", "player b name", "away", "away player", "b"),
+    "score_a": ("score 1", "games a", "games 1", "home score", "frames a", "racks won a"),
+    "score_b": ("score 2", "games b", "games 2", "away score", "frames b", "racks won b"),
+}
+"""The columns that a results file must have, with their other names."""
+
+OPTIONAL = {
+    "date": ("day", "match date", "played", "played on"),
+    "race_a": ("race 1", "race to a", "needs a", "home race"),
+    "race_b": ("race 2", "race to b", "needs b", "away race"),
+    "winner": ("won by", "match winner", "winning player", "winner name"),
+    "first_break": ("first breaker", "breaks first", "lag won by"),
+    "break_format": ("who breaks", "breaks next"),
+    "racks": ("rack winners", "games in order"),
+    "event": ("tournament", "competition", "league"),
+    "team_a": ("team 1", "home team"),
+    "team_b": ("team 2", "away team"),
+    "division": ("class", "flight"),
+    "level_a": ("level 1", "skill level a", "skill level 1", "class a", "class 1", "rating a"),
+    "level_b": ("level 2", "skill level b", "skill level 2", "class b", "class 2", "rating b"),
+    "forfeit": ("walkover", "forfeited", "no show", "w/o"),
+    **BY_WINNER,
+}
+"""The columns that a results file may have, with their other names."""
+
+_NO_SCORE = (
+    ("race_a", "race_b", "winner"),
+    ("race", "winner"),
+    ("racks",),
+    ("score",),
+    ("winner_score", "loser_score", "winner", "loser"),
+    ("winner_race", "loser_race", "winner", "loser"),
+)
+INSTEAD = {
+    **dict.fromkeys(("player_a", "player_b"), (("winner", "loser"),)),
+    **dict.fromkeys(("score_a", "score_b"), _NO_SCORE),
+}
+"""What can take the place of a column: winner and loser, a score in one cell, who won which
+race, or who won each rack."""
+
+
+def results_columns(
+    table: TextTable, names: PlayerNames, order: DateOrder | None = None
+) -> dict[str, Values]:
+    """Return what the cells of a results file mean, column by column.
+
+    Cells without a meaning are added to the table's problems. A column that the file lacks
+    is empty throughout. `order` is that of day and month in dates such as 9/3/2024.
+    """
+    sides = ("player_a", "loser") if "loser" in table else NAMES
+    a, b = (names.read(table, name) for name in sides)
+    columns = {
+        "player_a": a,
+        "player_b": b,
+        "date": dates(table, "date", order),
+        "forfeit": words(table, "forfeit", FORFEIT_WORDS, choices="yes or no", empty=False),
+    }
+    for name in ("score_a", "score_b"):
+        columns[name] = whole_numbers(table, name, may_be_empty=True)
+    for name in ("race_a", "race_b"):
+        remedy = "write 1, 2, 3, ..., or leave both races empty"
+        columns[name] = whole_numbers(table, name, at_least=1, remedy=remedy, may_be_empty=True)
+    for name in ("winner", "first_break"):
+        columns[name] = names.read_side(table, name, a, b)
+    choices = "winner, loser, alternate, a or b"
+    columns["break_format"] = words(table, "break_format", FORMAT_WORDS, choices=choices, empty=0)
+    columns["racks"] = texts(table, "racks", _without_blanks)
+    for name in ("event", *GROUPS):
+        columns[name] = texts(table, name, partial(unicodedata.normalize, "NFC"))
+    return columns
+
+
+def _without_blanks(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+SCORES = ("score_a", "score_b")
+_BY_WINNER = ("race_a", "race_b", "winner")
+_EMPTY_SCORE = (
+    "{name} is empty; write the games won, or race_a, race_b and winner if no more is known, or "
+    "mark a forfeit, or leave out a match that was not played"
+)
+_NOTHING_KNOWN = (
+    "nothing says who won; write race_a, race_b and winner, or racks, or mark a forfeit, or leave "
+    "out a match that was not played"
+)
+
+
+def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Values]) -> Results:
+    """Return the matches of a table; rows that contradict themselves are added to its problems.
+
+    Raises
+    ------
+    DataError
+        with all problems so far, if a column is missing that nothing takes the place of.
+    """
+    settled, good = _with_scores(table, columns)
+    if any(_is_missing(table, name) for name in REQUIRED):
+        table.problems.raise_any()
+    rows = np.flatnonzero(good)
+    given = {
+        name: values[rows]
+        for name, values in settled.items()
+        if name in (*REQUIRED, "unscored") or name in table.found
+    }
+    results = Results(names.players, **given)
+    _add_contradictions(table, results, rows)
+    # Where only the names could be read, they can still be the same.
+    a, b = (columns[name] for name in NAMES)
+    rows = np.flatnonzero(a.good & b.good & ~good)
+    zeros = np.zeros(len(rows), dtype=np.int64)
+    named = Results(names.players, a.values[rows], b.values[rows], zeros, zeros)
+    _add_contradictions(table, named, rows)
+    return results
+
+
+def _with_scores(
+    table: TextTable, columns: Mapping[str, Values]
+) -> tuple[dict[str, NDArray[Any]], NDArray[np.bool_]]:
+    """Return the values with empty scores filled in, and which rows are good.
+
+    An empty score is taken from the racks; where race and winner are stated it is not known,
+    and not needed.
+    """
+    values = {name: column.values for name, column in columns.items()}
+    good = np.logical_and.reduce([column.good for column in columns.values()])
+    empty = {name: ~columns[name].stated & ~values["forfeit"] for name in SCORES}
+    both = empty["score_a"] & empty["score_b"]
+    by_rack = both & columns["racks"].stated
+    for row in np.flatnonzero(by_rack):
+        racks = values["racks"][row]
+        values["score_a"][row], values["score_b"][row] = racks.count("a"), racks.count("b")
+    by_winner = [columns[name] for name in _BY_WINNER]
+    unscored = both & ~by_rack & np.logical_and.reduce([one.values > 0 for one in by_winner])
+    if unscored.any():
+        values["unscored"] = unscored
+    # A cell that could not be read has been reported, and may be all that is missing.
+    unreadable = np.logical_or.reduce([one.stated & (one.values == 0) for one in by_winner])
+    unknown = both & ~by_rack & ~unscored & ~unreadable
+    if table.found.isdisjoint(SCORES):
+        wrong, message = {"score_a": unknown}, _NOTHING_KNOWN
+    elif "score" in table:
+        wrong, message = {"score_a": unknown}, _EMPTY_SCORE.replace("{name}", "score")
+    else:
+        wrong, message = {name: unknown | (empty[name] & ~both) for name in SCORES}, _EMPTY_SCORE
+    for name, rows in wrong.items():
+        if not _is_missing(table, name):
+            for row in np.flatnonzero(rows):
+                table.problems.add(int(table.lines[row]), message.format(name=name))
+            good = good & ~rows
+    return values, good
+
+
+def _is_missing(table: TextTable, name: str) -> bool:
+    replaced = any(table.found >= set(group) for group in INSTEAD.get(name, ()))
+    return name not in table.found and not replaced
+
+
+def _add_contradictions(table: TextTable, results: Results, rows: NDArray[np.int64]) -> None:
+    for problem in find_problems(results):
+        row = rows[problem.row]
+        by_alias = _one_player(table, row) if problem.column == "player_b" else ""
+        table.problems.add(int(table.lines[row]), problem.message + by_alias)
+
+
+def _one_player(table: TextTable, row: int) -> str:
+    """Return the two names of a player on both sides, if they are spelt differently."""
+    texts = (table.columns[name] for name in NAMES)
+    a, b = (clean_name(distinct[codes[row]]) for distinct, codes in texts)
+    return "" if a == b else f" ({quoted(a)} and {quoted(b)} are read as one player)"

@@ -1,0 +1,351 @@
+"""Files of results as `Results`: one, or the seasons of a league in a row."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.arrays import array_values
+from evenbreak.errors import InputError
+from evenbreak.files.foreign.results import export_of
+from evenbreak.files.results.aliases import AliasesFile, read_aliases
+from evenbreak.files.results.columns_hint import columns_hint
+from evenbreak.files.results.doubts import (
+    date_warnings,
+    doubtful_score_warnings,
+    without_bad_rows,
+)
+from evenbreak.files.results.matches import (
+    INSTEAD,
+    NAMES,
+    OPTIONAL,
+    REQUIRED,
+    one_layout,
+    results_columns,
+    results_rows,
+)
+from evenbreak.files.tables.cells import DateOrder
+from evenbreak.files.tables.names import PlayerNames, hidden_letter_warnings, same_name
+from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
+from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.ratings.results import Results
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+MOST_RENAMED = 20
+"""How many names are listed that aliases changed; the rest are counted."""
+
+
+@array_values
+@dataclass(frozen=True, eq=False)
+class ResultsFile:
+    """The contents of a results file.
+
+    Parameters
+    ----------
+    results
+        its matches, in the order of the file; players in the order of their names.
+    source
+        what the file is called in messages.
+    warnings
+        what to check although the file can be used, a line each.
+    similar_names
+        groups of names that may mean one player.
+    sha256
+        fingerprint of the bytes that were read.
+    lines
+        the line in which each match begins; empty where the matches did not come from a file.
+    ties
+        a warning if matches have neither a winner nor a race; a chart may still say who won.
+    skipped
+        how many rows were left out because of `skip_bad`.
+    read
+        the name and the fingerprint of each file that was read, where there are several.
+    """
+
+    results: Results
+    source: str
+    warnings: tuple[str, ...]
+    similar_names: tuple[tuple[str, ...], ...]
+    sha256: str
+    lines: NDArray[np.int64] = field(
+        default_factory=lambda: np.zeros(0, dtype=np.int64), repr=False
+    )
+    ties: tuple[str, ...] = ()
+    skipped: int = 0
+    read: tuple[tuple[str, str], ...] = ()
+
+
+def read_results(
+    path: str | Path,
+    *,
+    aliases: str | Path | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+    skip_bad: bool = False,
+) -> ResultsFile:
+    r"""Read match results from a CSV file or workbook; '-' is standard input.
+
+    Format, separator and header are read as in `evenbreak.files.tables.table`; the columns
+    are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
+    and are put into Unicode's form NFC; those that differ in case or blanks alone are one
+    player's. `winner` and `first_break` are a, b or the name of one of the two players. A
+    forfeit may leave its scores empty; so may a match whose racks are given, or of which only
+    the race and the winner are known.
+
+    Parameters
+    ----------
+    path
+        the file.
+    aliases
+        a file that says which names mean the same player (see `evenbreak.files.results.aliases`).
+    columns
+        for columns such as player_a the titles that they have in the file, if not known ones.
+    dates
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
+    skip_bad
+        whether rows that cannot be read, and scores that can hardly be games, are left out and
+        listed in the warnings; otherwise the file is refused for the former, and the latter count.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file, a line each, if there are any that `skip_bad` does not
+        leave out; before that with those of the file of aliases.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "results.csv"
+    ...     _ = path.write_text("Date;Player A;Player B;Score A;Score B\n2024-09-03;Bo;Ann;5;7\n")
+    ...     season = read_results(path)
+    >>> season.results.players, season.results.score_b
+    (('Ann', 'Bo'), array([7]))
+    """
+    by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
+    table = one_layout(
+        read_table(
+            path,
+            REQUIRED,
+            OPTIONAL,
+            INSTEAD,
+            rows="matches",
+            called=_checked(columns or {}),
+            hint=columns_hint,
+            exported=export_of,
+        )
+    )
+
+    def read(rows: TextTable) -> tuple[PlayerNames, Results]:
+        names = PlayerNames(rows, NAMES, by_alias.means)
+        return names, results_rows(rows, names, results_columns(rows, names, dates))
+
+    skipped: list[str] = []
+    left_out = 0
+    if skip_bad:
+        table, skipped, left_out = without_bad_rows(table, lambda rows: read(rows)[1])
+    names, results = read(table)
+    table.problems.raise_any()
+    groups = tuple(similar_names(results.players, met_pairs(results)))
+    warnings = [
+        *by_alias.warnings,
+        *table.warnings,
+        *skipped,
+        *doubtful_score_warnings(results, table.lines, table.source),
+        *_repeated_rows(table),
+        *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),
+        *hidden_letter_warnings(table, NAMES),
+        *_merged(names.merged(), table.source),
+        *_renamed(names.renamed(), table.source, by_alias.source),
+        *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
+    ]
+    sha256 = hashlib.sha256(table.content).hexdigest()
+    ties = _tied(results, table)
+    return ResultsFile(
+        results,
+        table.source,
+        tuple(warnings),
+        groups,
+        sha256,
+        table.lines,
+        ties,
+        skipped=left_out,
+    )
+
+
+def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
+    """Return which titles mean which columns, or refuse columns that there are none of."""
+    for name in columns:
+        if name not in {**REQUIRED, **OPTIONAL}:
+            known = ", ".join((*REQUIRED, *OPTIONAL))
+            raise InputError(
+                f"columns has {name!r}, which is not a column of results; give {known}"
+            )
+    return columns
+
+
+def _merged(names: dict[str, str], source: str) -> list[str]:
+    """Return a warning for each name that is read as another spelling of it."""
+    found = [
+        f"{source}: {quoted(text)} is read as {quoted(name)}, as names that differ in case or "
+        "spaces alone mean one player"
+        for text, name in names.items()
+    ]
+    more = len(found) - MOST_RENAMED
+    counted = [f"{source}: and {more:,} more names that are read so"] if more > 0 else []
+    return found[:MOST_RENAMED] + counted
+
+
+def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
+    """Return a warning that lists the names that aliases have changed."""
+    if not names:
+        return []
+    changed = [f"{quoted(name)} as {quoted(meant)}" for name, meant in names.items()]
+    more = len(changed) - MOST_RENAMED
+    shown = changed[:MOST_RENAMED] + ([f"and {more:,} more"] if more > 0 else [])
+    return [f"{source}: names read according to {aliases}: {', '.join(shown)}"]
+
+
+def _repeated_rows(table: TextTable) -> list[str]:
+    """Return a warning if whole rows appear again: they may have been pasted twice."""
+    if "date" not in table:
+        return []  # the same two players often play to the same score on another day
+    # The sets of a match in another program's file stand in one line.
+    again = np.flatnonzero(table.repeated() & (np.diff(table.lines, prepend=-1) > 0))
+    if not len(again):
+        return []
+    first, count = int(table.lines[again[0]]), len(again)
+    rows = "1 row is" if count == 1 else f"{count:,} rows are"
+    return [
+        f"{table.source}:{first}: {rows} the same as an earlier one, date included; "
+        "all are counted, so delete what was entered twice"
+    ]
+
+
+def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
+    """Return a warning if matches have no winner."""
+    played = (results.score_a > 0) & (results.score_a == results.score_b) & ~results.given_away
+    race_a, race_b = results.races
+    tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
+    if not len(tied):
+        return ()
+    first, many = int(table.lines[tied[0]]), len(tied)
+    row = tied[0]
+    score = f"{results.score_a[row]}-{results.score_b[row]}"
+    matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
+    return (
+        f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
+        "counted game by game, without a winner",
+    )
+
+
+def met_pairs(results: Results) -> list[tuple[str, str]]:
+    """Return the names that played each other, each pair once for either order."""
+    pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
+    return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
+
+
+def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
+    r"""Read several files of results as one career of each player.
+
+    Names that differ in case or spaces alone are one player's, by the name in the first file.
+
+    Parameters
+    ----------
+    paths
+        the files, in any order: matches go by their dates.
+    reading
+        as for `read_results`.
+
+    Raises
+    ------
+    InputError
+        if two of the files hold the same.
+    DataError
+        as `read_results` does.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     last, this = (pathlib.Path(folder) / name for name in ("last.csv", "this.csv"))
+    ...     _ = last.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n")
+    ...     _ = this.write_text("player_a,player_b,score_a,score_b\nBO,Cy,7,2\n")
+    ...     read_seasons([last, this]).results.players
+    ('Ann', 'Bo', 'Cy')
+    """
+    found = [read_results(path, **reading) for path in paths]
+    if len(found) == 1:
+        return found[0]
+    prints = [file.sha256 for file in found]
+    for k, file in enumerate(found):
+        if file.sha256 in prints[:k]:
+            first = found[prints.index(file.sha256)].source
+            raise InputError(f"{first} and {file.source} hold the same results; give each once")
+    results = _joined([file.results for file in found])
+    groups = tuple(similar_names(results.players, met_pairs(results)))
+    source = " and ".join(file.source for file in found)
+    known = {group for file in found for group in file.similar_names}
+    across = [group for group in groups if group not in known]
+    remedy = "if so, use the same name throughout"
+    return ResultsFile(
+        results,
+        source,
+        (
+            *(text for file in found for text in file.warnings),
+            *similar_name_warnings(across, source, remedy),
+            *_in_two_files(found, results),
+        ),
+        groups,
+        hashlib.sha256("".join(prints).encode()).hexdigest(),
+        ties=tuple(text for file in found for text in file.ties),
+        skipped=sum(file.skipped for file in found),
+        read=tuple((file.source, file.sha256) for file in found),
+    )
+
+
+def _in_two_files(found: Sequence[ResultsFile], results: Results) -> Iterator[str]:
+    """Yield how many dated matches of a file are in an earlier one, with the same score."""
+    if results.date is None:
+        return
+    columns = (results.player_a, results.player_b, results.score_a, results.score_b)
+    days = results.date.astype("datetime64[D]").astype(np.int64)
+    rows = list(zip(days.tolist(), *(column.tolist() for column in columns), strict=True))
+    dated = (~np.isnat(results.date)).tolist()
+    seen: set[tuple[int, ...]] = set()
+    start = 0
+    for file in found:
+        end = start + len(file.results)
+        own = [row for row, known in zip(rows[start:end], dated[start:end], strict=True) if known]
+        again = sum(row in seen for row in own)
+        if again:
+            matches = "match is" if again == 1 else "matches are"
+            yield (
+                f"{file.source}: {again:,} {matches} in an earlier file too, with the same "
+                "players, score and day; leave them out of one of the files, or they count twice"
+            )
+        seen.update(own)
+        start = end
+
+
+def _joined(seasons: Sequence[Results]) -> Results:
+    """Return the matches of all seasons, between the players of all."""
+    spelling: dict[str, str] = {}
+    for season in seasons:
+        for name in season.players:
+            spelling.setdefault(same_name(name), name)
+    players = tuple(sorted(spelling.values()))
+    position = {name: k for k, name in enumerate(players)}
+    renumbered = []
+    for season in seasons:
+        places = [position[spelling[same_name(name)]] for name in season.players]
+        place = np.array(places, dtype=np.int64)
+        a, b = place[season.player_a], place[season.player_b]
+        renumbered.append(replace(season, players=players, player_a=a, player_b=b))
+    return reduce(Results.joined, renumbered)

@@ -1,0 +1,405 @@
+"""The file of an evening: one SQLite database with a tournament, a team night or both.
+
+What was acknowledged is on the disk: each addition is one transaction, written through at once.
+
+The file is opened through SQLite alone. Opening and closing it in any other way drops the locks
+that this process has on it, and another program may then remove the log that is being written
+(sqlite.org, "How To Corrupt An SQLite Database File", 2.2).
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import secrets
+import sqlite3
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from datetime import datetime
+from itertools import count
+from pathlib import Path
+from typing import Any, TypeVar
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.store.transaction import sync
+
+TOURNAMENT, TEAM_NIGHT = "event", "team_event"
+"""The tables of what happened in a tournament, and on a team night."""
+
+_LOG = logging.getLogger(__name__)
+_MARK = 0x45564252  # application_id: an evening of this program
+_FORMAT = 2  # user_version: how its events are written; 1 in version 0.2.0
+_WAIT = 30.0  # seconds for another program to finish its move
+WHY = {  # by the code of SQLite's error
+    sqlite3.SQLITE_NOTADB: "{name} is not the file of a tournament",
+    sqlite3.SQLITE_FULL: (
+        "there is no room on the disk of {name}, so nothing was changed; make room and try again"
+    ),
+    sqlite3.SQLITE_IOERR: (
+        "the disk of {name} reports an error, so nothing was changed ({error}); check whether "
+        "there is room on it"
+    ),
+    sqlite3.SQLITE_READONLY: (
+        "{name} can only be read, so nothing was changed; allow writing to it and to its folder"
+    ),
+    sqlite3.SQLITE_BUSY: "{name} is in use by another program; try again",
+    sqlite3.SQLITE_CANTOPEN: (
+        "{name} cannot be opened; check who may read and write it and its folder"
+    ),
+}
+DAMAGED = "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
+
+Result = TypeVar("Result")
+
+
+@contextmanager
+def opened(path: str | Path) -> Iterator[sqlite3.Connection]:
+    """Open the file of an evening to read it; what cannot be written to can be read all the same.
+
+    Raises
+    ------
+    DataError
+        if it is not one, or cannot be read.
+    """
+    with _checked(Path(path), reading=True) as base:
+        yield base
+
+
+@contextmanager
+def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
+    """Open the file of an evening to change it; others who want to, wait until the block ends.
+
+    What the block writes is kept as a whole, or not at all if it raises an error. A file that an
+    earlier version wrote is copied before its first change.
+
+    Raises
+    ------
+    DataError
+        if it is not one, or cannot be read or written.
+    """
+    with _checked(Path(path), reading=False) as base:
+        if _version(base) < _FORMAT:
+            _update(base, Path(path))
+        with _at_once(base):
+            yield base
+
+
+def begin(path: str | Path, write: Callable[[sqlite3.Connection], Result]) -> Result:
+    """Write to the file of an evening, which is made if it is not there: all of it, or nothing.
+
+    Parameters
+    ----------
+    path
+        the file.
+    write
+        writes to the database. What it wrote is dropped if it raises an error; it is called once
+        more if somebody else makes the file in the meantime.
+
+    Raises
+    ------
+    DataError
+        if the file is there and not one of an evening, or cannot be read or written.
+    """
+    place = Path(path)
+    while not os.path.lexists(place):
+        with _part_of(place) as part:
+            with _connected(place, part) as base:
+                result = _write_first(base, write)
+            if _placed(part, place):
+                return result
+    with _connected(place) as base:
+        if _is_empty(base):
+            return _write_first(base, write)
+    with changing(place) as base:
+        return write(base)
+
+
+def copied(path: str | Path, label: str) -> Path:
+    """Write a copy of the file beside it, and return its name, in which the label stands.
+
+    What bears that name is a whole copy, even if the program ends while it is written.
+    """
+    place = Path(path)
+    with _part_of(place) as part:
+        with _connected(place, reading=True) as base, closing(sqlite3.connect(part)) as copy:
+            base.backup(copy)
+        for k in count(1):
+            again = f"-{k}" if k > 1 else ""
+            name = place.with_name(f"{place.stem}-{label}{again}.backup.db")
+            if _placed(part, name):
+                break
+    return name
+
+
+def has_table(base: sqlite3.Connection, table: str) -> bool:
+    """Return whether a file has a table."""
+    asked = "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?"
+    return base.execute(asked, (table,)).fetchone() is not None
+
+
+def is_there(path: str | Path) -> bool:
+    """Return whether there is a file with something in it."""
+    place = Path(path)
+    return place.exists() and place.stat().st_size > 0
+
+
+def holds(path: str | Path, table: str) -> bool:
+    """Return whether there is a file of an evening with a table."""
+    if not is_there(path):
+        return False
+    with opened(path) as base:
+        return has_table(base, table)
+
+
+def is_database(path: str | Path) -> bool:
+    """Return whether a file is a database with something in it, as SQLite sees it."""
+    try:
+        with _connected(Path(path), reading=True) as base:
+            return not _is_empty(base)
+    except DataError:
+        return False
+
+
+@contextmanager
+def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
+    """Connect to the file of an evening, which must be there."""
+    if not place.exists():
+        raise DataError(
+            [f"{place.name} does not exist; begin a tournament with evenbreak tournament new"]
+        )
+    with _connected(place, reading=reading) as base:
+        _check(base, place)
+        yield base
+
+
+@contextmanager
+def _connected(
+    place: Path, part: Path | None = None, *, reading: bool = False
+) -> Iterator[sqlite3.Connection]:
+    """Connect to a file, or to the part that takes its place later; errors name the file."""
+    if place.is_dir():
+        raise DataError([f"{place} is a folder; name the file of a tournament"])
+    try:
+        with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
+            yield base
+    except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite's own words may be damaged
+        words = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
+        raise DataError([words.format(name=place.name, error=error)]) from error
+
+
+def _connection(place: Path, mode: str, reading: bool) -> sqlite3.Connection:
+    """Connect to a file and look at it.
+
+    Where its log cannot be made beside it, because the disk is full or the folder can only be read,
+    it can be read without one: nobody writes to it then, unless there is a log already.
+    """
+    where = place.absolute().as_uri()
+    try:
+        return _looked_at(f"{where}?mode={mode}")
+    except sqlite3.OperationalError as error:
+        log = place.with_name(f"{place.name}-wal")
+        busy = error.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY
+        if not reading or busy or (log.exists() and log.stat().st_size):
+            raise
+        return _looked_at(f"{where}?mode=ro&immutable=1")
+
+
+def _looked_at(address: str) -> sqlite3.Connection:
+    base = sqlite3.connect(address, uri=True, timeout=_WAIT, isolation_level=None)
+    try:
+        base.execute("PRAGMA synchronous = FULL")
+        base.execute("PRAGMA schema_version")
+    except sqlite3.Error:
+        base.close()
+        raise
+    return base
+
+
+@contextmanager
+def _at_once(base: sqlite3.Connection) -> Iterator[None]:
+    """Keep all that the block writes, or nothing if it raises an error; others wait meanwhile."""
+    base.execute("BEGIN IMMEDIATE")
+    try:
+        yield
+        base.execute("COMMIT")
+    except BaseException:
+        if base.in_transaction:
+            base.execute("ROLLBACK")
+        raise
+
+
+def _check(base: sqlite3.Connection, place: Path) -> None:
+    """Refuse a database that is not the file of an evening, or not in a known format."""
+    mark, version, name = _number(base, "application_id"), _version(base), place.name
+    if mark != _MARK:
+        raise DataError([f"{name} is not the file of a tournament"])
+    if version > _FORMAT:
+        raise DataError(
+            [
+                f"{name} was written by a newer version of evenbreak, in format {version}, and "
+                f"this one knows formats up to {_FORMAT}; update evenbreak"
+            ]
+        )
+    if version < 1:
+        why = f"no version of evenbreak has written a format {version}"
+        raise DataError([DAMAGED.format(name=name, error=why)])
+
+
+def _update(base: sqlite3.Connection, place: Path) -> None:
+    """Copy a file in an earlier format, and bring it into the present one."""
+    with _at_once(base):
+        version = _version(base)  # another program may have done it meanwhile
+        if version == _FORMAT:
+            return
+        copy = copied(place, f"format-{version}")
+        base.execute(f"PRAGMA user_version = {_FORMAT}")
+    _LOG.warning(
+        "%s was written by an earlier version of evenbreak; a copy for that version is %s",
+        place.name,
+        copy.name,
+    )
+
+
+def _write_first(base: sqlite3.Connection, write: Callable[[sqlite3.Connection], Result]) -> Result:
+    """Write to a database that has nothing in it, and make it the file of an evening."""
+    base.execute("PRAGMA journal_mode = WAL")
+    with _at_once(base):
+        if _is_empty(base):
+            base.execute(f"PRAGMA application_id = {_MARK}")
+            base.execute(f"PRAGMA user_version = {_FORMAT}")
+        return write(base)
+
+
+def _is_empty(base: sqlite3.Connection) -> bool:
+    """Return whether nothing was written to a database yet."""
+    tables = base.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]
+    return not (tables or _number(base, "application_id") or _version(base))
+
+
+def _version(base: sqlite3.Connection) -> int:
+    return _number(base, "user_version")
+
+
+def _number(base: sqlite3.Connection, pragma: str) -> int:
+    return int(base.execute(f"PRAGMA {pragma}").fetchone()[0])
+
+
+@contextmanager
+def _part_of(place: Path) -> Iterator[Path]:
+    """Give a name beside a file under which something is made that is placed when it is whole."""
+    part = place.with_name(f".{place.stem}-{secrets.token_hex(4)}.part")
+    try:
+        yield part
+    finally:
+        for ending in ("", "-journal", "-wal", "-shm"):
+            part.with_name(part.name + ending).unlink(missing_ok=True)
+
+
+def _placed(part: Path, place: Path) -> bool:
+    """Give a file that is whole its name, in one step; return False if that is taken."""
+    try:
+        os.link(part, place)
+    except FileExistsError:
+        return False
+    except OSError:  # as on a memory stick
+        if os.path.lexists(place):
+            return False
+        try:
+            part.rename(place)
+        except OSError as error:
+            raise DataError([f"{place.name} cannot be written ({error.strerror})"]) from error
+    sync(place.parent)
+    return True
+
+
+_FAULTS = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    TypeError,
+    ValueError,
+)
+"""What the rules raise where they are given what nobody could have entered."""
+
+State = TypeVar("State")
+Entry = TypeVar("Entry")
+
+
+@contextmanager
+def named(path: str | Path, what: str) -> Iterator[None]:
+    """Say of an error in the block in which file, and in what of it, something is wrong.
+
+    >>> with named("nights/tonight.db", "entry 3 (late)"):
+    ...     raise InputError("line is 'x'; give a whole number from 0 to 255")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.DataError: tonight.db, entry 3 (late): line is 'x'; give a whole number from 0
+    to 255. Go on with a copy of the file, such as one ending in .backup.db
+    """
+    try:
+        yield
+    except DataError:
+        raise
+    except _FAULTS as error:
+        why = str(error) if isinstance(error, InputError) else "does not fit the entries before it"
+        raise DataError(
+            [
+                f"{Path(path).name}, {what}: {why}. Go on with a copy of the file, such as one "
+                "ending in .backup.db"
+            ]
+        ) from error
+
+
+def happened(at: Any, kind: Any, what: Any, event_of: Callable[[str, Any], Entry]) -> Entry:
+    """Return what happened, from the columns of an entry.
+
+    Raises
+    ------
+    InputError
+        if a column is not what it should be.
+    """
+    for name, column in (("at", at), ("kind", kind), ("what", what)):
+        if not isinstance(column, str):
+            raise InputError(f"{name} is not text")
+    try:
+        moment = datetime.fromisoformat(at)
+    except ValueError:
+        moment = datetime.max
+    if moment.tzinfo or not 1970 <= moment.year < 3000:
+        raise InputError(f"at is {at[:40]!r}; give a time such as 2025-03-01T19:30:00")
+    try:
+        data = json.loads(what)
+    except (ValueError, RecursionError):
+        raise InputError("what is damaged JSON") from None
+    return event_of(kind, data)
+
+
+def folded(
+    path: str | Path,
+    events: Sequence[Any],
+    fold: Callable[[Sequence[Any]], State],
+    names: Mapping[type, str],
+) -> State:
+    """Return the state after the events of a file, or name the first that cannot have happened.
+
+    Parameters
+    ----------
+    path
+        the file.
+    events
+        in their order; `what` happened in each.
+    fold
+        returns the state after some of them.
+    names
+        of the kinds of what happens.
+    """
+    try:
+        return fold(events)
+    except _FAULTS:
+        for count, event in enumerate(events, 1):
+            with named(path, f"entry {count} ({names[type(event.what)]})"):
+                fold(events[:count])
+        raise

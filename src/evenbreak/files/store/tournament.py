@@ -1,0 +1,279 @@
+"""The tournament in the file of an evening: events are only ever added.
+
+Two programs can use one file: each checks its move against the state at that moment, while the
+other waits. The events can also be a CSV file, from which the state follows as well.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sqlite3
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.files.store.desk import TABLE as PHONES
+from evenbreak.files.store.evening_file import (
+    DAMAGED,
+    TOURNAMENT,
+    begin,
+    changing,
+    folded,
+    happened,
+    has_table,
+    named,
+    opened,
+)
+from evenbreak.files.tables.rows import text_of
+from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
+from evenbreak.tournaments.evening.fold import Evening, evening
+
+_TABLE = """
+CREATE TABLE event (
+    number INTEGER PRIMARY KEY,
+    at TEXT NOT NULL,
+    kind TEXT NOT NULL,
+    what TEXT NOT NULL
+)
+"""
+_ONCE = "CREATE TABLE IF NOT EXISTS once (form TEXT PRIMARY KEY, number INTEGER NOT NULL)"
+"""The forms that were taken, each with the number of the last event after it."""
+
+
+class TakenBeforeError(InputError):
+    """A form that comes in again, whatever it added the first time."""
+
+
+def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
+    """Write the first events of a tournament to a new file, or to that of a team night.
+
+    Parameters
+    ----------
+    path
+        the file.
+    events
+        what has happened so far.
+    in_place_of
+        how many events the tournament has that this one takes the place of; 0: there is none.
+
+    Raises
+    ------
+    DataError
+        if the file is there already with a tournament, or cannot be written.
+    InputError
+        if the events do not begin a tournament.
+
+    >>> import tempfile, pathlib
+    >>> from evenbreak.tournaments.evening.events import Dropped, Entrant, Opened, Plan
+    >>> first = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder) / "tonight.db"
+    ...     _ = new_tournament(file, [Event("2025-03-01T19:30:00", first)])
+    ...     _ = add_events(file, lambda state: [Event("2025-03-01T19:31:00", Dropped("Bo"))])
+    ...     list(read_tournament(file).entrants)
+    ['Ann']
+    """
+    state = _shown(evening(events))
+
+    def write(base: sqlite3.Connection) -> None:
+        if _count(base) != in_place_of:
+            name = Path(path).name
+            raise DataError([f"{name} is there already; give the new tournament another name"])
+        for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
+            base.execute(f"DROP TABLE IF EXISTS {table}")
+        base.execute(_TABLE)
+        _add(base, events)
+
+    begin(path, write)
+    return state
+
+
+def read_events(path: str | Path) -> list[Event]:
+    """Return the events of a tournament.
+
+    Raises
+    ------
+    DataError
+        if the file is not that of a tournament, or cannot be read.
+    """
+    with opened(path) as base:
+        return _events(base, path)
+
+
+def read_tournament(path: str | Path) -> Evening:
+    """Return the state of a tournament.
+
+    Raises
+    ------
+    DataError
+        if the file is not that of a tournament, or cannot be read.
+    """
+    return tournament_of(path, read_events(path))
+
+
+def add_events(
+    path: str | Path,
+    decide: Callable[[Evening], Sequence[Event]],
+    *,
+    by: str = "",
+    form: str | None = None,
+    check: Callable[[Evening, Evening], None] | None = None,
+) -> tuple[Evening, Evening]:
+    """Add events to a tournament, and return its state before and after.
+
+    Parameters
+    ----------
+    path
+        the file.
+    decide
+        returns the events, given the state; nobody else can add any in the meantime. If it raises
+        an error, nothing is added.
+    by
+        who enters them; kept beside them.
+    form
+        what the form is known by that they come from. If it was taken before, nothing is asked and
+        nothing is added.
+    check
+        gets the state before and after; if it raises an error, nothing is added.
+
+    Raises
+    ------
+    TakenBeforeError
+        if the form was taken before.
+    DataError
+        if the file is not that of a tournament, or cannot be read or written.
+    """
+    with changing(path) as base:
+        if form:
+            _refuse_taken(base, form)
+        earlier = _events(base, path)
+        before = tournament_of(path, earlier)
+        added = [replace(one, by=by) for one in decide(before)]
+        after = _shown(evening([*earlier, *added]))
+        if check:
+            check(before, after)
+        _add(base, added, len(earlier))
+        if form:
+            base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
+    return before, after
+
+
+def _shown(state: Evening) -> Evening:
+    """Return a state; one that cannot be shown is never written."""
+    if state.drawn:
+        _ = state.on_tables, state.live, state.ratings, state.whole
+        for match in state.standing.to_play:
+            state.needed(match, state.pair(match))
+    return state
+
+
+def _count(base: sqlite3.Connection) -> int:
+    """Return how many events a file has."""
+    if not has_table(base, TOURNAMENT):
+        return 0
+    return int(base.execute("SELECT COUNT(*) FROM event").fetchone()[0])
+
+
+def _refuse_taken(base: sqlite3.Connection, form: str) -> None:
+    base.execute(_ONCE)
+    if base.execute("SELECT 1 FROM once WHERE form = ?", (form,)).fetchone():
+        raise TakenBeforeError("that was entered before; nothing was entered a second time")
+
+
+def _add(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> None:
+    """Write events after others, and who entered them; one that could not be read is refused."""
+    rows = event_rows(events, count + 1)
+    for _, at, kind, what, by in rows:
+        _event(at, kind, what, by)
+    base.executemany("INSERT INTO event VALUES (?, ?, ?, ?)", [row[:4] for row in rows])
+    if signed := [(row[0], row[4]) for row in rows if row[4]]:
+        base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
+        base.executemany("INSERT INTO author VALUES (?, ?)", signed)
+
+
+def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
+    if not has_table(base, TOURNAMENT):
+        raise DataError(
+            [
+                f"{Path(path).name} holds a team night and no tournament; open it with evenbreak "
+                "serve, or begin a tournament in it with evenbreak tournament new"
+            ]
+        )
+    rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number").fetchall()
+    signed = has_table(base, "author")
+    by = dict(base.execute("SELECT number, name FROM author").fetchall() if signed else ())
+    events = []
+    for number, at, kind, what in rows:
+        with named(path, f"entry {number} ({kind})"):
+            events.append(_event(at, kind, what, str(by.get(number, ""))))
+    if not events:
+        raise DataError([DAMAGED.format(name=Path(path).name, error="its tournament is gone")])
+    return events
+
+
+@lru_cache(maxsize=4096)
+def _event(at: Any, kind: Any, what: Any, by: str) -> Event:
+    """Return the event in a row; a page reads all rows again after each new one."""
+    return Event(at, happened(at, kind, what, event_of), by)
+
+
+def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
+    """Return the state after the events of a file, if it can be shown.
+
+    Raises
+    ------
+    DataError
+        if it cannot; it names the entry that does not fit.
+    """
+    return folded(path, events, lambda some: _shown(evening(some)), NAMES)
+
+
+TITLES = ("number", "at", "kind", "what", "by")
+_BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no authors
+
+
+def event_rows(events: Sequence[Event], first: int = 1) -> list[tuple[int, str, str, str, str]]:
+    """Return the rows below `TITLES`; `what` holds the details as JSON."""
+    return [
+        (number, one.at, NAMES[type(one.what)], json.dumps(as_dict(one.what)), one.by)
+        for number, one in enumerate(events, first)
+    ]
+
+
+def is_event_list(path: str | Path) -> bool:
+    """Return whether a file begins like a list of events."""
+    try:
+        with Path(path).open("rb") as file:
+            return file.read(64).removeprefix(b"\xef\xbb\xbf").startswith(_BEGINNING.encode())
+    except OSError:
+        return False
+
+
+def read_event_list(path: str | Path) -> list[Event]:
+    """Return the events in a CSV file.
+
+    Raises
+    ------
+    DataError
+        if a row is not an event, or the events are not those of a tournament.
+    """
+    body, encoding, _ = text_of(Path(path).read_bytes(), str(path))
+    reader = csv.reader(body.decode(encoding).splitlines()[1:])
+    events = []
+    for line, row in enumerate(reader, 2):
+        try:
+            _, at, kind, what, by = row if len(row) == len(TITLES) else (*row, "")
+            events.append(Event(at, happened(at, kind, what, event_of), by))
+        except (InputError, ValueError) as error:
+            raise DataError([f"{path}:{line}: is not an event of a tournament: {error}"]) from None
+    try:
+        state = evening(events)
+        if state.drawn:
+            _ = state.standing
+    except InputError as error:
+        raise DataError([f"{path}: {error}"]) from None
+    return events

@@ -1,0 +1,113 @@
+"""Everything that is wrong with a file, collected to be corrected in one go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import TYPE_CHECKING
+
+from evenbreak.errors import DataError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+LONGEST_QUOTE = 40
+
+
+def quoted(text: str) -> str:
+    r"""Return text quoted for a message: short, on one line, harmless to a terminal.
+
+    A tab is shown as the blank that it looks like.
+
+    >>> quoted("six\nhundred"), quoted("9" * 50)
+    ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
+    """
+    text = text.replace("\t", " ")
+    return repr(text) if len(text) <= LONGEST_QUOTE else repr(text[:LONGEST_QUOTE]) + "..."
+
+
+def printable(text: str) -> str:
+    r"""Return text with everything unprintable escaped, so that it stays on one line.
+
+    >>> printable("Zoë's\nfile\x1b.csv")
+    "Zoë's\\nfile\\x1b.csv"
+    """
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+        for letter in text
+    )
+
+
+class Problems:
+    """The problems of one file, reported in the order of its lines.
+
+    Parameters
+    ----------
+    source
+        what the file is called in the messages.
+
+    >>> problems = Problems("players.csv")
+    >>> problems.add(7, "rating 'six' is not a number; write digits")
+    >>> problems.add(None, "there is no column 'player'; add it")
+    >>> problems.raise_any()
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.DataError: players.csv: there is no column 'player'; add it
+    players.csv:7: rating 'six' is not a number; write digits
+    """
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self._found: list[tuple[int, str]] = []
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def add(self, line: int | None, message: str) -> None:
+        """Add a problem: its line (None: the whole file), what is wrong and what to do."""
+        self._found.append((line or 0, message))
+
+    def add_rows(
+        self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], str]
+    ) -> None:
+        """Add a problem in each of `rows`.
+
+        Parameters
+        ----------
+        lines
+            the line of each row of the table.
+        rows
+            the rows at fault.
+        message
+            what is wrong in a row, and what to do.
+        """
+        self._found += [(int(lines[row]), message(int(row))) for row in rows]
+
+    @property
+    def lines(self) -> set[int]:
+        """The lines that have problems; 0 stands for the whole file."""
+        return {line for line, _ in self._found}
+
+    def outside(self, lines: Collection[int]) -> Problems:
+        """Return the problems that are not in some lines."""
+        rest = Problems(self.source)
+        rest._found = [(line, text) for line, text in self._found if line not in lines]
+        return rest
+
+    def listed(self) -> tuple[str, ...]:
+        """Return the problems, a line each, those of the file as a whole first."""
+        # Stable: problems of one line stay in the order in which they were found.
+        ordered = sorted(self._found, key=lambda problem: problem[0])
+        return tuple(f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered)
+
+    def raise_any(self) -> None:
+        """Raise all problems, if there are any.
+
+        Raises
+        ------
+        DataError
+            with one line a problem, those of the whole file first.
+        """
+        if self._found:
+            raise DataError(self.listed())

@@ -1,0 +1,365 @@
+"""The rows of a file, from its bytes: text in any encoding, CSV, workbooks, other programs' files.
+
+Whatever format a file has, it becomes a header and rows of cells here, each with its line.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from itertools import chain
+from pathlib import Path
+from typing import NamedTuple
+
+from evenbreak.errors import DataError
+from evenbreak.files.tables import workbook
+from evenbreak.files.tables.header import Header, quoted_list
+from evenbreak.files.tables.problems import printable, quoted
+
+MAGIC = {
+    b"\xd0\xcf\x11\xe0": "an old or locked Excel workbook; save it as .xlsx without a password",
+    b"%PDF": "a PDF document; save it as CSV, in UTF-8",
+}
+
+
+MOST_BYTES = 256 << 20
+"""The largest file that is read: some five million matches."""
+
+
+class Text(NamedTuple):
+    """The text of a file.
+
+    Parameters
+    ----------
+    body
+        its bytes; UTF-8 where the file was UTF-16.
+    encoding
+        how `body` is encoded.
+    warnings
+        whether that had to be guessed.
+    """
+
+    body: bytes
+    encoding: str
+    warnings: list[str]
+
+
+def content_of(path: str | Path) -> tuple[str, bytes]:
+    """Return what to call a file in messages, and its bytes; '-' is standard input."""
+    if str(path) == "-":
+        if sys.stdin is None:
+            raise DataError(["stdin: is closed; name a file, or pipe one into the command"])
+        return "stdin", _no_larger(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
+    source = printable(str(path))
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except FileNotFoundError:
+        raise DataError([f"{source}: there is no such file; check its name"]) from None
+    except IsADirectoryError:
+        raise DataError([f"{source}: is a folder; name a file in it"]) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
+    return source, _no_larger(content, source)
+
+
+def _no_larger(content: bytes, source: str) -> bytes:
+    """Return a file's bytes, or refuse a file that is larger than any table of a league."""
+    if len(content) > MOST_BYTES:
+        raise DataError(
+            [f"{source}: is larger than {MOST_BYTES >> 20} MB; name a table, or split it up"]
+        )
+    return content
+
+
+def text_of(content: bytes, source: str) -> Text:
+    r"""Return the text of a file: UTF-8, UTF-16 with a byte order mark, or else Windows-1252.
+
+    Raises
+    ------
+    DataError
+        if there is none.
+
+    >>> text_of("\ufeffZoë".encode("utf-16-be"), "r.csv").body.decode()
+    'Zoë'
+    """
+    for magic, kind in MAGIC.items():
+        if content.startswith(magic):
+            raise DataError([f"{source}: is {kind}"])
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        try:
+            content = content.decode("utf-16").removeprefix("\ufeff").encode()
+        except UnicodeError:
+            raise DataError(
+                [f"{source}: is damaged UTF-16 text; save the file again, in UTF-8"]
+            ) from None
+    nul = content.find(b"\0")
+    if nul >= 0:
+        line = content.count(b"\n", 0, nul) + 1
+        raise DataError([f"{source}:{line}: holds a NUL byte; save the file as CSV, in UTF-8"])
+    try:
+        encoding, warnings = "utf-8-sig", []
+        text = content.decode(encoding)
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        try:
+            # After the mark of UTF-8 a byte that is not UTF-8 is damage, not another encoding.
+            encoding = "ascii" if content.startswith(codecs.BOM_UTF8) else "cp1252"
+            text = content.decode(encoding)
+        except UnicodeDecodeError as also:
+            line = content.count(b"\n", 0, also.start) + 1
+            raise DataError(
+                [f"{source}:{line}: is neither UTF-8 nor Windows-1252 text; save it as UTF-8"]
+            ) from None
+        warnings = [f"{source}:{line}: is not UTF-8; read as Windows-1252, so check the accents"]
+    if not text.strip():
+        raise DataError([f"{source}: is empty; write a header line, then one line for each row"])
+    return Text(content, encoding, warnings)
+
+
+ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
+SEPARATORS = (",", ";", "\t")
+
+Rows = tuple[list[int], list[list[str]]]
+"""Some rows: the line in which each begins, and its cells."""
+
+_DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(?=[\r\n])', re.I)
+"""A first line with which Excel declares the separator, such as sep=;"""
+
+
+def first_rows(content: bytes, encoding: str) -> dict[str, Rows]:
+    """Return the first rows by each separator; by one only where a first line declares it."""
+    declared = _DECLARED.match(content)
+    separators = (declared[1].decode(),) if declared else SEPARATORS
+    return {separator: next(csv_rows(content, encoding, separator, [])) for separator in separators}
+
+
+def csv_rows(
+    content: bytes, encoding: str, separator: str, unreadable: list[int]
+) -> Iterator[Rows]:
+    """Yield the rows that are not blank, `ROWS_AT_A_TIME` at once.
+
+    Lines that cannot be split into cells are added to `unreadable`. A first line that declares
+    the separator reads as a blank one, so that lines keep their numbers.
+    """
+    declared = _DECLARED.match(content)
+    body = content[declared.end() :] if declared else content
+    text = io.TextIOWrapper(io.BytesIO(body), encoding=encoding, newline="")
+    reader = csv.reader(text, delimiter=separator, skipinitialspace=True, strict=True)
+    lines: list[int] = []
+    rows: list[list[str]] = []
+    line = 1
+    ended = False
+    while not ended:
+        try:
+            for row in reader:
+                if any(row):
+                    lines.append(line)
+                    rows.append(row)
+                line = reader.line_num + 1
+                if len(rows) == ROWS_AT_A_TIME:
+                    yield lines, rows
+                    lines, rows = [], []
+            ended = True
+        except csv.Error:
+            unreadable.append(line)
+            line = reader.line_num + 1
+    yield lines, rows
+
+
+PATIENCE = 60.0
+"""Seconds in which a workbook must have been read."""
+
+_ZIP = b"PK\x03\x04"
+
+
+class Sheet(NamedTuple):
+    """The rows of a sheet that are not blank.
+
+    Parameters
+    ----------
+    name
+        what the sheet is called.
+    lines
+        the number of each row in the sheet, from 1.
+    rows
+        their cells as text.
+    """
+
+    name: str
+    lines: list[int]
+    rows: list[list[str]]
+
+
+def is_spreadsheet(content: bytes) -> bool:
+    """Return whether a file may be a workbook: a zip archive."""
+    return content.startswith(_ZIP)
+
+
+def sheets_of(content: bytes, source: str) -> list[Sheet]:
+    """Return the visible sheets of a workbook that hold anything.
+
+    Numbers are written as they are (1500, not 1500.0), dates as 2024-09-03, times of day as
+    7:05, which is what a spreadsheet makes of a score of 7:5. It is read in a process of its own:
+    one that asks for all the memory ends that process alone.
+
+    Raises
+    ------
+    DataError
+        if the file is no workbook, is damaged or locked, too large, or empty.
+    """
+    # -I and -S: nothing from the current folder or the environment is imported there.
+    words = [sys.executable, "-I", "-S", workbook.__file__, str(workbook.MOST_MEMORY), *sys.path]
+    try:
+        done = subprocess.run(  # noqa: S603
+            words, input=content, capture_output=True, timeout=PATIENCE, check=True
+        )
+        answer = json.loads(done.stdout)
+    except (subprocess.SubprocessError, MemoryError):
+        answer = {"problem": workbook.TOO_MUCH}
+    except OSError as error:
+        answer = {"problem": f"cannot be read now ({error.strerror}); try again"}
+    if "problem" in answer:
+        raise DataError([f"{source}: {answer['problem']}"])
+    sheets = [Sheet(*sheet) for sheet in answer["sheets"] if sheet[2]]
+    if not sheets:
+        raise DataError([f"{source}: has no sheet with anything in it; write a header and rows"])
+    return sheets
+
+
+SAMPLE = 2000
+"""How many rows are looked at to guess what the columns are."""
+
+
+class Export(NamedTuple):
+    """The matches in a file that another program saved.
+
+    Parameters
+    ----------
+    sheet
+        a header and a row for each match; their lines count the matches.
+    warnings
+        what was left out or changed, a line each.
+    """
+
+    sheet: Sheet
+    warnings: list[str]
+
+
+class TableRows(NamedTuple):
+    """The rows of a file, from the header on.
+
+    Parameters
+    ----------
+    titles, line
+        the header, and the line where it begins; no titles where the file has no rows.
+    body
+        the rows below it.
+    unreadable
+        the lines that cannot be split into cells; complete once `body` has been used up.
+    warnings
+        what to know about how the file was read, a line each.
+    sample
+        the first rows below the header.
+    """
+
+    titles: list[str]
+    line: int
+    body: Iterator[Rows]
+    unreadable: list[int]
+    warnings: list[str]
+    sample: list[list[str]]
+
+
+def table_rows(
+    content: bytes,
+    source: str,
+    header: Header,
+    exported: Callable[[bytes, str], Export | None] | None = None,
+) -> TableRows:
+    """Return the rows of a file, whatever format it has.
+
+    Parameters
+    ----------
+    content, source
+        its bytes, and what it is called in messages.
+    header
+        what is looked for.
+    exported
+        reads the exports of other programs; None for what is no such file.
+
+    Raises
+    ------
+    DataError
+        if the file holds no table at all.
+    """
+    if is_spreadsheet(content):
+        return _of_workbook(sheets_of(content, source), source, header)
+    export = None if exported is None else exported(content, source)
+    if export is not None:
+        rows = _of_sheet(export.sheet, source, header)
+        return rows._replace(warnings=[*export.warnings, *rows.warnings])
+    return _of_text(content, source, header)
+
+
+def _of_text(content: bytes, source: str, header: Header) -> TableRows:
+    body, encoding, warnings = text_of(content, source)
+    tried = first_rows(body, encoding)
+    fits = {separator: header.best(rows) for separator, (_, rows) in tried.items()}
+    separator = max(fits, key=fits.__getitem__)
+    unreadable: list[int] = []
+    parts = csv_rows(body, encoding, separator, unreadable)
+    lines, rows = next(parts)
+    if not rows:
+        return TableRows([], 0, parts, unreadable, warnings, [])
+    at = -fits[separator].above
+    # What cannot be split is no problem above the header.
+    unreadable[:] = [line for line in unreadable if line > lines[at]]
+    below = chain([(lines[at + 1 :], rows[at + 1 :])], parts)
+    warnings += _skipped(lines[: at + 1], rows[:at], source)
+    return TableRows(
+        rows[at], lines[at], below, unreadable, warnings, rows[at + 1 : at + 1 + SAMPLE]
+    )
+
+
+def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
+    """Return the rows of the first sheet whose header fits."""
+    fits = [header.best(sheet.rows) for sheet in sheets]
+    complete = [sheet for sheet, fit in zip(sheets, fits, strict=True) if fit.complete]
+    likely = max(zip(sheets, fits, strict=True), key=lambda pair: pair[1].known)[0]
+    sheet = complete[0] if complete else likely
+    rows = _of_sheet(sheet, source, header)
+    if len(complete) < 2:
+        return rows
+    others = quoted_list([other.name for other in complete[1:]])
+    also, it = ("has", "it") if len(complete) == 2 else ("have", "them")
+    warning = (
+        f"{source}: only the sheet {quoted(sheet.name)} is read, although {others} {also} such a "
+        f"table too; to read {it}, save each sheet as a file of its own"
+    )
+    return rows._replace(warnings=[warning, *rows.warnings])
+
+
+def _of_sheet(sheet: Sheet, source: str, header: Header) -> TableRows:
+    at = -header.best(sheet.rows).above
+    lines, rows = sheet.lines, sheet.rows
+    below: Rows = lines[at + 1 :], rows[at + 1 :]
+    warnings = _skipped(lines[: at + 1], rows[:at], source)
+    return TableRows(rows[at], lines[at], iter([below]), [], warnings, below[1][:SAMPLE])
+
+
+def _skipped(lines: list[int], rows: list[list[str]], source: str) -> list[str]:
+    """Return a note of the rows above the header, whose line is the last of `lines`."""
+    texts = [" ".join(filter(None, map(str.strip, row))) for row in rows]
+    if not any(texts):
+        return []
+    above = "the line above it is" if len(rows) == 1 else f"{len(rows)} lines above it are"
+    shown = quoted_list([text for text in texts if text])
+    return [f"{source}:{lines[-1]}: the header is in this line; {above} not used: {shown}"]

@@ -1,0 +1,186 @@
+"""Names that may mean one player: spelt differently, mistyped, or with a shortened given name.
+
+Mistyped names are found without comparing every pair: names that differ in one letter are the
+same with that letter left blank, and one with a letter left out is the other without it. So the
+work grows with the number of names and not with its square, however many of them are alike.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import defaultdict
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
+
+from evenbreak.files.tables.problems import quoted
+
+SHORTEST_WORD = 4
+"""Letters that the longer of two words needs for a slip: Tim is not Tom mistyped."""
+
+ALIKE = 3
+"""Letters that two given names share at the beginning if one may be short for the other."""
+
+BLANK, SWAPPED = "_", "~"
+MARKS = {BLANK, SWAPPED}
+"""Stand for any letter, and for the next two in either order; no word has them."""
+
+MOST_LISTED = 20
+"""How many groups of similar names are listed; the rest are counted."""
+
+Words = tuple[str, ...]
+
+# Letters that Unicode does not decompose into a letter and an accent.
+_PLAIN = str.maketrans(
+    {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
+)
+_UMLAUT = re.compile("([aou])e")
+_LONG = re.compile(rf"\S{{{SHORTEST_WORD},}}")
+
+
+def similar_names(
+    names: Iterable[str], met: Collection[tuple[str, str]] = ()
+) -> list[tuple[str, ...]]:
+    """Return groups of different names that may mean one player.
+
+    First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the
+    same) or the order of words; then names whose given names have the same first three
+    letters; then names that are one slip of the hand apart, in a word of four letters or
+    more. Each kind is in the order of the names, and no group is part of another.
+
+    Parameters
+    ----------
+    names
+        as they are written.
+    met
+        pairs of names that played each other, and so are two players: a group of the second
+        or third kind is left out where all pairs in it have met. Groups of the first kind
+        are kept: somebody has entered one player twice.
+
+    >>> similar_names(["Ann Lee", "Lee, Ann", "Bo Petersen", "Bo Peterson", "Cy", "CY", "Di"])
+    [('Ann Lee', 'Lee, Ann'), ('CY', 'Cy'), ('Bo Petersen', 'Bo Peterson')]
+    >>> similar_names(["Dave Jones", "David Jones", "Anna", "Anne"], met=[("Anne", "Anna")])
+    [('Dave Jones', 'David Jones')]
+    """
+    words = {name: split for name in sorted(set(names)) if (split := _words(name))}
+    bare = {name: tuple(map(_without_umlauts, split)) for name, split in words.items()}
+    kinds: tuple[Collection[tuple[str, ...]], ...] = (
+        {*_alike(bare, _run_together), *_alike(bare, _in_order)},
+        set(_alike(bare, _given_name)),
+        set(_a_slip_apart(words)),
+    )
+    apart = {frozenset(pair) for pair in met}
+    ranked = [
+        (kind, group)
+        for kind, groups in enumerate(kinds)
+        for group in groups
+        if kind == 0 or any(frozenset(pair) not in apart for pair in combinations(group, 2))
+    ]
+    return [group for _, group in sorted(_largest(ranked))]
+
+
+def similar_name_warnings(
+    groups: Sequence[tuple[str, ...]], source: str, remedy: str, *, of: str = "player"
+) -> list[str]:
+    """Return a warning for each group of names in a file that may mean one player, or team.
+
+    >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
+    ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
+    """
+    listed = [
+        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one {of}; "
+        f"{remedy}"
+        for group in groups[:MOST_LISTED]
+    ]
+    more = len(groups) - MOST_LISTED
+    return [*listed, f"{source}: and {more:,} more groups of similar names"] if more > 0 else listed
+
+
+def _words(name: str) -> Words:
+    """Return the words of a name, given names first, without accents and in one case."""
+    last, _, given = name.partition(",")
+    plain = f"{given} {last}".casefold().translate(_PLAIN)
+    letters = unicodedata.normalize("NFKD", plain)
+    bare = "".join(letter for letter in letters if not unicodedata.combining(letter))
+    return tuple(re.findall(r"[^\W_]+", bare))
+
+
+def _without_umlauts(word: str) -> str:
+    """Return a word with ae, oe and ue as a, o and u, as ä, ö and ü have become already."""
+    return _UMLAUT.sub(r"\1", word)
+
+
+def _run_together(words: Words) -> str:
+    return "".join(words)
+
+
+def _in_order(words: Words) -> str:
+    return " ".join(sorted(words))
+
+
+def _given_name(words: Words) -> Hashable:
+    """Return the beginning of a given name and all that follows it; None where there is none."""
+    given, *rest = words
+    if len(given) < ALIKE or not given.isalpha() or not rest or len(rest[-1]) == 1:
+        return None
+    return given[:ALIKE], *rest
+
+
+def _alike(
+    words: Mapping[str, Words], key: Callable[[Words], Hashable]
+) -> Iterator[tuple[str, ...]]:
+    """Yield the groups of names that have the same key."""
+    groups = defaultdict(list)
+    for name, split in words.items():
+        groups[key(split)].append(name)
+    groups.pop(None, None)
+    yield from (tuple(group) for group in groups.values() if len(group) > 1)
+
+
+def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
+    """Yield the groups of names that one slip in a long word makes the same."""
+    spelt: defaultdict[str, list[str]] = defaultdict(list)
+    for name, split in words.items():
+        spelt[" ".join(split)].append(name)
+    alike: defaultdict[str, set[str]] = defaultdict(set)
+    for text in spelt:
+        alike[text].add(text)
+        for key in _slips(text):
+            alike[key].add(text)
+    for key, texts in alike.items():
+        # A text without marks is the others with a letter left out, if it is a name itself.
+        if len(texts) > 1 and (key in spelt or not MARKS.isdisjoint(key)):
+            yield tuple(sorted(name for text in texts for name in spelt[text]))
+
+
+def _slips(text: str) -> Iterator[str]:
+    """Yield a text with a letter of a long word left out, left blank or swapped with the next.
+
+    Digits are never a slip: numbered names keep theirs.
+
+    >>> list(_slips("jo wu99"))
+    ['jo u99', 'jo _u99', 'jo ~uw99', 'jo w99', 'jo w_99']
+    """
+    for word in _LONG.finditer(text):
+        for k in range(*word.span()):
+            letter, following = text[k], text[k + 1 : k + 2].strip()
+            if letter.isdigit():
+                continue
+            before, after = text[:k], text[k + 1 :]
+            yield before + after
+            yield before + BLANK + after
+            if following and not following.isdigit():
+                yield before + SWAPPED + "".join(sorted(letter + following)) + text[k + 2 :]
+
+
+def _largest(
+    ranked: Iterable[tuple[int, tuple[str, ...]]],
+) -> Iterator[tuple[int, tuple[str, ...]]]:
+    """Yield the groups that are not part of another, of equal ones the first."""
+    holding: dict[str, set[int]] = defaultdict(set)
+    by_size = sorted(ranked, key=lambda entry: (-len(entry[1]), entry))
+    for number, (kind, group) in enumerate(by_size):
+        if not set.intersection(*(holding[name] for name in group)):
+            yield kind, group
+        for name in group:
+            holding[name].add(number)

@@ -1,0 +1,255 @@
+"""A table in a file as columns of text, each row with the line it begins in.
+
+Every table comes in through here: format, names of columns and shape of the rows are settled.
+What the cells mean is for `evenbreak.files.tables.cells` and the reader of each kind of file.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import compress, count
+from operator import itemgetter
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import array_values
+from evenbreak.files.tables.header import Header, Hint, quoted_list
+from evenbreak.files.tables.problems import Problems
+from evenbreak.files.tables.rows import Export, Rows, content_of, table_rows
+
+
+class Texts(NamedTuple):
+    """A column of text: the distinct cells, and for each row the position of its cell in them.
+
+    Most columns repeat a few texts, so the meaning of each is worked out only once.
+    """
+
+    distinct: list[str]
+    codes: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, cells: Sequence[str]) -> Texts:
+        """Return the column with these cells, row by row.
+
+        >>> Texts.of(["7", "5", "7"])
+        Texts(distinct=['7', '5'], codes=array([0, 1, 0]))
+        """
+        numbers: defaultdict[str, int] = defaultdict(count().__next__)
+        codes = np.array([numbers[text] for text in cells], dtype=np.int64)
+        return cls(list(numbers), codes)
+
+
+@array_values
+@dataclass(frozen=True, eq=False)
+class TextTable:
+    """The rows of a file that have the shape of its header.
+
+    Parameters
+    ----------
+    source
+        what the file is called in messages.
+    lines
+        the line in which each row begins (1 is the first line of the file), rising.
+    columns
+        all columns that were asked for, by the names they were asked for, their cells
+        stripped of surrounding blanks; a column that the file lacks is empty throughout.
+    found
+        the columns that the file has.
+    problems
+        what is wrong so far; a reader adds to it and calls `raise_any` at the end, so
+        that all problems of a file are reported at once.
+    warnings
+        what a person should know although the file can be used, a line each.
+    content
+        the bytes that were read.
+    titles
+        what the file calls the columns that it has.
+    header
+        the line in which the header begins.
+    """
+
+    source: str
+    lines: NDArray[np.int64]
+    columns: Mapping[str, Texts]
+    found: frozenset[str]
+    problems: Problems
+    warnings: tuple[str, ...]
+    content: bytes
+    titles: Mapping[str, str] = field(default_factory=dict)
+    header: int = 0
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.found
+
+    def repeated(self) -> NDArray[np.bool_]:
+        """Return which rows are the same as an earlier one in every column that was read."""
+        same, many = np.zeros(len(self), dtype=np.int64), 1
+        for distinct, codes in (self.columns[name] for name in self.found):
+            if many * len(distinct) > np.iinfo(np.int64).max:
+                numbers, same = np.unique(same, return_inverse=True)
+                many = len(numbers)
+            same, many = same * len(distinct) + codes, many * len(distinct)
+        again = np.ones(len(self), dtype=bool)
+        again[np.unique(same, return_index=True)[1]] = False
+        return again
+
+    def without(self, lines: Collection[int]) -> TextTable:
+        """Return the table without the rows in some lines, and without its problems there."""
+        kept = ~np.isin(self.lines, list(lines))
+        columns = {}
+        for name, (distinct, codes) in self.columns.items():
+            used, renumbered = np.unique(codes[kept], return_inverse=True)
+            columns[name] = Texts([distinct[code] for code in used.tolist()], renumbered)
+        problems = self.problems.outside(lines)
+        return replace(self, lines=self.lines[kept], columns=columns, problems=problems)
+
+    def cells(self, name: str) -> list[str]:
+        """Return the text of a column, row by row; '' throughout where the file lacks it."""
+        distinct, codes = self.columns[name]
+        return [distinct[code] for code in codes.tolist()]
+
+
+def read_table(
+    path: str | Path,
+    required: Mapping[str, Sequence[str]],
+    optional: Mapping[str, Sequence[str]] | None = None,
+    instead: Mapping[str, Sequence[Collection[str]]] | None = None,
+    *,
+    rows: str = "",
+    called: Mapping[str, str] | None = None,
+    hint: Hint | None = None,
+    exported: Callable[[bytes, str], Export | None] | None = None,
+) -> TextTable:
+    r"""Read a CSV file, or a sheet of a workbook, as columns of text.
+
+    A CSV file is UTF-8 or UTF-16 with a byte order mark, UTF-8 without, or else Windows-1252
+    with a warning; comma, semicolon or tab, or what a first line such as `sep=|` declares; LF,
+    CRLF or CR; quoted cells may contain line ends. Of a workbook (.xlsx, .ods) the first sheet
+    is read whose header fits. Names of columns are compared without regard to case, blanks and
+    punctuation. Lines above the header are skipped and unknown columns ignored with a warning,
+    blank rows without.
+
+    Parameters
+    ----------
+    path
+        the file; '-' is standard input.
+    required, optional
+        for each column its other names.
+    instead
+        for a required column the sets of columns that can take its place.
+    rows
+        what its rows are, such as matches: a file without any has a problem; '' if that is
+        checked elsewhere.
+    called
+        for some columns the title that they have in this file.
+    hint
+        what to do where required columns are missing (see `Header`).
+    exported
+        reads the exports of other programs, if they may be given too.
+
+    Returns
+    -------
+    TextTable
+        missing columns and rows of the wrong shape are in its `problems`, not raised
+        yet: a reader may find more.
+
+    Raises
+    ------
+    DataError
+        if the file cannot be read as text at all, or is empty.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "arcs.csv"
+    ...     _ = path.write_text("From;To\n\nS1;W\nS1;L\n", encoding="utf-8")
+    ...     table = read_table(path, {"source": ["from"], "target": ["to"]})
+    >>> table.cells("target"), table.lines, len(table.problems)
+    (['W', 'L'], array([3, 4]), 0)
+    """
+    source, content = content_of(path)
+    problems = Problems(source)
+    header = Header(required, optional or {}, instead or {}, called, hint)
+    titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
+    if not titles:
+        _add_unreadable(unreadable, problems)
+        problems.add(None, "has no rows; write a header line, then one line for each row")
+        problems.raise_any()
+    places, unused = header.places(titles, line, problems, sample)
+    if unused:
+        warnings.append(f"{source}: columns not used: {quoted_list(unused)}")
+    row_lines, columns = _columns(body, len(titles), places, problems)
+    _add_unreadable(unreadable, problems)
+    if rows and not len(row_lines) and not len(problems):
+        problems.add(None, f"has no {rows} below its header; write one line for each")
+    absent = Texts([""], np.zeros(len(row_lines), dtype=np.int64))
+    return TextTable(
+        source,
+        row_lines,
+        {name: columns.get(name, absent) for name in header.columns},
+        frozenset(columns),
+        problems,
+        tuple(warnings),
+        content,
+        {name: titles[place] for name, place in places.items()},
+        line,
+    )
+
+
+def _add_unreadable(lines: list[int], problems: Problems) -> None:
+    for line in lines:
+        problems.add(
+            line, 'cannot be split into cells; close every " and write "" for one in a cell'
+        )
+
+
+def _columns(
+    parts: Iterator[Rows], width: int, places: Mapping[str, int], problems: Problems
+) -> tuple[NDArray[np.int64], dict[str, Texts]]:
+    """Return the line of each row that has the header's width, and its cells by column."""
+    # Each text gets the next free number when it is first met.
+    numbers = {name: defaultdict[str, int](count().__next__) for name in places}
+    codes = {name: array("q") for name in places}
+    all_lines = array("q")
+    for lines, rows in parts:
+        if set(map(len, rows)) != {width}:
+            fit = [_fits(line, row, width, problems) for line, row in zip(lines, rows, strict=True)]
+            lines, rows = list(compress(lines, fit)), list(compress(rows, fit))
+        all_lines.extend(lines)
+        for name, place in places.items():
+            codes[name].extend(map(numbers[name].__getitem__, map(itemgetter(place), rows)))
+    columns = {
+        name: _stripped(list(numbers[name]), np.array(codes[name], dtype=np.int64))
+        for name in places
+    }
+    return np.array(all_lines, dtype=np.int64), columns
+
+
+def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
+    """Return whether a row has the header's width; blank cells beyond it do no harm."""
+    if len(row) == width or (len(row) > width and not "".join(row[width:]).strip()):
+        return True
+    if "".join(row).strip():
+        problems.add(
+            line,
+            f"has {len(row)} {'cell' if len(row) == 1 else 'cells'}, but the header has {width}; "
+            "add what is missing, or quote cells that hold the separator",
+        )
+    return False
+
+
+def _stripped(raw: list[str], codes: NDArray[np.int64]) -> Texts:
+    """Return a column without the blanks around its cells."""
+    bare = [text.strip() for text in raw]
+    if bare == raw:  # as nearly always
+        return Texts(raw, codes)
+    distinct, renumbered = Texts.of(bare)
+    return Texts(distinct, renumbered[codes])

@@ -1,0 +1,100 @@
+"""A league's roster: skills, days, drift and weeks, and all that is wrong at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from evenbreak.errors import DataError
+from evenbreak.files.lists.league import read_league
+from evenbreak.league.players import ESTABLISHED
+
+WHOLE = """\
+Name;Rating;SE;Games;Matches;Skill;Day SD;Drift;Joins;Leaves;Absence
+Ann;92,4;9;140;25;95,5;4;0,1;;;
+Bo;71,5;12;20;;;;;3;20;0,25
+Cy;60;;;0;;0;;;;
+"""
+
+
+def club(folder: Path, text: str) -> Path:
+    path = folder / "club.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_every_column_is_read(tmp_path: Path) -> None:
+    file = read_league(club(tmp_path, WHOLE), day_sd=6.0)
+    players = file.players
+    assert players.names == ("Ann", "Bo", "Cy")
+    assert players.rating.tolist() == [92, 72, 60]
+    assert players.skill.tolist() == [95.5, 71.5, 60.0]
+    assert players.skill_sd.tolist() == [0.0, 12.0, 0.0]
+    assert players.day_sd.tolist() == [4.0, 6.0, 0.0]
+    assert players.drift.tolist() == [0.1, 0.0, 0.0]
+    assert (players.joins.tolist(), players.leaves.tolist()) == ([1, 3, 1], [0, 20, 0])
+    assert players.absence.tolist() == [0.0, 0.25, 0.0]
+    assert players.played.tolist() == [25, ESTABLISHED, 0]
+    assert (file.drawn, file.exact) == (1, 1)
+    assert file.warnings == (
+        f"{tmp_path}/club.csv: 2 ratings are rounded to whole points, as charts need",
+    )
+
+
+def test_a_plain_roster_is_enough(tmp_path: Path) -> None:
+    file = read_league(club(tmp_path, "player,rating,standard_error\nAnn,92,9\nBo,71,12\n"))
+    assert file.players.skill.tolist() == [92.0, 71.0]
+    assert file.players.skill_sd.tolist() == [9.0, 12.0]
+    assert file.players.day_sd.tolist() == [0.0, 0.0]
+    assert (file.drawn, file.exact, file.warnings) == (2, 0, ())
+    assert not np.isnan(file.players.absence).any()
+
+
+def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
+    text = """\
+player,rating,skill,day_sd,drift,joins,leaves,absence,standard_error
+Ann,six,80,,,,,,
+Ann,80,strong,,,,,,
+Cy,,80,,,,,,
+Di,80,20000,-1,2000,,,1.5,-3
+Ed,20000,80,,,9,3,,
+Flo,80,,,,-2,x,,
+"""
+    with pytest.raises(DataError) as caught:
+        read_league(club(tmp_path, text))
+    told = "\n".join(caught.value.problems)
+    for line, words in (
+        (2, "rating 'six' is not a number"),
+        (3, "player 'Ann' is already in line 2"),
+        (3, "skill 'strong' is not a number"),
+        (4, "rating is empty"),
+        (5, "skill '20000' is not a number from -10,000 to 10,000"),
+        (5, "day_sd '-1' is not a number from 0 to 1,000"),
+        (5, "drift '2000' is not a number from -1,000 to 1,000"),
+        (
+            5,
+            "absence '1.5' is not a number from 0 to 1; write the chance to be absent, such as 0.1",
+        ),
+        (5, "standard_error '-3' is not a number from"),
+        (6, "rating '20000' is not a number from -10,000 to 10,000"),
+        (6, "leaves in week 3, before week 9; correct one of them"),
+        (7, "joins '-2' is not a whole number"),
+        (7, "leaves 'x' is not a whole number"),
+    ):
+        assert f"club.csv:{line}: {words}" in told
+    assert len(caught.value.problems) == 13
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("player,skill\nAnn,80\nBo,70\n", "there is no column 'rating'"),
+        ("player,rating\n", "has no players below its header"),
+        ("player,rating\nAnn,80\n", "club.csv: has 1 player"),
+    ],
+)
+def test_a_file_that_is_no_league_is_refused(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(DataError, match=words):
+        read_league(club(tmp_path, text))
