@@ -22,6 +22,7 @@ from places import ROOT, SRC
 LAYERS: tuple[tuple[str, ...], ...] = tuple(
     tuple(row.split())
     for row in (
+        "words",
         "errors arrays",
         "checks",
         "game",
@@ -280,6 +281,12 @@ def modules_loaded_by(statement: str) -> set[str]:
     return set(json.loads(done.stdout))
 
 
+def test_the_terminal_needs_no_catalogue() -> None:
+    words = ["evenbreak", "odds", "612", "521", "--scale", "fargo", "--race", "x"]
+    ask = f"import contextlib, sys; from evenbreak.cli import main; sys.argv = {words}"
+    assert "babel" not in modules_loaded_by(f"{ask}\nwith contextlib.suppress(SystemExit): main()")
+
+
 @pytest.mark.parametrize(
     "statement",
     [
@@ -294,7 +301,7 @@ def modules_loaded_by(statement: str) -> set[str]:
     ],
 )
 def test_starting_up_loads_nothing_heavy(statement: str) -> None:
-    heavy = {"numpy", "scipy", "pandas", "networkx", "matplotlib", "sympy"}
+    heavy = {"numpy", "scipy", "pandas", "networkx", "matplotlib", "sympy", "babel"}
     assert modules_loaded_by(statement) & heavy == set()
 
 

@@ -8,14 +8,40 @@ knows nothing of this package catches them too.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
+
+from evenbreak.words import Sentence, joined, say
 
 
 class EvenbreakError(Exception):
-    """The base of every error that this package raises on purpose."""
+    """The base of every error that this package raises on purpose.
+
+    Parameters
+    ----------
+    template
+        what went wrong, as `evenbreak.words.say` takes it, or a sentence.
+    values
+        what fills it in.
+
+    Attributes
+    ----------
+    sentence
+        what went wrong, for a face to say; `str` of the error is its English text.
+
+    >>> error = InputError("{name!r} has not entered", name="Tom and Jerry")
+    >>> str(error), error.sentence.template
+    ("'Tom and Jerry' has not entered", '{name!r} has not entered')
+    """
+
+    sentence: Sentence
+
+    def __init__(self, template: str, /, **values: Any) -> None:
+        self.sentence = template if isinstance(template, Sentence) else say(template, **values)
+        super().__init__(self.sentence)  # what a copy in another process is made from
 
 
 class InputError(EvenbreakError, ValueError):
-    """A parameter has a value that it cannot have."""
+    """A parameter has an invalid value."""
 
 
 class GameError(EvenbreakError, ValueError):
@@ -44,7 +70,8 @@ class DataError(EvenbreakError, ValueError):
 
     def __init__(self, problems: Iterable[str]) -> None:
         self.problems = tuple(problems)
-        super().__init__(self.problems)  # what a copy in another process is made from
+        super().__init__(joined(self.problems, "\n"))
+        self.args = (self.problems,)  # what a copy in another process is made from
 
     def __str__(self) -> str:
-        return "\n".join(self.problems)
+        return str(self.sentence)

@@ -21,13 +21,15 @@ from starlette.routing import Match
 from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.wording import share, share_at_a_glance
-from evenbreak.errors import DataError
+from evenbreak.errors import DataError, EvenbreakError
+from evenbreak.files.catalogues import face_in
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
 from evenbreak.web.words import LANGUAGES, catalogue, language_of, number_in, say
 from evenbreak.web.words.sentences import answer_in_language, in_language
+from evenbreak.words import in_face
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -77,7 +79,11 @@ def language(request: Request) -> str:
 
 def in_words(request: Request, text: str) -> str:
     """Return sentences in the reader's language, with every name as it is."""
-    return in_language(language(request), _without_folder(request, text), _names(request))
+    code = language(request)
+    said = in_face(text, face_in(code))
+    if said != str(text):
+        return _without_folder(request, said)
+    return in_language(code, _without_folder(request, text), _names(request))
 
 
 def _names(request: Request) -> set[str]:
@@ -221,7 +227,7 @@ def reason(request: Request, why: Exception) -> str:
         if "field" in values:
             values["field"] = words.get(f"field_{values['field']}", values["field"])
         return say(language(request), why.key, **values)
-    return in_words(request, str(why))
+    return in_words(request, why.sentence if isinstance(why, EvenbreakError) else str(why))
 
 
 def _without_folder(request: Request, text: str) -> str:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import click
 
 from evenbreak.cli.interrupts import INTERRUPTED
+from evenbreak.cli.kit.said import said
 from evenbreak.errors import DataError, EvenbreakError, InputError
 
 PROBLEMS_SHOWN = 20
@@ -77,7 +78,7 @@ def _chain(error: BaseException | None) -> Iterator[BaseException]:
 def _lines(error: BaseException) -> Iterator[str]:
     match error:
         case DataError():
-            yield from error.problems[:PROBLEMS_SHOWN]
+            yield from map(said, error.problems[:PROBLEMS_SHOWN])
             hidden = len(error.problems) - PROBLEMS_SHOWN
             if hidden > 0:
                 yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
@@ -92,5 +93,7 @@ def _lines(error: BaseException) -> Iterator[str]:
             yield "there is not enough memory to answer this; ask for less"
         case OverflowError():
             yield "the answer is larger than the largest number a computer can hold"
+        case EvenbreakError():
+            yield " ".join(said(error.sentence).split())
         case _:
             yield " ".join(str(error).split())

@@ -11,6 +11,7 @@ import click
 
 from evenbreak.chains.ways import WAYS
 from evenbreak.cli.kit import completion
+from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.values import NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.matches.formats import LONGEST, match_format
@@ -69,7 +70,7 @@ def _scale(name: str) -> Scale:
     try:
         scale: Scale = scale_of(name)
     except InputError as error:
-        raise click.BadParameter(str(error)) from None
+        raise click.BadParameter(said(error.sentence)) from None
     return scale
 
 

@@ -10,6 +10,7 @@ from evenbreak import files, handicaps
 from evenbreak.answers.scale_doubts import chart_doubts
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Decorator
+from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -20,7 +21,7 @@ def read_system(name: str) -> handicaps.System:
     try:
         return handicaps.system_of(name)
     except InputError as error:
-        raise click.BadParameter(str(error)) from None
+        raise click.BadParameter(said(error.sentence)) from None
 
 
 def system_option(default: str | None = "npl") -> Decorator[Any]:

@@ -1,0 +1,50 @@
+"""Sentences that keep their template and their values until a face says them.
+
+How to say a sentence:
+
+- `say("{player} goes to {match}.", player=name, match=number)`: a template in plain English, never
+  an f-string, and values by name. It is a `str` (the English text) that also knows its parts.
+- A value is a name (any `str`: never translated, never looked into), a number, or a sentence.
+  Numbers are written as the template asks, in the reader's way: `{games:,}`, `{p:.1%}`;
+  `Figure(p, ".1%", sign="<")` is a number that is shown by itself.
+- `say_count("{n} game is left.", "{n} games are left.", n)` where a number decides the wording;
+  `say_as("heading", "race")` where one English word has several meanings.
+- `listed(names)` is "a, b and c"; `joined(sentences, " ")` puts sentences one after another.
+  `+`, `" ".join` and f-strings give plain text, which stays English.
+- `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field),
+  `Command("tournament result", "W1.2")` a command (or what a page has in its place),
+  `FilePath(path)` a file.
+- Errors take the same: `raise InputError("{name} must be above 0.", name=Parameter("scale"))`.
+- A face says it: `in_face(text, face)`; plain text stays as it is. Never parse a sentence.
+"""
+
+from evenbreak.words.faces import PYTHON, Face
+from evenbreak.words.sentence import (
+    Command,
+    Figure,
+    FilePath,
+    Parameter,
+    Sentence,
+    in_face,
+    joined,
+    listed,
+    say,
+    say_as,
+    say_count,
+)
+
+__all__ = [
+    "PYTHON",
+    "Command",
+    "Face",
+    "Figure",
+    "FilePath",
+    "Parameter",
+    "Sentence",
+    "in_face",
+    "joined",
+    "listed",
+    "say",
+    "say_as",
+    "say_count",
+]

@@ -1,0 +1,63 @@
+"""How one face writes: its language, its numbers, and its names for parameters and commands."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from gettext import NullTranslations
+from typing import Any
+
+
+def _itself(name: str) -> str:
+    return name
+
+
+def _command_line(name: str, words: Sequence[str]) -> str:
+    return " ".join(("evenbreak", name, shlex.join(words))).rstrip()
+
+
+@dataclass(frozen=True)
+class Face:
+    """How sentences are said in one place: a terminal, a page in German, Python.
+
+    Parameters
+    ----------
+    language
+        its code, such as 'de'.
+    translations
+        what is said in place of each English template.
+    decimal, group
+        what separates decimals, and thousands.
+    percent
+        a number in percent, with {n} for the number.
+    parameter
+        the name of a parameter, such as '--win-by' for 'win_by'.
+    command
+        what a reader does in place of a command, which is given by its name and its words.
+    file
+        the name of a file, given by its path.
+
+    >>> Face(decimal=",", group=".").number(1234.5, ",.2f")
+    '1.234,50'
+    """
+
+    language: str = "en"
+    translations: NullTranslations = field(default_factory=NullTranslations)
+    decimal: str = "."
+    group: str = ","
+    percent: str = "{n}%"
+    parameter: Callable[[str], str] = _itself
+    command: Callable[[str, Sequence[str]], str] = _command_line
+    file: Callable[[str], str] = _itself
+
+    def number(self, value: Any, spec: str = "") -> str:
+        """Return a number as this face writes it; `spec` is that of `format`."""
+        text = format(value, spec)
+        digits = text.removesuffix("%") if spec.endswith("%") else text
+        shown = digits.translate({ord("."): self.decimal, ord(","): self.group})
+        return self.percent.format(n=shown) if digits != text else shown
+
+
+PYTHON = Face()
+"""Plain English, parameters and commands by their own names: what `str` of a sentence is."""

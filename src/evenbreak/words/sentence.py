@@ -1,0 +1,292 @@
+"""A sentence: English text that keeps its template and its values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from numbers import Number
+from string import Formatter
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from evenbreak.words.faces import PYTHON, Face
+
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+class _Wording(NamedTuple):
+    """A template as the catalogues know it: what it means, and how it is said of several."""
+
+    template: str
+    many: str = ""
+    count: Any = 1
+    meaning: str = ""
+
+    def said(self, face: Face) -> str:
+        """Return the template in the language of a face."""
+        words = face.translations
+        if self.many and self.meaning:
+            return words.npgettext(self.meaning, self.template, self.many, self.count)
+        if self.many:
+            return words.ngettext(self.template, self.many, self.count)
+        if self.meaning:
+            return words.pgettext(self.meaning, self.template)
+        return words.gettext(self.template) if self.template else ""
+
+
+class Sentence(str):
+    """A text in English that keeps its parts, so that a face can say it in its own way.
+
+    Parameters
+    ----------
+    wording
+        the template; a template of one and of many with the number that decides; its meaning.
+    values
+        what fills it in. Sentences among them are said by the face too, all else stays.
+
+    Attributes
+    ----------
+    template
+        the sentence with `{name}` for each value.
+    values
+        the values by name.
+    """
+
+    wording: _Wording
+    values: Mapping[str, Any]
+
+    def __new__(cls, wording: _Wording, values: Mapping[str, Any] = NOTHING) -> Sentence:
+        """Return the sentence; its text is that of `PYTHON`."""
+        template = wording.said(PYTHON)
+        sentence = super().__new__(cls, template.format_map(values) if values else template)
+        sentence.wording, sentence.values = wording, values
+        return sentence
+
+    @property
+    def template(self) -> str:
+        """The sentence with `{name}` for each value."""
+        return self.wording.template
+
+    def said(self, face: Face) -> str:
+        """Return the text as a face says it."""
+        template = self.wording.said(face)
+        return _InFace(face).vformat(template, (), self.values) if self.values else template
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy in another process is made from."""
+        return type(self), (self.wording, dict(self.values))
+
+
+class _InFace(Formatter):
+    """Fill in a template; sentences, parameters and numbers are shown as a face has them."""
+
+    def __init__(self, face: Face) -> None:
+        self.face = face
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        """Return a value as the face shows it."""
+        if isinstance(value, Number):
+            return self.face.number(value, format_spec)
+        return str(format(in_face(value, self.face), format_spec))
+
+    def convert_field(self, value: Any, conversion: Any) -> Any:
+        """Return a value, with quotation marks around it where the template has `!r`."""
+        return super().convert_field(in_face(value, self.face), conversion)
+
+
+class Joined(Sentence):
+    """Texts one after another, some of which are sentences."""
+
+    parts: tuple[str, ...]
+    between: str
+
+    def __new__(cls, parts: Iterable[str], between: str) -> Joined:
+        """Return the parts, with `between` between any two."""
+        kept = tuple(parts)
+        sentence = str.__new__(cls, between.join(kept))
+        sentence.wording, sentence.values = _Wording(""), NOTHING
+        sentence.parts, sentence.between = kept, between
+        return sentence
+
+    def said(self, face: Face) -> str:
+        """Return the text as a face says it."""
+        between: str = in_face(self.between, face)
+        return between.join(in_face(part, face) for part in self.parts)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy in another process is made from."""
+        return type(self), (self.parts, self.between)
+
+
+class _Thing(Sentence):
+    """What a face has a name of its own for, or writes in its own way."""
+
+    arguments: tuple[Any, ...]
+
+    def __new__(cls, *arguments: Any) -> Any:
+        """Return it, with the text that Python has for it."""
+        sentence = str.__new__(cls, cls.shown(PYTHON, *arguments))
+        sentence.wording, sentence.values = _Wording(""), NOTHING
+        sentence.arguments = arguments
+        return sentence
+
+    @staticmethod
+    def shown(face: Face, *arguments: Any) -> str:
+        """Return it as a face shows it."""
+        raise NotImplementedError
+
+    def said(self, face: Face) -> str:
+        """Return the text as a face says it."""
+        return self.shown(face, *self.arguments)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy in another process is made from."""
+        return type(self), self.arguments
+
+
+class Figure(_Thing):
+    """A number by itself: `Figure(0.0005, ".1%", sign="<")`.
+
+    Parameters
+    ----------
+    value
+        the number.
+    spec
+        how it is written, as for `format`.
+    sign
+        what is put in front.
+
+    >>> Figure(1234.5, ",.1f"), Figure(0.001, ".1%", sign="<")
+    ('1,234.5', '<0.1%')
+    """
+
+    def __new__(cls, value: Any, spec: str = "", sign: str = "") -> Figure:
+        """Return the number."""
+        figure: Figure = super().__new__(cls, value, spec, sign)
+        return figure
+
+    @staticmethod
+    def shown(face: Face, *arguments: Any) -> str:
+        """Return it as a face shows it."""
+        value, spec, sign = arguments
+        return f"{sign}{face.number(value, spec)}"
+
+
+class Parameter(_Thing):
+    """The name of a parameter: `--win-by` on a terminal, the label of its field on a page.
+
+    >>> Parameter("win_by")
+    'win_by'
+    """
+
+    def __new__(cls, name: str) -> Parameter:
+        """Return the name."""
+        parameter: Parameter = super().__new__(cls, name)
+        return parameter
+
+    @staticmethod
+    def shown(face: Face, *arguments: Any) -> str:
+        """Return it as a face shows it."""
+        return face.parameter(str(arguments[0]))
+
+
+class Command(_Thing):
+    """A command of the terminal, or what a page has in its place.
+
+    >>> Command("tournament result", "W1.2", "5:3")
+    'evenbreak tournament result W1.2 5:3'
+    """
+
+    def __new__(cls, name: str, *words: str) -> Command:
+        """Return the command, with the words that follow it."""
+        command: Command = super().__new__(cls, name, *words)
+        return command
+
+    @staticmethod
+    def shown(face: Face, *arguments: Any) -> str:
+        """Return it as a face shows it."""
+        name, *words = (str(in_face(argument, face)) for argument in arguments)
+        return face.command(name, words)
+
+
+class FilePath(_Thing):
+    """A file, by its path; a page that strangers read has its name alone.
+
+    >>> FilePath("club/results.csv")
+    'club/results.csv'
+    """
+
+    def __new__(cls, path: object) -> FilePath:
+        """Return the path."""
+        place: FilePath = super().__new__(cls, str(path))
+        return place
+
+    @staticmethod
+    def shown(face: Face, *arguments: Any) -> str:
+        """Return it as a face shows it."""
+        return face.file(str(arguments[0]))
+
+
+def in_face(text: Any, face: Face) -> Any:
+    """Return a text as a face says it; what is no sentence stays as it is.
+
+    >>> comma = Face(decimal=",")
+    >>> in_face(say("{player} needs {p}.", player="Tom and Jerry", p=0.5), comma)
+    'Tom and Jerry needs 0,5.'
+    >>> in_face("0.5", comma)
+    '0.5'
+    """
+    return text.said(face) if isinstance(text, Sentence) else text
+
+
+def say(template: str, /, **values: Any) -> Sentence:
+    """Return a sentence, with what it holds filled in.
+
+    Without values the template is the text: nothing in it is a field.
+
+    >>> sentence = say("{player} goes to {match}.", player="Player and Son", match="W2.1")
+    >>> sentence, sentence.template, dict(sentence.values)["player"]
+    ('Player and Son goes to W2.1.', '{player} goes to {match}.', 'Player and Son')
+    """
+    return Sentence(_Wording(template), values)
+
+
+def say_as(meaning: str, template: str, /, **values: Any) -> Sentence:
+    """Return a sentence whose English has several meanings, with the one that is meant.
+
+    >>> say_as("heading of a column", "race")
+    'race'
+    """
+    return Sentence(_Wording(template, meaning=meaning), values)
+
+
+def say_count(one: str, many: str, n: Any, /, **values: Any) -> Sentence:
+    """Return a sentence whose wording depends on a number, which it has as `{n}`.
+
+    >>> say_count("{n} game", "{n:,} games", 1), say_count("{n} game", "{n:,} games", 1200)
+    ('1 game', '1,200 games')
+    """
+    return Sentence(_Wording(one, many, n), {"n": n, **values})
+
+
+def joined(parts: Iterable[str], between: str = " ") -> Sentence:
+    """Return texts one after another, each said by the face.
+
+    >>> joined([say("{n} players are drawn.", n=8), "Ann"])
+    '8 players are drawn. Ann'
+    """
+    return Joined(parts, between)
+
+
+def listed(parts: Sequence[Any], last: str = "and") -> Sentence:
+    """Return a list as a sentence has it, with 'and' or 'or' before the last.
+
+    >>> listed(["Ann"]), listed(["Ann", "Bo"]), listed(["Ann", "Bo", "Cy"], "or")
+    ('Ann', 'Ann and Bo', 'Ann, Bo or Cy')
+    """
+    *most, end = (part if isinstance(part, str) else str(part) for part in parts)
+    if not most:
+        return joined([end])
+    before = joined(most, ", ")
+    if last == "or":
+        return say("{most} or {last}", most=before, last=end)
+    return say("{most} and {last}", most=before, last=end)
