@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.tournament_matches import tournament_events_answer
+from evenbreak.answers.tournament.printed import tournament_events_answer
 from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments.evening import moves

@@ -25,11 +25,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.faces.to_json import to_json
 from evenbreak.answers.faces.to_text import to_text
-from evenbreak.answers.parts import Quantities, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
 from evenbreak.files.store.tournament import new_tournament

@@ -1,4 +1,4 @@
-from evenbreak.answers.reproduction import MEANINGS, reproduction_answer
+from evenbreak.answers.written import MEANINGS, reproduction_answer
 
 
 def test_numbers_are_counted_and_files_too():

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from evenbreak.answers.parts import Table
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import scored_of
 from evenbreak.ratings import Results, scale_of, validate

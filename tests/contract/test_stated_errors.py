@@ -204,7 +204,7 @@ def test_seeds_differ_by_the_error_stated(
     # Pictures take longer than all the rest.
     monkeypatch.setattr("evenbreak.cli.league.simulate._pictures", lambda _: {})
     # Fewer draws have larger errors, which must be the ones stated.
-    monkeypatch.setattr("evenbreak.answers.lineup.MOST_DRAWS", 50)
+    monkeypatch.setattr("evenbreak.answers.team.lineup.MOST_DRAWS", 50)
     found = figures(name, tmp_path)
     keys = [key for key in found[0] if all(key in each for each in found)]
     values, errors = (

@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from evenbreak.answers.road import road_of
+from evenbreak.answers.match.chain import road_of
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, stochastic_limit
 from evenbreak.errors import DataError
 from evenbreak.files import (

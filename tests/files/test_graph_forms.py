@@ -6,7 +6,7 @@ import json
 import networkx as nx
 from scipy.io import mmread
 
-from evenbreak.answers.road import road_of
+from evenbreak.answers.match.chain import road_of
 from evenbreak.files import graphml_bytes, matrix_market_bytes, node_link_bytes
 from evenbreak.games import Drill, OneBall
 

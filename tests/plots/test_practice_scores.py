@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.stats import linregress, t
 
-from evenbreak.answers.getting_better import getting_better_answer, trend_line_of
+from evenbreak.answers.practice.practice import getting_better_answer, trend_line_of
 from evenbreak.files.practice import ScoresFile
 from evenbreak.plots.practice_scores import plot_scores, plot_two_lists
 from evenbreak.stats import mean_interval

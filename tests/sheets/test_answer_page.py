@@ -1,6 +1,6 @@
 import re
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.sheets.answer_page import answer_page
 
 

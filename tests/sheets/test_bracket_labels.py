@@ -9,8 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Rectangle
 
-from evenbreak.answers.bracket_view import bracket_panels
-from evenbreak.answers.short_names import short_names
+from evenbreak.answers.tournament.bracket_view import bracket_panels, short_names
 from evenbreak.sheets.bracket_drawing import READABLE, SIZES, bracket_figure, bracket_pages
 from evenbreak.sheets.bracket_page import bracket_html
 from evenbreak.tournaments.evening import moves

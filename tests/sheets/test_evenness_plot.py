@@ -1,8 +1,7 @@
 import pytest
 
-from evenbreak.answers.chart_bands import chart_bands
-from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.sure_pairs import SurePair
+from evenbreak.answers.league.pairs import SurePair, chart_bands
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of
 from evenbreak.sheets.evenness_plot import HEIGHT, WIDTH, evenness_plot

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report import report_answer
+from evenbreak.answers.league.report import report_answer
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.pdf_layout import MOST_ON_A_PAGE
 from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH

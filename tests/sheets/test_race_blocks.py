@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.sheets.race_blocks import parts_of, race_blocks, race_cards
 from evenbreak.sheets.rating_bars import Bars, player_lines
 from leagues import league, sheet_of, two_groups

@@ -7,8 +7,8 @@ from html.parser import HTMLParser
 import pytest
 
 from evenbreak import __version__
-from evenbreak.answers.matchups import matchups_answer
-from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.league.matchups import matchups_answer
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import own_pace
 from evenbreak.ratings.roster import Roster

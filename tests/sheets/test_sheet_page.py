@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak import __version__
-from evenbreak.answers.offered_races import OfferedRaces
-from evenbreak.answers.report import report_answer
+from evenbreak.answers.league.report import report_answer
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.html_page import shown_name
 from evenbreak.sheets.sheet_page import sheet_html
@@ -189,7 +189,7 @@ def test_any_name_stays_one_name(name):
 
 def test_a_large_league_is_cut_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_LISTED", 51)
-    for module in ("sheets.sheet_page", "answers.report"):
+    for module in ("sheets.sheet_page", "answers.league.report"):
         monkeypatch.setattr(f"evenbreak.{module}.MOST_ON_SHEET", 48)
     page, _ = page_of(league(52))
     assert len(page.all("details")) == 48

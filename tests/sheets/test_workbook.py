@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from python_calamine import CalamineWorkbook
 
-from evenbreak.answers.offered_races import OfferedRaces
+from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.workbook import check_workbook, race_table, report_tables, workbook_bytes

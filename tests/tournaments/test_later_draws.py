@@ -7,8 +7,8 @@ import sys
 import numpy as np
 import pytest
 
-from evenbreak.answers import tournament_night
-from evenbreak.answers.tournament_moves import happened
+from evenbreak.answers.tournament import night as tournament_night
+from evenbreak.answers.tournament.moves import happened
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.evening import moves

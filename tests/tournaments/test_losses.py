@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.answers.tournament_night import night_answer
+from evenbreak.answers.tournament.night import night_answer
 from evenbreak.errors import InputError
 from evenbreak.tournaments import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves

@@ -5,11 +5,11 @@ from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.chart_show import chart_rows
+from evenbreak.answers.chart.show import chart_rows
 from evenbreak.answers.design_prices import design_prices
-from evenbreak.answers.parts import Column, Part, Table
-from evenbreak.answers.wording import count_of, decimals, percent, race, range_words
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, decimals, percent, race, range_words
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try

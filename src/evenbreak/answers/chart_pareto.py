@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.chart_design import DesignTask
-from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.wording import decimals, listed
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import decimals, listed
 from evenbreak.handicaps.charts.pareto import ParetoChart
 
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.scale_words import scale_words
-from evenbreak.answers.simulated import luck_words
-from evenbreak.answers.wording import chance, count_of, decimals, percent, share
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.scales import scale_words
+from evenbreak.answers.kit.simulated import luck_words
+from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, share
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale

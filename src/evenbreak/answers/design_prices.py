@@ -7,8 +7,8 @@ from contextlib import suppress
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.parts import Column, Table
-from evenbreak.answers.wording import count_of, decimals
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import count_of, decimals
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.measure import measure_chart

@@ -3,15 +3,15 @@
 from dataclasses import replace
 from typing import Any
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Part, Table
-from evenbreak.answers.prior_words import evidence_rows, levels_data
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, percent
+from evenbreak.answers.league.prior import evidence_rows, levels_data
 from evenbreak.answers.validate_details import details
 from evenbreak.answers.validate_judgement import percents
 from evenbreak.answers.validate_remarks import remarks
 from evenbreak.answers.validate_rows import findings_table
 from evenbreak.answers.validate_verdict import verdict
-from evenbreak.answers.wording import count_of, percent
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.scale import Scale

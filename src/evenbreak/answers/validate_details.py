@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.answers.parts import Column, Part, Table
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, decimals, percent, range_words
 from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
-from evenbreak.answers.wording import count_of, decimals, percent, range_words
 from evenbreak.ratings.by_experience import ByExperience
 from evenbreak.ratings.calibration import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import count_of, listed, percent, race
 from evenbreak.answers.validate_judgement import (
     clearly_off,
     more_or_less,
@@ -14,7 +15,6 @@ from evenbreak.answers.validate_judgement import (
     starts_way,
     unfair_starts,
 )
-from evenbreak.answers.wording import count_of, listed, percent, race
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from evenbreak.answers.prior_words import level_words, too_few_for_prior_words
+from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.league.prior import level_words, too_few_for_prior_words
 from evenbreak.answers.validate_handicaps import handicap_remarks
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
@@ -11,7 +12,6 @@ from evenbreak.answers.validate_judgement import (
     best_half_life,
     clearly_off,
 )
-from evenbreak.answers.wording import count_of, listed, percent
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.first_column import FEWEST_ON_A_DATE

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.parts import Column, Table
+from evenbreak.answers.kit.parts import Column, Table
 from evenbreak.answers.validate_handicaps import handicap_rows
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.advantages import known_breaks

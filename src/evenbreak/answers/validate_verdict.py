@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
+from evenbreak.answers.kit.wording import listed
 from evenbreak.answers.validate_judgement import (
     UNLIKELY,
     VAGUE,
@@ -13,7 +14,6 @@ from evenbreak.answers.validate_judgement import (
     starts_way,
     wrong_chances,
 )
-from evenbreak.answers.wording import listed
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.fit import PRIOR_SD

@@ -2,7 +2,7 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 
 EXAMPLES = """\b
@@ -21,7 +21,7 @@ def command(*, folder: str) -> Answer:
     There are a league's results, the players of a tournament, two teams and a player's practice.
     FOLDER is evenbreak-demo unless given. A file there that is not the demo's is left alone.
     """
-    from evenbreak.answers.demo import demo_answer
+    from evenbreak.answers.written import demo_answer
     from evenbreak.files.demo import DEMO, write_demo
 
     return demo_answer(folder, DEMO, write_demo(folder))

@@ -2,7 +2,7 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import out_option
 from evenbreak.cli.kit.terminal import say
@@ -27,7 +27,7 @@ def command(out: str) -> Answer:
     """
     from collections import Counter
 
-    from evenbreak.answers.reproduction import reproduction_answer
+    from evenbreak.answers.written import reproduction_answer
     from evenbreak.files.store.folder import check_folder, write_files
     from evenbreak.source_text.findings import differing
     from evenbreak.source_text.reproduce import all_findings, reproduction

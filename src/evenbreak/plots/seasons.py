@@ -29,7 +29,7 @@ def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | A
     ax
         the axes to draw on, which are returned; None: those of a new figure, which is.
 
-    >>> from evenbreak.answers.season_tables import weeks_frame
+    >>> from evenbreak.answers.league.season_tables import weeks_frame
     >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
     >>> season = Season(LeaguePlayers.of([92, 80], skill=[85, 80]), "npl", weeks=3)
     >>> figure = errors_figure(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))

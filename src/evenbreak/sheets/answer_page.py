@@ -9,12 +9,10 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import body_lines, part_lines
-from evenbreak.answers.file_warnings import warnings_of
-from evenbreak.answers.file_words import fingerprints
-from evenbreak.answers.parts import Part, Table
-from evenbreak.answers.remarks import Remarks
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.remarks import Remarks, fingerprints, warnings_of
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.sheets.html_page import html_page
@@ -31,7 +29,7 @@ class Section(NamedTuple):
 def answer_page(answer: Answer) -> bytes:
     """Return an answer as a page of HTML in UTF-8.
 
-    >>> from evenbreak.answers.answer import Answer
+    >>> from evenbreak.answers.kit.answer import Answer
     >>> b"<p>Ann wins.</p>" in answer_page(Answer("race 7:5", ["Ann wins."]))
     True
     """

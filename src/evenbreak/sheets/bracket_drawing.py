@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from evenbreak.answers.bracket_view import Box, Line, Panel
-from evenbreak.answers.short_names import short_names
+from evenbreak.answers.tournament.bracket_view import Box, Line, Panel, short_names
 from evenbreak.sheets.pdf_page import MARGIN, POINTS, Paper, fitted, pdf_bytes, width_of
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.answers.bracket_view import Box, Panel
-from evenbreak.answers.short_names import short_names
+from evenbreak.answers.tournament.bracket_view import Box, Panel, short_names
 from evenbreak.sheets.answer_page import Section
 from evenbreak.sheets.html_page import drawn, html_page
 from evenbreak.sheets.pdf_page import POINTS, fitted

@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evenbreak.answers.chart_bands import Band
-from evenbreak.answers.sure_pairs import SurePair
+from evenbreak.answers.league.pairs import Band, SurePair
 from evenbreak.handicaps.charts.given_ratings import win_given_ratings
 from evenbreak.ratings.scale import Scale
 from evenbreak.sheets.rating_bars import Tick, round_numbers

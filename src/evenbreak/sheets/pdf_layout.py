@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from evenbreak.answers.sheet import NO_RACE
+from evenbreak.answers.league.sheet import NO_RACE
 from evenbreak.sheets.pdf_page import MARGIN, POINTS, WIDTH, shortened, width_of
 from evenbreak.sheets.race_blocks import Races, parts_of
 from evenbreak.sheets.rating_bars import PlayerLine

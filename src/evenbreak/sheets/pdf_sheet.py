@@ -7,20 +7,19 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from evenbreak.answers.file_words import file_name
-from evenbreak.answers.left_out import left_out
-from evenbreak.answers.report_frames import count_groups
-from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
-from evenbreak.answers.sheet_words import (
+from evenbreak.answers.kit.remarks import file_name
+from evenbreak.answers.league.report import (
     about_ratings,
     heading,
     how_even,
     how_rated,
     how_to_read,
+    left_out,
     played,
     source_and_dates,
     version_and_source,
 )
+from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, count_groups
 from evenbreak.plots.picture import our_look
 from evenbreak.sheets.pdf_layout import (
     GAP,
@@ -71,7 +70,7 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
     squares stand for letters that the font lacks.
 
-    >>> from evenbreak.answers.offered_races import OfferedRaces
+    >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])

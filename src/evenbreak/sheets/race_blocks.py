@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from evenbreak.answers.sheet import NO_RACE
+from evenbreak.answers.league.sheet import NO_RACE
 from evenbreak.sheets.rating_bars import PlayerLine
 
 Races = Mapping[tuple[str, str], str]

@@ -7,7 +7,7 @@ import matplotlib as mpl
 import pandas as pd
 from matplotlib.ticker import MaxNLocator
 
-from evenbreak.answers.scale_words import decimals_of
+from evenbreak.answers.kit.scales import decimals_of
 from evenbreak.ratings.scale import Scale
 
 NOT_OVER_THE_EDGE = (4, 96)

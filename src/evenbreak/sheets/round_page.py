@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from evenbreak.answers.matchups import matchups_answer
-from evenbreak.answers.round import Round
-from evenbreak.answers.round_words import races_of
-from evenbreak.answers.sheet import NO_RACE, races_by_name
-from evenbreak.answers.sheet_words import how_even, how_to_read
-from evenbreak.answers.wording import race
+from evenbreak.answers.kit.wording import race
+from evenbreak.answers.league.matchups import matchups_answer, races_of
+from evenbreak.answers.league.report import how_even, how_to_read
+from evenbreak.answers.league.round import Round
+from evenbreak.answers.league.sheet import NO_RACE, races_by_name
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.sheets.answer_page import Section, drawn_page
@@ -52,7 +51,7 @@ def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
     InputError
         if there are more than 500 listed matches, or all pairs of more than 48 players.
 
-    >>> from evenbreak.answers.roster_matchups import all_pairs
+    >>> from evenbreak.answers.league.roster_matchups import all_pairs
     >>> from evenbreak.files.lists.roster import RosterFile
     >>> from evenbreak.handicaps import chart
     >>> from evenbreak.ratings import SCALES

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from evenbreak.answers.score_cards import Card
+from evenbreak.answers.tournament.printed import Card
 from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, fitted, pdf_bytes
 
 _GAP = 0.25

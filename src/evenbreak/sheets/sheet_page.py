@@ -2,13 +2,10 @@
 
 from dataclasses import replace
 
-from evenbreak.answers.left_out import NOTHING_LEFT_OUT
-from evenbreak.answers.report import report_answer
-from evenbreak.answers.report_frames import count_groups
-from evenbreak.answers.scale_words import decimals_of
-from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
-from evenbreak.answers.sheet_words import how_even, how_to_read
-from evenbreak.answers.sure_pairs import how_sure, three_pairs
+from evenbreak.answers.kit.scales import decimals_of
+from evenbreak.answers.league.pairs import how_sure, three_pairs
+from evenbreak.answers.league.report import NOTHING_LEFT_OUT, how_even, how_to_read, report_answer
+from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, count_groups
 from evenbreak.sheets.answer_page import Section, drawn_page
 from evenbreak.sheets.evenness_plot import HEIGHT, WIDTH, evenness_plot
 from evenbreak.sheets.html_page import drawn
@@ -33,7 +30,7 @@ def sheet_html(sheet: Sheet) -> bytes:
         UTF-8; the same sheet gives the same bytes. A control character in a name is shown
         as a mark, since HTML cannot hold it.
 
-    >>> from evenbreak.answers.offered_races import OfferedRaces
+    >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])

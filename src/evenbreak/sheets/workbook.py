@@ -11,9 +11,9 @@ from typing import Any
 
 import pandas as pd
 
-from evenbreak.answers.file_warnings import warnings_of
-from evenbreak.answers.left_out import left_out
-from evenbreak.answers.sheet import NO_RACE, Sheet
+from evenbreak.answers.kit.remarks import warnings_of
+from evenbreak.answers.league.report import left_out
+from evenbreak.answers.league.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from evenbreak.answers.scale_doubts import far_doubts
+from evenbreak.answers.kit.scales import far_doubts
 from evenbreak.files.lists.roster import LARGEST
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.tournaments.evening.fold import Evening

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from evenbreak.answers.times_of_day import time_of_day
-from evenbreak.answers.tournament import races_words
+from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.moves import free_tables

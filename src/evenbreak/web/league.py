@@ -26,8 +26,8 @@ from evenbreak.web.beside import Beside
 from evenbreak.web.uploads import ending_of, read_upload
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.sheet import Sheet
+    from evenbreak.answers.kit.answer import Answer
+    from evenbreak.answers.league.sheet import Sheet
 
 _LOG = logging.getLogger(__name__)
 
@@ -165,9 +165,9 @@ class League:
 
     def _rated(self, asked: int) -> Sheet:
         """Return the sheet; the steps are told to whoever looks meanwhile."""
-        from evenbreak.answers.chosen_players import most_active
-        from evenbreak.answers.offered_races import OfferedRaces
-        from evenbreak.answers.sheet import MOST_ON_SHEET, Sheet
+        from evenbreak.answers.league.players import most_active
+        from evenbreak.answers.league.roster_matchups import OfferedRaces
+        from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet
         from evenbreak.files.results.results_file import read_seasons
         from evenbreak.ratings.usual import usual_ratings
 

@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from evenbreak.answers.tournament_night import begun_at, next_calls, night_answer
+from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import keep_prizes, kept_prizes

@@ -18,9 +18,9 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import Match
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
-from evenbreak.answers.wording import share, share_at_a_glance
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.catalogues import face_in
 from evenbreak.web.forms import LONGEST, Form

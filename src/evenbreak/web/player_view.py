@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.answers.times_of_day import time_of_day
+from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.night import Known

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from evenbreak.answers.team_night import cap_words
+from evenbreak.answers.team.night import cap_words
 from evenbreak.teams.advice import Advice
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.sealed import SealedNight

@@ -8,9 +8,9 @@ from itertools import chain
 
 import numpy as np
 
-from evenbreak.answers.scale_doubts import league_doubts
-from evenbreak.answers.starters import starters_words
-from evenbreak.answers.wording import some_of
+from evenbreak.answers.kit.scales import league_doubts
+from evenbreak.answers.kit.wording import some_of
+from evenbreak.answers.league.players import starters_words
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, read_team

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 from starlette.requests import Request
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.lineup import lineup_answer
-from evenbreak.answers.sealed_lineup import sealed_answer
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.team.lineup import lineup_answer, sealed_answer
 from evenbreak.files.store.team_night import read_team_events, team_night_of
 from evenbreak.teams.advice import Advice, advice
 from evenbreak.teams.evening.events import Event

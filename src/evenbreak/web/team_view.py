@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from random import Random
 from typing import NamedTuple
 
-from evenbreak.answers.lineup import names_words
+from evenbreak.answers.team.lineup import names_words
 from evenbreak.teams.advice import Advice
 from evenbreak.teams.evening.choices import choices
 from evenbreak.teams.evening.events import Pick, Score

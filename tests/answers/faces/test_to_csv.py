@@ -2,9 +2,9 @@ import csv
 
 import pytest
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 
 def rows_of(*parts, **more):

@@ -1,8 +1,8 @@
 from xml.etree import ElementTree as ET
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_html import to_html
-from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 NAMES = Table(
     "rows",

@@ -4,9 +4,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_json import as_dict, json_value, to_json
-from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 ROWS = Table("rows", [Column(("race_a", "race_b"), "race")], [((7, 5),), (None,)])
 VIEW = Table("", [Column("seen", "seen")], [(1,)])

@@ -1,8 +1,8 @@
 import pytest
 
-from evenbreak.answers.answer import Answer
 from evenbreak.answers.faces.to_text import paragraph, to_text
-from evenbreak.answers.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 
 def wide_table(columns):

@@ -8,8 +8,8 @@ import click
 import pytest
 from click.testing import CliRunner, Result
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Quantities, Quantity
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Quantities, Quantity
 from evenbreak.cli.kit.faces import faces
 
 ANSWER = Answer(

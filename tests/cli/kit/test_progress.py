@@ -7,7 +7,7 @@ import time
 import click
 from click.testing import CliRunner
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import progress as module
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.progress import Progress, Working

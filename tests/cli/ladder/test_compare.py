@@ -6,7 +6,7 @@ from math import log10
 
 import pytest
 
-from evenbreak.answers.ladder_comparison import STEPS
+from evenbreak.answers.ladder.comparison import STEPS
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import opponents_of, stretched
 from places import DATA

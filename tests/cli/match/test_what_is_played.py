@@ -3,7 +3,7 @@
 import pytest
 from click import UsageError
 
-from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.cli.match.what_is_played import match_of
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 

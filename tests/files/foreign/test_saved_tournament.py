@@ -7,7 +7,7 @@ import json
 
 import pytest
 
-from evenbreak.answers.tournament_matches import tournament_matches_answer
+from evenbreak.answers.tournament.printed import tournament_matches_answer
 from evenbreak.errors import DataError
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening import moves

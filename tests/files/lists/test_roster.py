@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.rate import rate_answer
+from evenbreak.answers.league.rate import rate_answer
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import OPTIONAL, REQUIRED, read_roster
 from evenbreak.files.results.results_file import ResultsFile

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.tournament_matches import tournament_events_answer
+from evenbreak.answers.tournament.printed import tournament_events_answer
 from evenbreak.errors import DataError
 from evenbreak.files.store.tournament import (
     event_rows,

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.parts import Quantities
+from evenbreak.answers.kit.parts import Quantities
 from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.parts import Show, Table
+    from evenbreak.answers.kit.answer import Answer
+    from evenbreak.answers.kit.parts import Show, Table
 
 
 def to_csv(answer: Answer) -> Iterator[str]:

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.parts import Column, Quantities, Table
-from evenbreak.answers.remarks import Remark, Remarks
+from evenbreak.answers.kit.parts import Column, Quantities, Table
+from evenbreak.answers.kit.remarks import Remark, Remarks
 from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.parts import Part
+    from evenbreak.answers.kit.answer import Answer
+    from evenbreak.answers.kit.parts import Part
 
 
 def to_html(answer: Answer) -> str:

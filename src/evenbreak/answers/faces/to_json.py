@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.parts import Quantities, Table
+from evenbreak.answers.kit.parts import Quantities, Table
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.parts import Part
+    from evenbreak.answers.kit.answer import Answer
+    from evenbreak.answers.kit.parts import Part
 
 
 def as_dict(answer: Answer) -> dict[str, Any]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from evenbreak.answers.parts import Quantities, Table
+from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
-    from evenbreak.answers.parts import Part
+    from evenbreak.answers.kit.answer import Answer
+    from evenbreak.answers.kit.parts import Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30

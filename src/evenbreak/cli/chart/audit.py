@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import handicaps
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import scale_option
 from evenbreak.cli.kit.plot import plot_option_for, write_plot
@@ -35,7 +35,7 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
     NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file, which may have gaps
     and overlaps. The plot shows the stronger player's chance by rating difference.
     """
-    from evenbreak.answers.chart_audit import chart_audit_answer, level_audit_answer
+    from evenbreak.answers.chart.audit import chart_audit_answer, level_audit_answer
     from evenbreak.files.charts import find_chart_file
 
     if beside is not None and plot is None:
@@ -49,7 +49,7 @@ def command(chart: str, scale: Scale | None, beside: str | None, plot: str | Non
             handicaps.audit_levels(file.found, scale=scale or "npl"), warnings=warnings
         )
     if isinstance(file.found, handicaps.PointsChart):
-        from evenbreak.answers.points_audit import points_audit_answer
+        from evenbreak.answers.chart.audit import points_audit_answer
 
         if plot is not None or scale is not None:
             refuse("a chart of points has no rating differences; leave --scale and --plot out")

@@ -2,7 +2,7 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 
 
@@ -13,6 +13,6 @@ def command() -> Answer:
 
     Each is shown with its number of different races and the length of its longest match.
     """
-    from evenbreak.answers.chart_list import chart_list_answer
+    from evenbreak.answers.chart.show import chart_list_answer
 
     return chart_list_answer()

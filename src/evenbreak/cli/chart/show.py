@@ -2,7 +2,7 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 
 EXAMPLES = """\b
@@ -22,7 +22,7 @@ def command(chart: str) -> Answer:
     NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file. Into a pipe or
     a file the chart is written as such a CSV file, which you can edit and use.
     """
-    from evenbreak.answers.chart_show import chart_show_answer
+    from evenbreak.answers.chart.show import chart_show_answer
     from evenbreak.files.charts import find_chart_file
 
     file = find_chart_file(chart)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import handicaps
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import scale_option
 from evenbreak.cli.kit.values import Number, Whole
@@ -68,7 +68,7 @@ def command(
     AVERAGE_1 and AVERAGE_2 are the average ratings of the two teams. The averages of --won
     and --lost are those of 17-point scoring.
     """
-    from evenbreak.answers.team_handicap import team_handicap_answer
+    from evenbreak.answers.chart.show import team_handicap_answer
 
     found = handicaps.team_handicap(
         average_1,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.chips.options import field_options
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Whole, numbers, refuse

@@ -69,7 +69,7 @@ def _field(
 ) -> tuple[ChipField, list[str]]:
     from evenbreak import files, ratings
     from evenbreak.answers.chips import ChipField, spread_field
-    from evenbreak.answers.file_words import file_name
+    from evenbreak.answers.kit.remarks import file_name
 
     if entrants is None:
         return spread_field(stated or ratings.SCALES["fargo"], tables), []

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.progress import Working
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import click
 
-from evenbreak.answers.two_players import FORMATS, TwoPlayers
+from evenbreak.answers.match.two_players import FORMATS, TwoPlayers
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import SAY_WHICH, Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, number_of, refuse
@@ -61,9 +61,8 @@ def _named(
     names: tuple[str, ...], path: str, scale: Scale | None, form: float | None
 ) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
-    from evenbreak.answers.chosen_players import find_players
-    from evenbreak.answers.roster_matchups import cannot_be_compared
-    from evenbreak.answers.starters import games_words
+    from evenbreak.answers.league.players import find_players, games_words
+    from evenbreak.answers.league.roster_matchups import cannot_be_compared
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
     from evenbreak.cli.kit.terminal import say
     from evenbreak.files.lists.roster import read_roster

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import files, handicaps
-from evenbreak.answers.scale_doubts import chart_doubts
+from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.said import said
@@ -75,7 +75,7 @@ def refuse_other_scale(
     stated
         whether the user stated the scale, which then is not doubted and may be of skill levels.
     """
-    from evenbreak.answers.scale_words import scale_words
+    from evenbreak.answers.kit.scales import scale_words
     from evenbreak.files.lists.roster import refuse_to_read
 
     if file.scale is not None and not file.scale.same_points(scale):

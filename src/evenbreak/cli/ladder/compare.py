@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.plot import write_plot
 from evenbreak.cli.kit.systems import chart_for
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.ladder_comparison import LadderComparison
+    from evenbreak.answers.ladder.comparison import LadderComparison
 
 
 ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
@@ -20,7 +20,7 @@ ALLOWED = ("autocorrelated", "equal_skill", "league", "skill")
 
 def comparison(chart_name: str | None, asked: dict[str, Any], plot: str | None) -> Answer:
     """Return systems and steps side by side, or refuse options that a comparison cannot take."""
-    from evenbreak.answers.ladder_comparison import compare_ladders, ladder_comparison_answer
+    from evenbreak.answers.ladder.comparison import compare_ladders, ladder_comparison_answer
     from evenbreak.errors import AccuracyError
     from evenbreak.handicaps.systems.catalogue import system_of
 
@@ -43,7 +43,7 @@ def comparison(chart_name: str | None, asked: dict[str, Any], plot: str | None) 
 
 
 def _draw(found: LadderComparison, path: str) -> None:
-    from evenbreak.answers.ladder_comparison import NEWCOMERS
+    from evenbreak.answers.ladder.comparison import NEWCOMERS
     from evenbreak.plots.ladders import SystemPoint, systems_figure
 
     points = [

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import handicaps
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option, scale_option, via_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -18,7 +18,7 @@ from evenbreak.cli.kit.values import Number, Whole, refuse
 from evenbreak.cli.ladder.opponents import opponents_of_options, why_no_long_run
 
 if TYPE_CHECKING:
-    from evenbreak.answers.ladder_findings import LadderFindings, LadderQuestion
+    from evenbreak.answers.ladder.ladder import LadderFindings, LadderQuestion
 
 
 LARGEST = 10_000
@@ -127,8 +127,7 @@ def command(chart: str | None, *, compare: bool, plot: str | None, **asked: Any)
     A rating goes up with each match won and down with each match lost, and the chart turns
     the difference of two ratings into a race. ERROR is rating less skill, in points.
     """
-    from evenbreak.answers.ladder import ladder_answer, ladder_title
-    from evenbreak.answers.ladder_findings import LadderFindings
+    from evenbreak.answers.ladder.ladder import LadderFindings, ladder_answer, ladder_title
 
     if chart == asked["league"] == "-":
         refuse("- stands for standard input, which only one file can be; name the other")
@@ -200,7 +199,7 @@ def say_if_long(ladder: handicaps.Ladder) -> None:
 
 def _question(ladder: handicaps.Ladder, asked: dict[str, Any], opponents: str) -> LadderQuestion:
     """Return what is asked of the ladder, or refuse what it cannot answer."""
-    from evenbreak.answers.ladder_findings import LadderQuestion
+    from evenbreak.answers.ladder.ladder import LadderQuestion
     from evenbreak.handicaps.ladders.comparison import NEAR
 
     doubling = round(ladder.system.scale.points_per_doubling)

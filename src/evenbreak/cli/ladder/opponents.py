@@ -46,7 +46,7 @@ def _of_league(
     """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
     import numpy as np
 
-    from evenbreak.answers.scale_doubts import league_doubts
+    from evenbreak.answers.kit.scales import league_doubts
     from evenbreak.errors import DataError
 
     file = files.read_roster(path)

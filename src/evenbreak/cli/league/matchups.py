@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.scale_doubts import league_doubts, starter_doubts
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.scales import league_doubts, starter_doubts
 from evenbreak.cli.kit.faces import faces, page_name, without_folders
 from evenbreak.cli.kit.options import (
     SAY_WHICH,
@@ -32,7 +32,7 @@ from evenbreak.ratings.scale import SCALES, Scale
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.answers.round import AnyChart
+    from evenbreak.answers.league.round import AnyChart
 
 
 MOST_PAIRS = 1_000_000
@@ -112,7 +112,7 @@ def command(
     Where standard errors are given, the chances are averaged over how far the ratings may be
     off.
     """
-    from evenbreak.answers.roster_matchups import check_roster
+    from evenbreak.answers.league.roster_matchups import check_roster
 
     refuse_both(games, race_to)
     if chart is None and games is None and race_to is None:
@@ -212,7 +212,7 @@ def _scale_of_chart(chart: AnyChart | None) -> Scale | None:
 
 def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
     """Return a warning if a chart is made for another scale than the one of the ratings."""
-    from evenbreak.answers.scale_words import scale_words
+    from evenbreak.answers.kit.scales import scale_words
 
     made_for = _scale_of_chart(chart)
     if chart is None or made_for is None or made_for.same_points(stated):
@@ -227,7 +227,7 @@ def _pairs(
     path: str | None, source: str, roster: ratings.Roster, tables: int | None, face: str
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
-    from evenbreak.answers.roster_matchups import all_pairs
+    from evenbreak.answers.league.roster_matchups import all_pairs
     from evenbreak.files.lists.fixtures import read_pairs
 
     if path is not None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import answers, files, handicaps
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import SAY_WHICH, chart_option, results_options, scale_option

@@ -11,7 +11,7 @@ from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
-    from evenbreak.answers.offered_races import OfferedRaces
+    from evenbreak.answers.league.roster_matchups import OfferedRaces
     from evenbreak.files.results.results_file import ResultsFile
     from evenbreak.files.tables.cells import DateOrder
     from evenbreak.ratings.beginning import Beginning
@@ -59,7 +59,7 @@ def read_day(text: str, order: DateOrder | None = None) -> str:
 
 def offered_races(games: tuple[int, int] | None, race_to: int | None) -> OfferedRaces:
     """Return the races of --games or --race-to, or races to 7 where neither is given."""
-    from evenbreak.answers.offered_races import OfferedRaces
+    from evenbreak.answers.league.roster_matchups import OfferedRaces
 
     refuse_both(games, race_to)
     return OfferedRaces(games, RACE_TO if games is None and race_to is None else race_to)
@@ -162,7 +162,7 @@ def rated(
 
 def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
-    from evenbreak.answers.scale_doubts import league_doubts
+    from evenbreak.answers.kit.scales import league_doubts
     from evenbreak.errors import InputError
     from evenbreak.files.lists.saved_ratings import read_saved
     from evenbreak.ratings.unstated_scale import refuse_contradicted

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak import answers, files, handicaps
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.scale_doubts import league_doubts
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.scales import league_doubts
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from evenbreak import answers, files, sheets
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.sheet import MOST_ON_SHEET
-from evenbreak.answers.wording import listed
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.wording import listed
+from evenbreak.answers.league.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.faces import faces, without_folders
 from evenbreak.cli.kit.options import (
     out_option,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import league, plots
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
     chart_option,
@@ -32,7 +32,7 @@ from evenbreak.cli.league.simulate_season import (
 from evenbreak.files.csv_writer import to_csv
 
 if TYPE_CHECKING:
-    from evenbreak.answers.season_tables import SeasonTables
+    from evenbreak.answers.league.season_tables import SeasonTables
 
 
 MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
@@ -136,8 +136,8 @@ def command(
     matches.csv is one season in full, which `rate` and `validate` can read.
     """
     from evenbreak.answers.faces.to_csv import to_csv
-    from evenbreak.answers.season import season_answer
-    from evenbreak.answers.season_tables import season_tables
+    from evenbreak.answers.league.season import season_answer
+    from evenbreak.answers.league.season_tables import season_tables
     from evenbreak.files.lists.league import read_league
     from evenbreak.files.store.folder import check_folder
 
@@ -192,7 +192,7 @@ def _tables(tables: SeasonTables) -> dict[str, bytes]:
 
 
 def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
-    from evenbreak.answers.one_season_tables import matches_frame, truth_frame
+    from evenbreak.answers.league.season_tables import matches_frame, truth_frame
 
     if len(season.players) * season.weeks > MANY:
         say("Playing one season rack by rack; --no-matches leaves it out")

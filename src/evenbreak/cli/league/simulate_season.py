@@ -55,7 +55,7 @@ def season_of_options(
     file: files.LeagueFile, played: dict[str, Any]
 ) -> tuple[league.Season, list[str]]:
     """Return the season that is asked for, and warnings about roster, chart and schedule."""
-    from evenbreak.answers.scale_doubts import league_doubts
+    from evenbreak.answers.kit.scales import league_doubts
 
     system = on_scale(played["system"], played["scale"])
     refuse_other_scale(

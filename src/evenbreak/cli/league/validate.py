@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import answers, files, handicaps, ratings
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import results_options, scale_option, seed_option
 from evenbreak.cli.kit.plot import plot_option, write_plot

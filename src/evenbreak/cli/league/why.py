@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import answers, files
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import race_limit_options, results_options, scale_option

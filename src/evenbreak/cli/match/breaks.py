@@ -2,7 +2,7 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, via_option
@@ -63,7 +63,7 @@ def command(
     P1 is A's chance of winning a rack that A breaks, P2 B's chance of winning one that B
     breaks.
     """
-    from evenbreak.answers.breaks import breaks_answer
+    from evenbreak.answers.match.breaks import breaks_answer
 
     rack = Rack(p1, p2)
     first = "ab".index(first_break) + 1

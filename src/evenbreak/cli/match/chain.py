@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from evenbreak import files
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import via_option
@@ -75,7 +75,7 @@ def command(
     matrix in Matrix Market form (.mtx). The arcs out of each state sum to 1; the chain ends in a
     state that is only a target.
     """
-    from evenbreak.answers.chain import chain_answer
+    from evenbreak.answers.match.chain import chain_answer
 
     file = files.read_chain(path, states=states, rows=rows)
     return chain_answer(file.chain(start), steps=steps, warnings=file.warnings, via=via)

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from evenbreak import matches
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand
 from evenbreak.cli.kit.players import player_options, players_of
@@ -79,7 +79,7 @@ def command(formats: list[str], hold: str | None, plot: str | None, **who: Any) 
     Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
     --breaks.
     """
-    from evenbreak.answers.compare import Compared, compare_answer
+    from evenbreak.answers.match.compare import Compared, compare_answer
 
     _refuse_numbers(**who)
     players = players_of(**who, form=0.0)

@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
@@ -68,7 +68,7 @@ def command(
     Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
     --breaks; limit the length by --games or --race-to.
     """
-    from evenbreak.answers.fair import fair_answer
+    from evenbreak.answers.match.fair import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races
 
     refuse_both(games, race_to)

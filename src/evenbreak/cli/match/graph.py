@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak import files
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import Decorator, out_option
 from evenbreak.cli.kit.terminal import write_folder
@@ -21,7 +21,7 @@ from evenbreak.errors import DataError, InputError
 if TYPE_CHECKING:
     import networkx as nx
 
-    from evenbreak.answers.road import Road
+    from evenbreak.answers.match.chain import Road
     from evenbreak.chains.matrices import Rows
     from evenbreak.files.arcs import ArcsFile
     from evenbreak.game import Game
@@ -98,8 +98,8 @@ def command(
     matrix in Matrix Market form (.mtx). All of these are written, with tables of the rest and a
     picture, and can be read again.
     """
-    from evenbreak.answers.graph import graph_answer
-    from evenbreak.answers.road import road_of
+    from evenbreak.answers.match.chain import road_of
+    from evenbreak.answers.match.graph import graph_answer
     from evenbreak.files.store.folder import check_folder
 
     if p is not None and (p1 is not None or p2 is not None):
@@ -279,8 +279,8 @@ def _files(
     played: Game | nx.DiGraph[Any], road: Road, title: str
 ) -> tuple[dict[str, bytes], list[str]]:
     """Return the content of each file by its name, and what is not written, with the reason."""
-    from evenbreak.answers import graph as tables
     from evenbreak.answers.faces.to_csv import table_lines
+    from evenbreak.answers.match import graph as tables
     from evenbreak.plots.diagram import draw
     from evenbreak.plots.picture import image_bytes
 

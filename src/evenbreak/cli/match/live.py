@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, form_option
 from evenbreak.cli.kit.players import player_options
@@ -65,7 +65,7 @@ def command(
     Describe the players and the match as for `odds`, and the score by --racks, by --score,
     or by both: the racks are then those played since that score.
     """
-    from evenbreak.answers.live import live_answer
+    from evenbreak.answers.match.live import live_answer
     from evenbreak.matches.live import live_odds, order_is_free
 
     players, match = match_of(**asked)

@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, form_option, via_option
@@ -42,7 +42,7 @@ def command(*, exact: bool, via: Way | None, **asked: Any) -> Answer:
     Describe the players by two ratings A B, by two names with --from, by --p, or by --p1, --p2 and
     --breaks; the match by --race or --ahead, perhaps in sets.
     """
-    from evenbreak.answers.odds import odds_answer
+    from evenbreak.answers.match.odds import odds_answer
 
     players, match = match_of(**asked)
     if exact and players.ratings is not None:

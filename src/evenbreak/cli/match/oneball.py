@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import plots, practice
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, via_option
@@ -72,7 +72,7 @@ def command(
     yours, P4 the opponent's, and so on. Each --or is another shot that you could take
     instead.
     """
-    from evenbreak.answers.oneball import oneball_answer
+    from evenbreak.answers.match.oneball import oneball_answer
 
     shots = [
         practice.ShotChoice(str(number), chances[0], chances[1], chances[2:])

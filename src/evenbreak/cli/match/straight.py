@@ -7,7 +7,7 @@ from fractions import Fraction
 import click
 
 from evenbreak import matches, stats
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import PlainCommand, safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -58,7 +58,7 @@ def command(
 
     Describe the players by the balls that A and B average an inning, or by --p1 and --p2.
     """
-    from evenbreak.answers.straight import straight_answer
+    from evenbreak.answers.match.straight import straight_answer
 
     shots: list[Fraction | float]
     if averages and (p1 is not None or p2 is not None):

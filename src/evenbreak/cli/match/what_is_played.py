@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.two_players import TwoPlayers
+from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.values import PAIR, SCORE, Whole, refuse
@@ -87,7 +87,7 @@ def match_of(
 
 def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     """Refuse a match that can still come to so many scores that it would take minutes."""
-    from evenbreak.answers.odds import match_words
+    from evenbreak.answers.match.odds import match_words
 
     win_by = getattr(match, "win_by", 0)
     left = [

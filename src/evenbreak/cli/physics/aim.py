@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.shot_units import Units
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.physics.hit import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
@@ -35,8 +35,8 @@ def command(distance: float, units: Units, **hit: Any) -> Answer:
     friction x distance x sine of the cut angle, for a cue ball that rolls without english.
     Hard shots are thrown less than soft ones: give --speed to allow for that.
     """
-    from evenbreak.answers.aim import aim_answer
-    from evenbreak.answers.shot_units import unit_doubts
+    from evenbreak.answers.physics.aim import aim_answer
+    from evenbreak.answers.physics.hit import unit_doubts
 
     asked = hit_of(units, **hit)
     try:

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.shot_units import Units
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.physics.hit import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.equipment_options import ball_of, ball_option
 from evenbreak.cli.physics.measures import WEIGHT, Measure, metric_option
@@ -35,8 +35,8 @@ def command(forearm: float, ball: float | None, stick: float | None, units: Unit
     The best cue passes the largest share of the stroke's energy, that of arm and cue
     together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.
     """
-    from evenbreak.answers.break_cue import break_cue_answer
-    from evenbreak.answers.shot_units import unit_doubts
+    from evenbreak.answers.physics.equipment import break_cue_answer
+    from evenbreak.answers.physics.hit import unit_doubts
 
     weight = units.mass
     answer = break_cue_answer(

@@ -12,8 +12,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPEED, SPIN
 
 if TYPE_CHECKING:
-    from evenbreak.answers.hit import Hit
-    from evenbreak.answers.shot_units import Units
+    from evenbreak.answers.physics.hit import Hit, Units
     from evenbreak.physics import SlipFriction
 
 
@@ -81,7 +80,7 @@ def hit_of(
     friction: str,
 ) -> Hit:
     """Return the hit that the options describe."""
-    from evenbreak.answers.hit import Hit
+    from evenbreak.answers.physics.hit import Hit
     from evenbreak.physics import BALL_FRICTION, SlipFriction
 
     if mu is None:

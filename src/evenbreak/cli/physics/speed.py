@@ -2,8 +2,8 @@
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.shot_units import Units
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.physics.hit import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option
@@ -39,7 +39,7 @@ def command(
     Roll a ball off the foot cushion so that it just reaches the head cushion, time it from
     cushion to cushion, and average a few tries. A table speed of 80 to 100 is normal.
     """
-    from evenbreak.answers.table_speed import table_speed_answer
+    from evenbreak.answers.physics.equipment import table_speed_answer
     from evenbreak.physics import Ball, PoolTable
 
     unit = units.length

@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.shot_units import Units
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.physics.hit import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
 from evenbreak.cli.physics.measures import metric_option
@@ -31,8 +31,8 @@ def command(units: Units, **hit: Any) -> Answer:
     are thrown less than soft ones: give --speed to allow for that. Without it, friction is
     --mu at any speed.
     """
-    from evenbreak.answers.shot_units import unit_doubts
-    from evenbreak.answers.throw import throw_answer
+    from evenbreak.answers.physics.aim import throw_answer
+    from evenbreak.answers.physics.hit import unit_doubts
 
     answer = throw_answer(hit_of(units, **hit), units)
     return replace(answer, warnings=unit_doubts(units, speed=hit["speed"]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import files, games, practice
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.chains.ways import Way
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import drill_option, seed_option, via_option
@@ -103,7 +103,7 @@ def command(
         refuse("--via is for a drill of known chances; leave it out with --log")
     if log is not None:
         return _log(log, levels, drill, SEED if seed is None else seed, plot)
-    from evenbreak.answers.drill import drill_answer
+    from evenbreak.answers.practice.drill import drill_answer
 
     if p is None:
         played = games.Drill(success or ())
@@ -128,7 +128,7 @@ def command(
 def _log(path: str, levels: int | None, drill: str | None, seed: int, plot: str | None) -> Answer:
     import numpy as np
 
-    from evenbreak.answers.drill_log import drill_log_answer
+    from evenbreak.answers.practice.drill import drill_log_answer
 
     file = files.read_drill_log(path, levels=levels, drill=drill)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.wording import count_of
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.wording import count_of
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import dates_option, drill_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -74,8 +74,12 @@ def command(
 
 
 def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str | None) -> Answer:
-    from evenbreak.answers.getting_better import getting_better_answer, interval_of, trend_line_of
-    from evenbreak.answers.new_score import new_score_answer
+    from evenbreak.answers.practice.practice import (
+        getting_better_answer,
+        interval_of,
+        new_score_answer,
+        trend_line_of,
+    )
 
     own = interval_of(file, confidence)
     if new is not None and own is None:
@@ -91,7 +95,7 @@ def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str 
 
 
 def _versus(before: ScoresFile, after: ScoresFile, confidence: float, plot: str | None) -> Answer:
-    from evenbreak.answers.before_and_after import before_and_after_answer
+    from evenbreak.answers.practice.practice import before_and_after_answer
     from evenbreak.stats.compare import compare
 
     short = [
@@ -104,7 +108,7 @@ def _versus(before: ScoresFile, after: ScoresFile, confidence: float, plot: str 
         raise DataError(short)
     found = compare(before.scores, after.scores, confidence=confidence)
     if plot is not None:
-        from evenbreak.answers.getting_better import interval_of
+        from evenbreak.answers.practice.practice import interval_of
         from evenbreak.plots.practice_scores import plot_two_lists
 
         intervals = interval_of(before, confidence), interval_of(after, confidence)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import stats
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import safety_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -66,7 +66,7 @@ def command(
 
     Describe the player by --mean or by --p.
     """
-    from evenbreak.answers.runs import Asked, runs_answer
+    from evenbreak.answers.practice.runs import Asked, runs_answer
 
     if (mean is None) == (p is None):
         refuse("give either --mean or --p")

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import handicaps
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import chart_option
 from evenbreak.cli.kit.plot import plot_option, write_plot
@@ -93,7 +93,7 @@ def command(
     Opponents are as good as the player and correctly rated. The player loses up to D matches
     on purpose, then plays E in earnest while the rating climbs back. Nothing is simulated.
     """
-    from evenbreak.answers.sandbag_pay import (
+    from evenbreak.answers.sandbag.pay import (
         PayQuestion,
         sandbag_charts_answer,
         sandbag_pay,

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import files, handicaps, league
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import (
     OF_LIST,
@@ -85,17 +85,17 @@ def command(
     likelier from a sandbagger than from an honest player; at 1 / alpha the player is flagged.
     It is evidence, not a verdict.
     """
-    from evenbreak.answers.sandbag_watch import (
-        day_sd_doubts,
-        sandbag_player_answer,
-        sandbag_watch_answer,
-        unrated_doubts,
-    )
-    from evenbreak.answers.season_nights import (
+    from evenbreak.answers.league.nights import (
         events_marked,
         events_to_try,
         nights_of_files,
         with_even_races,
+    )
+    from evenbreak.answers.sandbag.watch import (
+        day_sd_doubts,
+        sandbag_player_answer,
+        sandbag_watch_answer,
+        unrated_doubts,
     )
 
     if [results, roster, chart, reading["aliases"]].count("-") > 1:
@@ -146,7 +146,7 @@ def _moved(
     season: files.ResultsFile,
 ) -> tuple[handicaps.System, list[str]]:
     """Return the system on the scale of the list; refuse or doubt one that results contradict."""
-    from evenbreak.answers.scale_doubts import contradiction, far_doubts
+    from evenbreak.answers.kit.scales import contradiction, far_doubts
 
     refuse_levels(first, f"the system {system.name} needs ratings in points; give a list of those")
     own = system.scale.name != DEFAULT_SCALE

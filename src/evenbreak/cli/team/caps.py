@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from evenbreak import files, ratings, teams
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import OF_LIST, scale_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
@@ -71,8 +71,8 @@ def command(
     TEAMS.csv has the columns team, player and rating, and for caps a column level. Every team meets
     every other; each night is solved exactly, with both captains at their best.
     """
-    from evenbreak.answers.starters import starters_words
-    from evenbreak.answers.team_rules import LeagueRules, team_rules_answer
+    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.team.round import LeagueRules, team_rules_answer
 
     lists = files.read_squads(roster)
     if len(lists) > MOST_TEAMS:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import click
 
 from evenbreak import files, ratings, teams
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.scale_doubts import chart_doubts
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import OF_LIST, scale_option, seed_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
@@ -139,8 +139,8 @@ def command(
     taken to choose as well as they can. After each nomination, ask again with --used, --score and
     --named.
     """
-    from evenbreak.answers.lineup import lineup_answer
-    from evenbreak.answers.starters import starters_words
+    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.team.lineup import lineup_answer
     from evenbreak.teams.meeting import SEALED, Meeting
 
     lists = files.read_team(ours), files.read_team(theirs)

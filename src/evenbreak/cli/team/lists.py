@@ -27,7 +27,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     """Return the scale of the teams' ratings, and the warnings about their files."""
     import numpy as np
 
-    from evenbreak.answers.scale_doubts import league_doubts
+    from evenbreak.answers.kit.scales import league_doubts
 
     for each in lists:
         if stated is not None:

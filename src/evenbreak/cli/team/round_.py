@@ -7,7 +7,7 @@ from pathlib import PurePath
 import click
 
 from evenbreak import files, ratings, teams
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import OF_LIST, scale_option
 from evenbreak.cli.kit.starters import starter_options, with_starters
@@ -59,10 +59,10 @@ def command(
 
     All games of all matches are added up. The files have the columns player and rating.
     """
-    from evenbreak.answers.starters import starters_words
-    from evenbreak.answers.team_meeting import race_words
-    from evenbreak.answers.team_round import team_round_answer
-    from evenbreak.answers.wording import count_of
+    from evenbreak.answers.kit.wording import count_of
+    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.team.lineup import race_words
+    from evenbreak.answers.team.round import team_round_answer
 
     lists = files.read_team(ours), files.read_team(theirs)
     points, warnings = scale_of_teams(lists, scale)

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from evenbreak import files, teams
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import seed_option
 from evenbreak.cli.kit.progress import Progress
@@ -104,8 +104,8 @@ def command(
     """
     import numpy as np
 
-    from evenbreak.answers.team_season import team_season_answer
-    from evenbreak.answers.wording import count_of
+    from evenbreak.answers.kit.wording import count_of
+    from evenbreak.answers.team.season import team_season_answer
 
     if schedule is not None and round_robin is not None:
         refuse("a schedule and --round-robin exclude each other; give one")

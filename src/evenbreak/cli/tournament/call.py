@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
@@ -33,7 +33,7 @@ def command(*, match: str | None, table: int | None, back: bool, file: str, at: 
 
     The times of calls and results show how fast this evening is, and so when it ends.
     """
-    from evenbreak.answers.tournament_night import next_calls
+    from evenbreak.answers.tournament.night import next_calls
     from evenbreak.tournaments.evening import moves
     from evenbreak.tournaments.evening.outlook import Outlook
 

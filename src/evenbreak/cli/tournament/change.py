@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Whole
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option

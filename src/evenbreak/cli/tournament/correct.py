@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import SCORE_OR_NAME
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
@@ -35,7 +35,7 @@ def command(*, match: str, score: tuple[int, int] | str, file: str, at: str, yes
     The chip goes back to its owner; racks that were played since still count, unless a player had
     no chips left by then.
     """
-    from evenbreak.answers.tournament_moves import happened
+    from evenbreak.answers.tournament.moves import happened
     from evenbreak.tournaments.evening import moves
 
     before, state = add(file, at, lambda state: [moves.correct(state, match, score)], yes=yes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import seed_option
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
@@ -23,7 +23,7 @@ def command(*, file: str, seed: int | None, at: str) -> Answer:
     """
     import numpy as np
 
-    from evenbreak.answers.tournament_moves import draw_words
+    from evenbreak.answers.tournament.moves import draw_words
     from evenbreak.tournaments.evening import moves
 
     rng = np.random.default_rng(seed)

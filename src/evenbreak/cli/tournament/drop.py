@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
@@ -27,7 +27,7 @@ def command(*, player: str, file: str, at: str, yes: bool) -> Answer:
     In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
     next in the line takes their place at the table.
     """
-    from evenbreak.answers.tournament_moves import forfeited
+    from evenbreak.answers.tournament.moves import forfeited
     from evenbreak.tournaments.evening import moves
 
     def decide(state: Evening) -> list[Dropped]:

@@ -18,7 +18,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.times import TimeOfDay
 
 if TYPE_CHECKING:
-    from evenbreak.answers.answer import Answer
+    from evenbreak.answers.kit.answer import Answer
     from evenbreak.tournaments.evening.events import Event, What
     from evenbreak.tournaments.evening.fold import Evening
     from evenbreak.tournaments.evening.outlook import Outlook
@@ -154,7 +154,7 @@ def add(
     What takes away a match in play or a result besides is refused, unless `yes` says that it is
     meant.
     """
-    from evenbreak.answers.tournament_moves import lost_words
+    from evenbreak.answers.tournament.moves import lost_words
     from evenbreak.files.store.tournament import add_events
     from evenbreak.tournaments.evening.events import Event
 
@@ -171,7 +171,7 @@ def add(
 
 def answer_of(file: str, state: Evening, at: str, said: Sequence[str] = ()) -> Answer:
     """Return the answer: what happened, what is played next, the odds, when it ends."""
-    from evenbreak.answers.tournament_night import night_answer
+    from evenbreak.answers.tournament.night import night_answer
     from evenbreak.tournaments.evening.outlook import Outlook
 
     return night_answer(Outlook(state, at), said, source=PurePath(file).name)

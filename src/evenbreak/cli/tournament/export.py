@@ -6,7 +6,7 @@ from pathlib import PurePath
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.tournament.evening import file_option
@@ -34,7 +34,7 @@ def command(*, file: str, out: str | None, events: bool) -> Answer:
     Matches that no longer count in the bracket after a correction are in it: they were played.
     """
     from evenbreak.answers.faces.to_csv import to_csv
-    from evenbreak.answers.tournament_matches import (
+    from evenbreak.answers.tournament.printed import (
         tournament_events_answer,
         tournament_matches_answer,
     )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
@@ -27,7 +27,7 @@ def command(*, player: str, match: str | None, file: str, at: str, yes: bool) ->
 
     MATCH is needed only if they have several to play, as in a round robin.
     """
-    from evenbreak.answers.tournament_moves import happened
+    from evenbreak.answers.tournament.moves import happened
     from evenbreak.tournaments.evening import moves
 
     def decide(state: Evening) -> list[Result]:

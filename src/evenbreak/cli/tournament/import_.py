@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import OF_LIST, SAY_WHICH, scale_option
 from evenbreak.cli.kit.paces import DISCIPLINES
@@ -69,9 +69,9 @@ def command(
     import numpy as np
 
     from evenbreak import files
-    from evenbreak.answers.starters import games_words
-    from evenbreak.answers.tournament import unrated_words
-    from evenbreak.answers.wording import count_of
+    from evenbreak.answers.kit.wording import count_of
+    from evenbreak.answers.league.players import games_words
+    from evenbreak.answers.tournament.tournament import unrated_words
     from evenbreak.files.foreign.tournament import read_saved_tournament
     from evenbreak.files.store.evening_file import is_database
     from evenbreak.files.store.tournament import is_event_list, new_tournament, read_event_list

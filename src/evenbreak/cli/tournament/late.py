@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.starters import POINTS
 from evenbreak.cli.kit.values import refuse
@@ -32,8 +32,8 @@ def command(*, player: str, rating: float | None, file: str, at: str) -> Answer:
     """
     from dataclasses import replace
 
-    from evenbreak.answers.scale_doubts import far_doubts
-    from evenbreak.answers.tournament_moves import entry_words
+    from evenbreak.answers.kit.scales import far_doubts
+    from evenbreak.answers.tournament.moves import entry_words
     from evenbreak.files.tables.names import NAME, clean_name, is_name
     from evenbreak.tournaments.evening import moves
     from evenbreak.tournaments.evening.events import Entrant

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.paces import DISCIPLINES
 from evenbreak.cli.kit.values import Whole, refuse
@@ -85,8 +85,8 @@ def _unrated(entered: Entered, state: Evening) -> list[str]:
     """Return what is assumed of players without a rating, as a sentence if there are any."""
     import numpy as np
 
-    from evenbreak.answers.starters import games_words
-    from evenbreak.answers.tournament import unrated_words
+    from evenbreak.answers.league.players import games_words
+    from evenbreak.answers.tournament.tournament import unrated_words
 
     read = entered.file.roster
     unrated = [read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist()]

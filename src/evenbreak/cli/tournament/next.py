@@ -6,7 +6,7 @@ from pathlib import PurePath
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.evening import at_option, file_option
@@ -31,7 +31,7 @@ def command(*, prizes: str | None, file: str, at: str) -> Answer:
     moves from some players to others, and how much later the tournament would end if it were
     called first. In a chip tournament it shows who is at which table and who is next in the line.
     """
-    from evenbreak.answers.tournament_night import night_answer
+    from evenbreak.answers.tournament.night import night_answer
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Number, refuse
 from evenbreak.cli.tournament.evening import or_under_way, outlook_of
@@ -16,7 +16,7 @@ from evenbreak.cli.tournament.options import tournament_options
 from evenbreak.cli.tournament.prize_money import paid_places, prizes_option
 
 if TYPE_CHECKING:
-    from evenbreak.answers.tournament import Tournament
+    from evenbreak.answers.tournament.tournament import Tournament
 
 WALKOVERS = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1, such as 0.047")
 
@@ -31,7 +31,7 @@ Examples:
 
 def under_way(file: str, at: str, prizes: str | None, sure: bool, walkovers: float) -> Answer:
     """Find each player's odds in the tournament under way."""
-    from evenbreak.answers.tournament_under_way import odds_under_way
+    from evenbreak.answers.tournament.under_way import odds_under_way
 
     outlook = replace(outlook_of(file, at), walkovers=walkovers)
     paid = paid_places(prizes, len(outlook.state.order))
@@ -87,7 +87,7 @@ def command(
     """
     import numpy as np
 
-    from evenbreak.answers.tournament_odds import tournament_odds_answer
+    from evenbreak.answers.tournament.odds import tournament_odds_answer
 
     if np.isnan(tournament.file.roster.rating).all():
         refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from evenbreak import files, ratings, tournaments
-from evenbreak.answers.scale_doubts import chart_doubts
+from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.options import (
     OF_LIST,
     SAY_WHICH,
@@ -41,7 +41,7 @@ from evenbreak.tournaments.evening.opening import (
 from evenbreak.tournaments.evening.races_of_plan import races_of
 
 if TYPE_CHECKING:
-    from evenbreak.answers.tournament import Tournament
+    from evenbreak.answers.tournament.tournament import Tournament
     from evenbreak.ratings.scale import Scale
 
 DROPS = {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
@@ -72,7 +72,7 @@ def tournament_options(command: Command) -> Command:
     """
 
     def run(*, entered: Entered, before_draw: bool = False, **rest: Any) -> Any:
-        from evenbreak.answers.tournament import Tournament
+        from evenbreak.answers.tournament.tournament import Tournament
 
         plan, file, scale = entered.plan, entered.file, entered.scale
         if plan.form == "chips":
@@ -322,7 +322,7 @@ def _scale(
     file: files.RosterFile, stated: Scale | None, starter: float | None
 ) -> tuple[Scale, list[str]]:
     """Return the scale of the ratings, and what is doubtful about it."""
-    from evenbreak.answers.scale_doubts import far_doubts, league_doubts, starter_doubts
+    from evenbreak.answers.kit.scales import far_doubts, league_doubts, starter_doubts
 
     if stated is not None:
         refuse_other_scale(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import refuse
@@ -46,9 +46,8 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
     boxes to tick, where winner and loser go next, and room to sign. The bracket is on A4 if it can
     be read there, else on larger paper. The draw lists everybody by name, with their first match.
     """
-    from evenbreak.answers.printed import printed_answer
-    from evenbreak.answers.score_cards import score_cards
-    from evenbreak.answers.wording import count_of
+    from evenbreak.answers.kit.wording import count_of
+    from evenbreak.answers.tournament.printed import printed_answer, score_cards
     from evenbreak.files.store.tournament import read_tournament
 
     state, name = read_tournament(file), PurePath(file).stem
@@ -77,8 +76,8 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
 
 
 def _draw_list(state: Evening, name: str) -> bytes:
-    from evenbreak.answers.printed import first_matches
-    from evenbreak.answers.tournament import races_words
+    from evenbreak.answers.tournament.printed import first_matches
+    from evenbreak.answers.tournament.tournament import races_words
     from evenbreak.sheets.draw_list_pages import FirstMatch, draw_list_pdf
 
     players = []

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import NUMBER, Number, refuse
 from evenbreak.cli.tournament.evening import at_option, file_option, outlook_of
@@ -80,7 +80,7 @@ def command(
     With --calcutta, find what each player still to be sold is worth: the share of the pot, and the
     bid at which it wins back what it costs.
     """
-    from evenbreak.answers.tournament_prizes import calcutta_answer, tournament_prizes_answer
+    from evenbreak.answers.tournament.prizes import calcutta_answer, tournament_prizes_answer
     from evenbreak.files.store.desk import keep_prizes, kept_prizes
     from evenbreak.files.store.tournament import read_tournament
 

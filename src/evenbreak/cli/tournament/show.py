@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.kit.values import refuse
@@ -35,7 +35,7 @@ def command(*, out: str | None, file: str, at: str) -> Answer:
 
     Of a chip tournament it shows the tables, the line and everybody's chips.
     """
-    from evenbreak.answers.tournament_night import bracket_table
+    from evenbreak.answers.tournament.night import bracket_table
     from evenbreak.files.store.tournament import read_tournament
 
     state = read_tournament(file)
@@ -55,8 +55,8 @@ def command(*, out: str | None, file: str, at: str) -> Answer:
 
 def drawing_of(state: Evening, name: str, kind: str) -> bytes:
     """Return the bracket of a tournament, drawn as .svg, .png, .pdf or .html."""
-    from evenbreak.answers.bracket_view import bracket_panels
-    from evenbreak.answers.tournament import races_words
+    from evenbreak.answers.tournament.bracket_view import bracket_panels
+    from evenbreak.answers.tournament.tournament import races_words
 
     panels = bracket_panels(state)
     heading = [name, f"{state.bracket.format}. {races_words(state.races)}"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
 
@@ -20,7 +20,7 @@ def command(*, match: str, file: str, at: str, yes: bool) -> Answer:
 
     The corrected score is kept, but those who have played on stay where they are.
     """
-    from evenbreak.answers.tournament_moves import reopened, settled_words
+    from evenbreak.answers.tournament.moves import reopened, settled_words
     from evenbreak.tournaments.evening.settling import stand
 
     before, state = add(file, at, lambda state: stand(state, match), yes=yes)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import seed_option
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
@@ -30,7 +30,7 @@ def command(*, file: str, lot: bool, seed: int | None, at: str) -> Answer:
     """
     import numpy as np
 
-    from evenbreak.answers.tournament_moves import tie_words
+    from evenbreak.answers.tournament.moves import tie_words
     from evenbreak.tournaments.evening.settling import TieBreak, break_ties
 
     found: list[TieBreak] = []

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.paces import TURNOVER, pace_options, stated_pace
 from evenbreak.cli.kit.values import Whole, refuse
@@ -16,7 +16,7 @@ from evenbreak.cli.tournament.options import tournament_options
 from evenbreak.cli.tournament.times import TimeOfDay
 
 if TYPE_CHECKING:
-    from evenbreak.answers.tournament import Tournament
+    from evenbreak.answers.tournament.tournament import Tournament
 
 EXAMPLES = """\b
 Examples:
@@ -29,7 +29,7 @@ Examples:
 
 def under_way(file: str, at: str, tables: int | None, turnover: float | None) -> Answer:
     """Find when the tournament under way ends."""
-    from evenbreak.answers.tournament_under_way import time_under_way
+    from evenbreak.answers.tournament.under_way import time_under_way
     from evenbreak.matches import Turnover
 
     return time_under_way(
@@ -77,7 +77,7 @@ def command(
     --file: its results, the matches on its tables and its pace so far. JSON and CSV have minutes
     from the start of the tournament.
     """
-    from evenbreak.answers.tournament_time import tournament_time_answer
+    from evenbreak.answers.tournament.time import tournament_time_answer
     from evenbreak.matches import Turnover
 
     if tables is None:

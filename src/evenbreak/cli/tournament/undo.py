@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from evenbreak.answers.answer import Answer
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Whole
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option, yes_option
@@ -28,7 +28,7 @@ def command(*, entry: int | None, file: str, at: str, yes: bool) -> Answer:
     Scores that players tap on their phones stay. A result that both players entered is taken back
     only if --entry names it, or corrected.
     """
-    from evenbreak.answers.tournament_moves import reopened, undone_words
+    from evenbreak.answers.tournament.moves import reopened, undone_words
     from evenbreak.tournaments.evening.undoing import undo
 
     before, state = add(file, at, lambda state: [undo(state, entry)], yes=yes)

@@ -7,8 +7,8 @@ from decimal import ROUND_HALF_EVEN, Decimal
 from functools import cache, partial
 from typing import Any, NamedTuple
 
-from evenbreak.answers.graph import SAME
-from evenbreak.answers.road import Road, road_of
+from evenbreak.answers.match.chain import Road, road_of
+from evenbreak.answers.match.graph import SAME
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.game import Game
 from evenbreak.games import (

@@ -10,11 +10,11 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.bracket_view import bracket_panels
-from evenbreak.answers.score_cards import score_cards
-from evenbreak.answers.tournament import races_words
-from evenbreak.answers.tournament_swiss import swiss_table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.tournament.bracket_view import bracket_panels
+from evenbreak.answers.tournament.night import swiss_table
+from evenbreak.answers.tournament.printed import score_cards
+from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.page import answer_shown, page, site_of
 from evenbreak.web.refusals import RefusalError

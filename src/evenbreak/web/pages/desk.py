@@ -12,8 +12,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament import races_words
-from evenbreak.answers.tournament_moves import (
+from evenbreak.answers.tournament.moves import (
     draw_words,
     event_words,
     forfeited,
@@ -24,7 +23,8 @@ from evenbreak.answers.tournament_moves import (
     tie_words,
     undone_words,
 )
-from evenbreak.answers.tournament_night import bracket_table
+from evenbreak.answers.tournament.night import bracket_table
+from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.files.store.desk import phone_entries, sides_between
 from evenbreak.files.store.tournament import add_events
 from evenbreak.tournaments.evening import moves

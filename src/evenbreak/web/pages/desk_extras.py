@@ -11,9 +11,9 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.tournament_moves import history_words
-from evenbreak.answers.tournament_under_way import time_under_way
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.tournament.moves import history_words
+from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.files.store.tournament import read_events
 from evenbreak.tournaments.evening.events import Undone

@@ -11,10 +11,10 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.scale_doubts import chart_doubts, league_doubts
-from evenbreak.answers.starters import games_words
-from evenbreak.answers.tournament import unrated_words
-from evenbreak.answers.tournament_moves import entry_words
+from evenbreak.answers.kit.scales import chart_doubts, league_doubts
+from evenbreak.answers.league.players import games_words
+from evenbreak.answers.tournament.moves import entry_words
+from evenbreak.answers.tournament.tournament import unrated_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import read_entrants

@@ -14,7 +14,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.tournament_matches import tournament_matches_answer
+from evenbreak.answers.tournament.printed import tournament_matches_answer
 from evenbreak.matches.formats import LONGEST
 from evenbreak.ratings.scale import NAMES, SCALES
 from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
@@ -30,7 +30,7 @@ from evenbreak.web.uploads import list_of
 from evenbreak.web.words import say
 
 if TYPE_CHECKING:
-    from evenbreak.answers.sheet import Sheet
+    from evenbreak.answers.league.sheet import Sheet
 
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
 _MOST_LISTED = 1000
@@ -132,7 +132,7 @@ def matches_csv(state: Evening, event: str) -> bytes:
 
 async def player(request: Request) -> Response:
     """Show a player's rating and matches and, against another, the fairest race and why."""
-    from evenbreak.answers.chosen_players import find_players
+    from evenbreak.answers.league.players import find_players
 
     sheet = _sheet(request)
     name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
@@ -159,7 +159,7 @@ async def player(request: Request) -> Response:
 
 
 def _why(sheet: Sheet, pair: tuple[int, int]) -> Any:
-    from evenbreak.answers.why import why_answer
+    from evenbreak.answers.league.why import why_answer
     from evenbreak.ratings.usual import rated_alike
 
     again = rated_alike(sheet.ratings, sheet.file.results)

@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament_prizes import tournament_prizes_answer
+from evenbreak.answers.tournament.prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS

@@ -10,7 +10,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.team_night import (
+from evenbreak.answers.team.night import (
     chance_words,
     decided,
     history_words,

@@ -17,8 +17,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, TypeAlias, TypeVar
 
-from evenbreak.answers.answer import Answer
-from evenbreak.answers.parts import Column, Part, Quantity, Table
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantity, Table
 from evenbreak.web.words import number_in
 
 Named = TypeVar("Named", Column, Quantity)

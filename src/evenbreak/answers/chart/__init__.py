@@ -1,0 +1,1 @@
+"""Handicap charts: listed, shown, audited, designed."""

@@ -1,0 +1,181 @@
+"""What an answer is made of: paragraphs, quantities and tables, with names, units and digits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+Show: TypeAlias = Callable[[Any], str]
+"""A value as a person reads it."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Parameters
+    ----------
+    name
+        its name in files and JSON, with the unit in it; or several names, where a person reads
+        as one what files keep apart, such as a race: its values are then tuples.
+    words
+        what a person reads above it, its lines parted by line breaks; None: it is in files only.
+    show
+        a value as a person reads it; None is shown empty, whatever this says.
+    left
+        whether a person finds it flush left.
+    whole
+        whether its words stay on one line where the table is too wide, to be copied from there.
+    detail
+        whether only those read it who ask for details.
+    exact
+        whether CSV has its numbers with all their digits, in place of six decimals.
+    cell
+        a value as CSV has it, such as 'yes' for True; by default the value itself.
+    """
+
+    name: str | tuple[str, ...]
+    words: str | None = None
+    show: Show = str
+    left: bool = False
+    whole: bool = False
+    detail: bool = False
+    exact: bool = False
+    cell: Show | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names in files, of one column or several."""
+        return (self.name,) if isinstance(self.name, str) else self.name
+
+    def text(self, value: Any) -> str:
+        """Return a value as a person reads it."""
+        return "" if value is None else self.show(value)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of values with named columns.
+
+    Parameters
+    ----------
+    name
+        its key in JSON; empty for a view of numbers that JSON holds elsewhere.
+    columns
+        what stands in each row.
+    rows
+        the values, a row at a time; whatever can be gone through more than once.
+    title
+        a line above it.
+    """
+
+    name: str
+    columns: Sequence[Column]
+    rows: Iterable[Sequence[Any]]
+    title: str = ""
+
+    def shown(self, *, verbose: bool = False) -> list[tuple[int, Column]]:
+        """Return the columns that a person reads, each with its place in a row."""
+        return [
+            (k, column)
+            for k, column in enumerate(self.columns)
+            if column.words is not None and (verbose or not column.detail)
+        ]
+
+    @property
+    def names(self) -> list[str]:
+        """The columns of its CSV."""
+        return [name for column in self.columns for name in column.names]
+
+    def records(self) -> Iterator[list[Any]]:
+        """Yield the rows as files hold them: a value for each of `names`."""
+        wide = [len(column.names) for column in self.columns]
+        for row in self.rows:
+            record: list[Any] = []
+            for value, many in zip(row, wide, strict=True):
+                if isinstance(value, tuple):
+                    record += value
+                else:
+                    record += [value] * many  # one value, or None for all
+            yield record
+
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """Return the rows as JSON holds them."""
+        return [dict(zip(self.names, record, strict=True)) for record in self.records()]
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return it as a DataFrame with the columns of its CSV."""
+        import pandas as pd
+
+        return pd.DataFrame(list(self.records()), columns=self.names)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One number, or a plain word, with its name.
+
+    Parameters
+    ----------
+    name
+        its key in JSON, its row in CSV.
+    value
+        None where there is none; it is then not shown.
+    words
+        what a person calls it; None: it is in files only.
+    show
+        the value as a person reads it.
+    note
+        what stands behind it, such as an interval.
+    detail
+        whether only those read it who ask for details.
+    """
+
+    name: str
+    value: Any
+    words: str | None = None
+    show: Show = str
+    note: str = ""
+    detail: bool = False
+
+
+def statistic(
+    name: str, value: Any, words: str | None, show: Show = str, note: str = ""
+) -> Quantity:
+    """Return a quantity that only those see who ask for details."""
+    return Quantity(name, value, words, show, note, detail=True)
+
+
+@dataclass(frozen=True)
+class Quantities:
+    """Quantities, a line each.
+
+    Parameters
+    ----------
+    of
+        the quantities.
+    title
+        a line above them.
+    in_json
+        False for a view of numbers that JSON holds elsewhere.
+    """
+
+    of: Sequence[Quantity]
+    title: str = ""
+    in_json: bool = True
+
+    def shown(self, *, verbose: bool = False) -> list[Quantity]:
+        """Return those that a person reads."""
+        return [
+            one
+            for one in self.of
+            if one.words is not None and one.value is not None and (verbose or not one.detail)
+        ]
+
+
+Part: TypeAlias = str | Quantities | Table
+"""A paragraph, or numbers."""

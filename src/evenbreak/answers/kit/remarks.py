@@ -1,0 +1,102 @@
+"""Remarks: what an answer leaves out or takes for granted, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from evenbreak.answers.kit.wording import listed, some_of
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
+
+MOST_NAMES = 5
+"""The most names that a remark lists."""
+
+
+class Remark(NamedTuple):
+    """Something worth knowing about an answer, and what there is to say of it.
+
+    Attributes
+    ----------
+    what
+        what it is about.
+    why
+        what there is to say.
+    names
+        the players or pairs that it is about.
+    """
+
+    what: str
+    why: str
+    names: Sequence[str] = ()
+
+    @property
+    def shown_names(self) -> Sequence[str]:
+        """The first of the names."""
+        return self.names[:MOST_NAMES]
+
+    @property
+    def more_names(self) -> int:
+        """How many names there are besides."""
+        return len(self.names) - len(self.shown_names)
+
+    @property
+    def heading(self) -> str:
+        """What it is about, with names."""
+        return f"{self.what} ({some_of(self.names, MOST_NAMES)})" if self.names else self.what
+
+    def __str__(self) -> str:
+        """Return the remark as a sentence.
+
+        >>> print(Remark("New players", "taken as 80 ± 30", ["Ann", "Bo"]))
+        New players (Ann, Bo): taken as 80 ± 30.
+        """
+        return f"{self.heading}: {self.why}."
+
+
+class Remarks(str):
+    """A paragraph that is a list of remarks.
+
+    >>> print(Remarks([Remark("New players", "taken as 80", ["Ann"])], "Assumed"))
+    Assumed:
+    - New players (Ann): taken as 80.
+    """
+
+    items: tuple[Remark, ...]
+    above: str
+
+    def __new__(cls, items: Iterable[Remark], above: str = "") -> Remarks:
+        """Make the paragraph."""
+        listed = tuple(items)
+        head = [f"{above}:"] if above else []
+        self = super().__new__(cls, "\n".join([*head, *(f"- {item}" for item in listed)]))
+        self.items, self.above = listed, above
+        return self
+
+
+def file_name(file: ResultsFile | RosterFile) -> str:
+    """Return the name of a file without its folders; the names of several, if they are one."""
+    return listed([source.replace("\\", "/").rpartition("/")[2] for source, _ in _read(file)])
+
+
+def fingerprints(file: ResultsFile | RosterFile, digits: int = 64) -> str:
+    """Return the SHA-256 of a file, or of each of several, up to so many digits."""
+    more = "…" if digits < 64 else ""
+    return listed([f"{sha256[:digits]}{more}" for _, sha256 in _read(file)])
+
+
+def _read(file: ResultsFile | RosterFile) -> tuple[tuple[str, str], ...]:
+    return getattr(file, "read", ()) or ((file.source, file.sha256),)
+
+
+def warnings_of(
+    file: ResultsFile | RosterFile, warnings: Sequence[str] | None = None
+) -> Iterator[Remark]:
+    """Yield warnings about a file, by default its own, without its folder, which is private."""
+    for warning in file.warnings if warnings is None else warnings:
+        text = warning.removeprefix(f"{file.source}:")
+        if text == warning:
+            yield Remark("Warning", warning)
+        else:  # after the name comes a blank, or the number of a line
+            why = text.lstrip() if text.startswith(" ") else f"line {text}"
+            yield Remark(f"Warning about {file_name(file)}", why)

@@ -1,0 +1,191 @@
+"""Numbers and lists as people read them: chances, decimals, counts, times, names."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.kit.parts import Show
+
+
+def chance(p: float) -> str:
+    """Return a probability, to four places, or to two digits where it is small.
+
+    >>> chance(0.65263), chance(0.00101), chance(1.234e-9), chance(1 - 1e-9)
+    ('0.6526', '0.0010', '1.2e-09', '1.0000')
+    """
+    return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
+
+
+def percent(p: float, left: float = 0.0) -> str:
+    """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
+
+    Beside a chance of 1e-18 for all else, which is `left`, a chance is 1 in every digit, and yet
+    not certain.
+
+    >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
+    ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
+    >>> percent(1.0, 1e-18)
+    'more than 99.9%'
+    >>> percent(0.01), percent(0.0103)  # a round value, as it was given, and a calculated one
+    ('1%', '1.0%')
+    """
+    if p == 1.0 and left > 0.0:
+        return "more than 99.9%"
+    if p == round(p, 2):
+        return f"{100 * p:.0f}%"
+    if p < 0.001:
+        return "less than 0.1%"
+    if p > 0.999:
+        return "more than 99.9%"
+    return f"{100 * p:.1f}%" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f}%"
+
+
+def share(p: float) -> str:
+    """Return a probability in a table, in per cent to one decimal.
+
+    >>> share(0.90701), share(0.08), share(3e-5), share(0.9999), share(0.0), share(1.0)
+    ('90.7%', '8.0%', '<0.1%', '>99.9%', '0%', '100%')
+    """
+    if p == 0.0 or p > 1.0 - 1e-12:
+        return f"{p:.0%}"
+    if p < 0.0005:
+        return "<0.1%"
+    return ">99.9%" if p > 0.9995 else f"{p:.1%}"
+
+
+def share_at_a_glance(p: float) -> str:
+    """Return a probability in per cent where there is little room, with two digits at most.
+
+    >>> share_at_a_glance(0.90701), share_at_a_glance(0.0757), share_at_a_glance(3e-5)
+    ('91%', '7.6%', '<0.1%')
+    """
+    return f"{p:.0%}" if 0.0995 <= p < 0.995 else share(p)
+
+
+def decimals(places: int) -> Show:
+    """Return how a number is shown with so many decimals; one that rounds to 0 has no sign.
+
+    >>> decimals(2)(1.005), decimals(1)(-0.04), decimals(0)(1234.5)
+    ('1.00', '0.0', '1,234')
+    """
+
+    def show(value: float) -> str:
+        text = f"{value:,.{places}f}"
+        return text.removeprefix("-") if not text.strip("-0.,") else text
+
+    return show
+
+
+def signed(places: int) -> Show:
+    """Return how a difference is shown: with its sign; one that rounds to 0 is never negative.
+
+    >>> signed(4)(0.0521), signed(1)(-3.26), signed(1)(-0.04)
+    ('+0.0521', '-3.3', '+0.0')
+    """
+    return lambda value: f"{value:+z.{places}f}"
+
+
+def games(value: float) -> str:
+    """Return a number of games, racks or matches: whole as it is, else with two decimals.
+
+    >>> games(13), games(10.2743), games(3.2e11)
+    ('13', '10.27', '3.2e+11')
+    """
+    if value >= 1e9:
+        return f"{value:.3g}"
+    return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
+
+
+def yes_or_no(truth: bool) -> str:
+    """Return a truth as a word.
+
+    >>> yes_or_no(True), yes_or_no(False)
+    ('yes', 'no')
+    """
+    return "yes" if truth else "no"
+
+
+def race(needs: tuple[int, int]) -> str:
+    """Return a race.
+
+    >>> race((7, 5))
+    '7:5'
+    """
+    return f"{needs[0]}:{needs[1]}"
+
+
+def range_words(first: int, last: int | None) -> str:
+    """Return a range of whole numbers, which may be open-ended.
+
+    >>> range_words(7, 18), range_words(7, 7), range_words(49, None)
+    ('7 to 18', '7', '49 and more')
+    """
+    if last is None:
+        return f"{first} and more"
+    return f"{first} to {last}" if last > first else str(first)
+
+
+def count_of(number: int, one: str, many: str = "") -> str:
+    """Return a number with the noun that it counts; `many` is `one` with an s where not given.
+
+    >>> count_of(1, "game"), count_of(2599, "game"), count_of(2, "match", "matches")
+    ('1 game', '2,599 games', '2 matches')
+    """
+    return f"{number:,} {one if number == 1 else many or one + 's'}"
+
+
+def listed(words: Sequence[Any], last: str = "and") -> str:
+    """Return words as a list in a sentence.
+
+    >>> listed(["Ann"]), listed(["Ann", "Bo"]), listed(["winner", "loser", "alternate"], "or")
+    ('Ann', 'Ann and Bo', 'winner, loser or alternate')
+    """
+    *most, end = map(str, words)
+    return f"{', '.join(most)} {last} {end}" if most else end
+
+
+def some_of(words: Sequence[str], most: int = 8) -> str:
+    """Return the first of many names, and how many more there are.
+
+    >>> some_of(["Ann", "Bo", "Cy"], most=2)
+    'Ann, Bo and 1 more'
+    """
+    more = len(words) - most
+    return f"{', '.join(words[:most])} and {more:,} more" if more > 0 else ", ".join(words)
+
+
+def clock(minutes: float) -> str:
+    """Return minutes as hours and minutes.
+
+    >>> clock(52.4), clock(119.7), clock(185.0)
+    ('52 min', '2 h 00', '3 h 05')
+    """
+    whole = round(minutes)
+    return f"{whole} min" if whole < 60 else f"{whole // 60} h {whole % 60:02d}"
+
+
+def how_often(p: float) -> str:
+    """Return how often something of probability p happens.
+
+    >>> how_often(0.012), how_often(0.3), how_often(1.0)
+    ('about 1 time in 83', 'about 30 times in 100', 'nearly always')
+    """
+    if p > 0.99:
+        return "nearly always"
+    if p < 0.001:
+        return "less than 1 time in 1000"
+    if p < 0.1:
+        return f"about 1 time in {1 / p:.0f}"
+    return f"about {100 * p:.0f} times in 100"
+
+
+def luck_words(p: float) -> str:
+    """Return whether something is luck, if luck alone does it with probability p.
+
+    >>> luck_words(0.3), luck_words(0.02)
+    ('this may well be luck', 'this is probably not luck')
+    """
+    if p >= 0.1:
+        return "this may well be luck"
+    if p >= 0.05:
+        return "this could be luck"
+    return "this is probably not luck" if p >= 0.01 else "this is not luck"

@@ -1,0 +1,1 @@
+"""Handicap ladders: how far ratings wander in the long run."""

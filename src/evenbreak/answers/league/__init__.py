@@ -1,0 +1,1 @@
+"""A league: ratings, matchups, a night's round, seasons, the report."""

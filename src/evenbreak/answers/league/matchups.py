@@ -1,0 +1,353 @@
+"""Which race each pair of a round plays, who wins it how often, and how long it takes."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.remarks import Remark, Remarks, file_name
+from evenbreak.answers.kit.scales import form_used_words, game_chance, scale_words
+from evenbreak.answers.kit.wording import chance, clock, count_of, decimals, percent, race
+from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED, OfferedRaces
+from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
+from evenbreak.files.csv_writer import rows_of
+from evenbreak.matches.pace import Pace
+from evenbreak.ratings.roster import NOT_STATED
+
+
+def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
+    """Return the races of a round.
+
+    Of more than 20,000 pairs the rows are worked out while they are read, and the sentences
+    are only those that do not depend on all of them.
+
+    >>> import numpy as np
+    >>> from evenbreak.answers.league.roster_matchups import all_pairs
+    >>> from evenbreak.files.lists.roster import RosterFile
+    >>> from evenbreak.handicaps import chart
+    >>> from evenbreak.ratings import SCALES
+    >>> from evenbreak.ratings.roster import Roster
+    >>> club = Roster(["Ann", "Bo"], [92, 71])
+    >>> file = RosterFile(club, np.array([2, 3]), "club.csv", (), "0123456789abcdef")
+    >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
+    >>> tonight = Round(file=file, roster=club, pairs=all_pairs(club), **asked)
+    >>> matchups_answer(tonight).sentences[0]
+    'The races come from the chart npl_10. The race is 6:4 for Ann against Bo: Ann wins 53% of
+    the time.'
+    """
+    at_once = len(tonight.pairs) <= AT_A_TIME
+    frame = tonight.matchups.frame if at_once else None
+    table = _table(tonight)
+    parts: list[Part] = []
+    for prefix in tonight.kinds:
+        least = "" if frame is None else least_even(races_of(frame, prefix))
+        parts.append(f"{which_races(tonight, prefix)} {least}".rstrip())
+    if tonight.evening:
+        parts.append("\n".join([*map(evening_words, tonight.evening), about_time(tonight)]))
+    parts.append(table)
+    if tonight.pace is not None and not tonight.evening:
+        parts.append(about_time(tonight))
+    if doubtful(tonight):
+        parts.append("'A wins' is averaged over how far the ratings may be off.")
+    parts += filter(None, [form_used_words(tonight.form, tonight.scale)])
+    parts += [" ".join(about_levels(tonight))] if tonight.levels is not None else []
+    remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
+    parts += [Remarks(remarks)] if remarks else []
+    method = list(about_method(tonight))
+    return Answer(
+        f"Races for {file_name(tonight.file)}\n{ratings_words(tonight)}",
+        parts,
+        details=[*([Remarks(method)] if method else []), game_model(tonight)],
+        warnings=[*tonight.file.warnings, *warnings],
+        data={
+            "evening": tonight.evening,
+            "pace": _pace(tonight),
+            "form": tonight.form,
+            "levels": tonight.levels
+            and dict(zip(tonight.levels.levels, tonight.levels.strengths, strict=True)),
+        },
+        csv=table,
+    )
+
+
+def _pace(tonight: Round) -> dict[str, Any] | None:
+    """Return what the minutes assume, in minutes and standard deviations of logarithms."""
+    if tonight.pace is None:
+        return None
+    return {**asdict(tonight.pace), "turnover": tonight.turnover.mean}
+
+
+def _table(tonight: Round) -> Table:
+    columns = [Column("player_a", "A", left=True), Column("player_b", "B", left=True)]
+    columns += [Column("difference"), Column("difference_error")]
+    columns += [Column("p_game_a"), Column("p_game_a_plug_in")]
+    both = len(tonight.kinds) > 1
+    for prefix in tonight.kinds:
+        columns += _race_columns(tonight, prefix, both=both)
+    return Table("pairs", [*columns, Column("note")], _Rows(tonight, columns))
+
+
+def _race_columns(tonight: Round, prefix: str, *, both: bool) -> Iterator[Column]:
+    kind = ("chart\n" if prefix else "fair\n") if both else ""
+    yield Column((f"{prefix}race_a", f"{prefix}race_b"), f"{kind}race", race)
+    yield Column(f"{prefix}p_win_a", "A wins", chance)
+    sure = "if ratings\nare right" if doubtful(tonight) and not both else None
+    yield Column(f"{prefix}p_win_a_plug_in", sure, chance, detail=True)
+    if prefix:
+        yield Column(f"{prefix}unfairness")
+    timed = tonight.pace is not None
+    within = None if both else "9 of 10\nwithin"
+    average = "" if both else ",\naverage"
+    yield Column(f"{prefix}mean_games", None if timed else f"games{average}", decimals(1))
+    yield Column(f"{prefix}games_p90", None if timed else within)
+    if timed:
+        yield Column(f"{prefix}mean_minutes", f"min{average}", decimals(0))
+        yield Column(f"{prefix}minutes_p90", within, decimals(0))
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """The rows of the table, worked out each time they are read."""
+
+    round: Round
+    columns: Sequence[Column]
+
+    def __iter__(self) -> Iterator[Sequence[Any]]:
+        small = len(self.round.pairs) <= AT_A_TIME
+        for part in [self.round.matchups] if small else self.round.in_parts():
+            yield from self._rows(part.frame)
+
+    def _rows(self, frame: pd.DataFrame) -> Iterator[Sequence[Any]]:
+        by_name = dict(zip(frame.columns, zip(*rows_of(frame), strict=True), strict=True))
+        columns: list[Sequence[Any]] = []
+        for column in [*self.columns, Column("note")]:
+            values = [by_name[name] for name in column.names]
+            columns.append(values[0] if len(values) == 1 else _races(*values))
+        return zip(*columns, strict=True)
+
+
+def _races(m: Sequence[Any], n: Sequence[Any]) -> list[tuple[int, int] | None]:
+    return [None if need is None else (need, other) for need, other in zip(m, n, strict=True)]
+
+
+KINDS = {"chart": "By the chart", "best": "With the fairest races"}
+
+
+def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
+    """Return the races of one kind, named as `matchups_frame` names them."""
+    names = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
+    columns = {"player_a": "player_a", "player_b": "player_b"}
+    columns |= {prefix + name: name for name in names}
+    return frame[list(columns)].rename(columns=columns)
+
+
+def which_races(tonight: Round, prefix: str) -> str:
+    """Return where the races of one kind come from."""
+    way = tonight.kinds[prefix]
+    return (
+        way.in_words
+        if isinstance(way, OfferedRaces)
+        else f"The races come from the chart {way.name}."
+    )
+
+
+def least_even(paired: pd.DataFrame) -> str:
+    """Return which race favours one of the two most, of pairs as `races_of` names them.
+
+    >>> import pandas as pd
+    >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
+    >>> races = {"race_a": [7, 4], "race_b": [5, 6], "p_win_a": [0.52, 0.41]}
+    >>> print(least_even(pd.DataFrame(pairs | races)))
+    The least even race is 4:6 for Cy against Di: Di wins 59% of the time.
+    """
+    offered = paired.dropna(subset=["race_a"])
+    if not len(offered):
+        return ""
+    worst: Any = offered.iloc[int((offered["p_win_a"] - 0.5).abs().argmax())]
+    a, b, needs, p = worst.player_a, worst.player_b, (worst.race_a, worst.race_b), worst.p_win_a
+    winner, p = (a, p) if p >= 0.5 else (b, 1.0 - p)
+    which = "The least even race is" if len(offered) > 1 else "The race is"
+    return f"{which} {race(needs)} for {a} against {b}: {winner} wins {percent(p)} of the time."
+
+
+def evening_words(end: EveningEnd) -> str:
+    """Return when an evening ends.
+
+    >>> print(evening_words(EveningEnd("chart", 4, 2, 110.2, 120.0, True, 0, 0.0, 0.0)))
+    By the chart, 4 matches on 2 tables take 1 h 50 on average; 9 out of 10 evenings end within
+    2 h 00.
+    """
+    return (
+        f"{KINDS[end.races]}, {count_of(end.matches, 'match', 'matches')} on "
+        f"{count_of(end.tables, 'table')} {'take' if end.matches > 1 else 'takes'} "
+        f"{clock(end.mean_minutes)} on average; 9 out of 10 evenings end within "
+        f"{clock(end.minutes_p90)}."
+    )
+
+
+def about_time(tonight: Round) -> str:
+    """Return what the minutes assume, in a sentence; empty if there are none."""
+    if tonight.pace is None:
+        return ""
+    between = tonight.turnover.mean if tonight.evening else None
+    return time_words(tonight.pace, between)
+
+
+def time_words(pace: Pace, turnover: float | None = None) -> str:
+    """Return what a pace and a turnover assume.
+
+    >>> from evenbreak.matches import PACES
+    >>> print(time_words(PACES["9-ball"]))
+    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
+    three come within 29% of that.
+    """
+    which = f"{pace.discipline}: " if pace.discipline else ""
+    more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
+    text = (
+        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches of "
+        f"three come within {percent(pace.log_sd)} of that"
+    )
+    if turnover is None:
+        return f"{text}."
+    return f"{text}, and {turnover:.3g} minutes pass between two matches on a table."
+
+
+def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
+    """Yield which pairs have no race, or none that is fair."""
+    apart = _pairs(frame[frame["note"].str.startswith(NOT_LINKED)])
+    if apart:
+        yield Remark(
+            f"{count_of(len(apart), 'pair')} without a race",
+            "no chain of opponents links the two players, so their ratings cannot be compared",
+            apart,
+        )
+    uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])
+    if uneven:
+        yield Remark(
+            f"{count_of(len(uneven), 'pair')} without a fair race",
+            f"even the fairest race allowed leaves one player below {percent(0.5 - FAIR_WITHIN)}",
+            uneven,
+        )
+
+
+def _pairs(rows: pd.DataFrame) -> list[str]:
+    return [f"{a} \N{EN DASH} {b}" for a, b in zip(rows["player_a"], rows["player_b"], strict=True)]
+
+
+def about_players(tonight: Round) -> Iterator[Remark]:
+    """Yield whose rating or standard error was filled in or is missing, of those who meet."""
+    read, started = tonight.file.roster, tonight.roster
+    here = np.zeros(len(started), dtype=bool)
+    here[np.unique(tonight.pairs)] = True
+    unrated, silent = np.isnan(read.rating), np.isnan(started.standard_error)
+    filled = np.isnan(read.standard_error) & ~silent
+    for which, what, why in (
+        (unrated & filled, "without a rating", "taken as {0:g} ± {1:g}"),
+        (unrated & ~filled, "without a rating", "taken as {0:g}"),
+        (
+            ~unrated & filled & (read.games == 0),
+            "without games",
+            "rating taken as right to ± {1:g}",
+        ),
+        (
+            ~unrated & filled & (read.games == NOT_STATED),
+            "without a number of games",
+            "rating taken to be as uncertain as that of a new player, ± {1:g}",
+        ),
+    ):
+        for place in np.flatnonzero(which & here)[:1]:
+            filled_in = why.format(started.rating[place], started.standard_error[place])
+            yield _remark(tonight, which & here, what, filled_in)
+    if silent[here].all():
+        yield Remark("No standard errors are given", "all ratings are taken as exact")
+    elif (silent & here).any():
+        yield _remark(tonight, silent & here, "without a standard error", "rating taken as exact")
+    by_games = ~unrated & filled & (read.games > 0) & here
+    for place in np.flatnonzero(by_games)[:1]:
+        how = f"taken from the games, such as ± {started.standard_error[place]:.3g} after "
+        yield _remark(tonight, by_games, "without a standard error", f"{how}{read.games[place]:,}")
+
+
+def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Remark:
+    names = [tonight.roster.players[place] for place in np.flatnonzero(which).tolist()]
+    return Remark(f"{count_of(len(names), 'player')} {what}", why, names)
+
+
+def about_method(tonight: Round) -> Iterator[Remark]:
+    """Yield what the numbers rest on."""
+    if tonight.chart is not None:
+        yield Remark(
+            f"Chart {tonight.chart.name}", "looked up with ratings rounded to whole points"
+        )
+    if doubtful(tonight):
+        yield Remark(
+            "Uncertainty of the ratings (±, one standard error)",
+            "each chance and each length is averaged over it, with the errors of two players taken "
+            "as independent and normal",
+        )
+    if tonight.form:
+        yield Remark(
+            "Form of the day",
+            "each chance and each length is averaged over it; the chance of a single game stays "
+            "the same",
+        )
+    for end in tonight.evening:
+        if not end.exact:
+            yield Remark(
+                f"When it ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
+                f"from {end.runs:,} simulated evenings; the standard error of the average is "
+                f"{end.mean_minutes_error:.2g} minutes, that of the 90% point "
+                f"{end.minutes_p90_error:.2g}",
+            )
+
+
+def doubtful(tonight: Round) -> bool:
+    """Return whether the error of any rating is stated."""
+    return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
+
+
+def ratings_words(tonight: Round) -> str:
+    """Return what the ratings are, in a few words."""
+    if tonight.levels is not None:
+        return f"Ratings are skill levels of {tonight.levels.chart}"
+    return f"Ratings {scale_words(tonight.scale)}"
+
+
+def about_levels(tonight: Round) -> Iterator[str]:
+    """Yield how strong skill levels are taken to be, and what that means for the chances."""
+    if tonight.levels is None:
+        return
+    name, times = tonight.levels.chart, tonight.levels.odds_of_a_level
+    yield (
+        f"How strong a level is comes from the chart itself (`evenbreak chart audit {name}`): with "
+        f"the strengths that make its races as even as possible, one level more multiplies the "
+        f"odds of winning a game by {times:.2f} on average. All players are taken to be average "
+        "for their level."
+    )
+    yield (
+        "So the chances show which races favour a player by the chart's own measure, not whether "
+        "your players have the right levels."
+    )
+
+
+def game_model(tonight: Round) -> str:
+    """Return how a game's chance follows from two ratings, in a sentence."""
+    alone = "independently of every other game"
+    alone += " but for form of the day, whoever breaks." if tonight.form else ", whoever breaks."
+    if tonight.levels is not None:
+        placed = ", ".join(
+            f"{level} at {strength:.2f}"
+            for level, strength in zip(tonight.levels.levels, tonight.levels.strengths, strict=True)
+        )
+        return (
+            f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
+            f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
+            f"{alone}"
+        )
+    text = game_chance(tonight.scale)
+    return f"{text[:1].upper()}{text[1:]}, {alone}"

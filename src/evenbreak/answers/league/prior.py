@@ -1,0 +1,239 @@
+"""What was assumed about players before any result, how that was chosen, and what it is worth."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from evenbreak.answers.kit.parts import Column, Part, Show, Table
+from evenbreak.answers.kit.wording import count_of, decimals, listed
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.fitted import Group, Ratings
+from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
+from evenbreak.ratings.prior import Evidence, PriorChoice
+from evenbreak.ratings.scale import Scale
+
+_ONE = decimals(1)
+_FEW = 5  # names that are listed
+
+NAMES = {
+    "joined": "joined late",
+    "newcomers": "first games",
+    "race": "stated races",
+    "team_sd": "teams",
+    "division_sd": "divisions",
+    "half_life": "half-life",
+    "brought_sd": "ratings brought along",
+}
+"""What each thing that a search may add is called."""
+
+
+def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
+    """Yield what is assumed about newcomers, handicaps, teams and divisions.
+
+    >>> from evenbreak.ratings import Levels, Results, fit
+    >>> night = Results.from_names(["Ann"], ["Bo"], [50], [50])
+    >>> print(*level_words(fit(night, scale="fargo", levels=Levels(newcomers=0.5)), None))
+    A player's first games are predicted best with a start 48.1 points below the average player,
+    half of which is gone after 50 games.
+    """
+    levels, points = ratings.levels, ratings.scale.points
+    if levels.beginning is not None:
+        yield from _beginning_words(ratings)
+    if levels.joined:
+        side = "below" if levels.joined > 0 else "above"
+        error = _error(choice, "joined", points(1.0), _ONE, " points")
+        yield (
+            f"Players who joined after the first {OPENING / 7:.0f} weeks are expected to be "
+            f"{_ONE(abs(points(levels.joined)))} points {side} those who were there from the start"
+            f"{error}."
+        )
+    if levels.newcomers:
+        below = ratings.newcomer
+        side = "below" if below > 0 else "above"
+        error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, " points")
+        yield (
+            f"A player's first games are predicted best with a start {_ONE(abs(below))} points "
+            f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
+        )
+    if levels.race:
+        error = _error(choice, "race", 1.0, decimals(2), "")
+        largest = choice is not None and any(
+            found.at_most for found in choice.evidence if found.of == "race"
+        )
+        end = " No larger share was tried, so more may be better still." if largest else ""
+        yield (
+            f"The stated races count too: before any result, two players are taken to differ by "
+            f"{levels.race:.2f} times what their races take back{error}.{end}"
+        )
+    for kind in GROUPS:
+        groups = [group for group in ratings.groups if group.kind == kind]
+        if groups:
+            ends = [groups[0], groups[-1]]
+            yield f"{kind.capitalize()}s differ: {', and '.join(map(_group_words, ends))}."
+
+
+def _beginning_words(ratings: Ratings) -> Iterator[str]:
+    """Yield how many players bring a rating along, and how far off it is taken to be."""
+    beginning, off = ratings.levels.beginning, ratings.levels.brought_sd
+    if beginning is None:
+        return
+    others = [name for name in ratings.players if name not in set(beginning.players)]
+    known = len(ratings.players) - len(others)
+    if beginning.unknown_error and not off:
+        yield (
+            "The ratings that players bring along do not help to predict these results, and are "
+            "not used."
+        )
+        return
+    have = "brings a rating" if known == 1 else "bring a rating"
+    text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
+    if beginning.unknown_error:
+        text += f", which is taken to be off by {_ONE(ratings.scale.points(off))} points or so"
+    if 0 < len(others) <= _FEW:
+        text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
+    yield f"{text}."
+
+
+def _group_words(group: Group) -> str:
+    side = "above" if group.above >= 0 else "below"
+    return (
+        f"{group.name} is {_ONE(abs(group.above))} points {side} the average {group.kind}, give or "
+        f"take {_ONE(group.standard_error)}"
+    )
+
+
+def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: str) -> str:
+    """Return how far off what was chosen may be, '' where that is not known."""
+    errors = [found.standard_error for found in choice.evidence if found.of == of] if choice else []
+    known = next((error for error in errors if error is not None), None)
+    return "" if known is None else f", give or take {show(unit * known)}{sign}"
+
+
+def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part]:
+    """Yield the prior, how it was chosen, and what everything that was tried gained."""
+    yield prior_words(ratings)
+    if choice is None or not choice.learnt:
+        return
+    yield choice_words(ratings, choice)
+    if choice.evidence:
+        yield evidence_table(choice)
+
+
+def evidence_table(choice: PriorChoice) -> Table:
+    """Return what it gains to let newcomers, teams and so on count."""
+    columns = [
+        Column("of", "what", left=True),
+        Column("gain", "log-loss saved a game", _gain),
+        Column("used", "used", lambda used: "yes" if used else "no"),
+    ]
+    rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
+    title = (
+        "What it gains to let more count, each in addition to those above it, with 95% intervals "
+        "from resampling stretches of the season. What is not clearly above 0 is not used:"
+    )
+    return Table("", columns, rows, title)
+
+
+def _gain(gain: Estimate) -> str:
+    return f"{gain.value:z.4f}  {gain.low:z.4f} to {gain.high:z.4f}"
+
+
+def groups_table(ratings: Ratings) -> Iterator[Table]:
+    """Yield how far each team and division is above the average one, if they count."""
+    if ratings.groups:
+        columns = [
+            Column("kind", "", left=True),
+            Column("name", "name", left=True),
+            Column("above", "above average by", _ONE),
+            Column("standard_error", "give or take", _ONE),
+        ]
+        yield Table("", columns, list(ratings.groups))
+
+
+def group_rows(ratings: Ratings) -> list[dict[str, Any]]:
+    """Return how far each team and division is above the average one, in points."""
+    return [group._asdict() for group in ratings.groups]
+
+
+def levels_data(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
+    """Return the levels that count, in points, with their standard errors where known."""
+    levels, points = ratings.levels, ratings.scale.points
+    errors = {found.of: found.standard_error for found in choice.evidence} if choice else {}
+    newcomers, joined = errors.get("newcomers"), errors.get("joined")
+    return {
+        "joined_below": points(levels.joined),
+        "joined_below_standard_error": None if joined is None else points(joined),
+        "newcomers_below": ratings.newcomer,
+        "newcomers_below_standard_error": None
+        if newcomers is None
+        else points(newcomers) * ratings.newcomer_share,
+        "race": levels.race,
+        "race_standard_error": errors.get("race"),
+        "team_sd": points(levels.team_sd),
+        "division_sd": points(levels.division_sd),
+    }
+
+
+def evidence_rows(choice: PriorChoice | None) -> list[dict[str, Any]]:
+    """Return what everything that was tried gained in log-loss a game."""
+    return [] if choice is None else [_evidence(found) for found in choice.evidence]
+
+
+def _evidence(found: Evidence) -> dict[str, Any]:
+    return {
+        "of": found.of,
+        "tried": list(found.tried),
+        "gain": found.gain.value,
+        "low": found.gain.low,
+        "high": found.gain.high,
+        "used": found.used,
+        "value": found.value,
+        "standard_error": found.standard_error,
+    }
+
+
+def prior_words(ratings: Ratings) -> str:
+    """Return what was assumed about players before any result."""
+    width = _ONE(ratings.scale.points(ratings.prior_sd))
+    start = "average" if ratings.named else f"at {round(ratings.anchor, 1):g}"
+    apart = ", apart from what is known about them," if ratings.levels else ""
+    return (
+        f"Before any result, every player{apart} is assumed to be {start}, give or take {width} "
+        "points (the prior)."
+    )
+
+
+def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
+    """Return how the prior was chosen by prediction."""
+    width = _ONE(ratings.scale.points(choice.prior_sd))
+    text = (
+        f"Of {len(choice.tried)} values of the prior tried, {width} points predicted the "
+        f"{choice.predicted:,} later results best."
+    )
+    if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
+        end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
+        text += f" It is the {end} one tried, so one beyond it may be better still."
+    return text
+
+
+def prior_warnings(
+    file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
+) -> Iterator[str]:
+    """Yield a warning where the prior was to be chosen by too few results."""
+    if choice is not None and not choice.learnt:
+        yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
+
+
+def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
+    """Return that the results cannot choose a prior, and which one is used.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
+    >>> print(too_few_for_prior_words(few, scale_of("npl")))
+    22 later results are too few to choose a prior by; the default of 30.0 points is used.
+    """
+    few = "is too little" if choice.predicted == 1 else "are too few"
+    return (
+        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
+        f"{_ONE(scale.points(choice.prior_sd))} points is used."
+    )

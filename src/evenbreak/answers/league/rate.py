@@ -1,0 +1,268 @@
+"""How strong everybody is, and how certain that is; or how far apart two players are."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.scales import form_data, form_details, form_words, like_scale_words
+from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, signed
+from evenbreak.answers.league.prior import (
+    evidence_rows,
+    group_rows,
+    groups_table,
+    level_words,
+    levels_data,
+    prior_details,
+    prior_warnings,
+)
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+
+NOT_LINKED = "no chain of opponents links the two"
+
+SIZES = 6
+"""How many groups of players are listed by their sizes."""
+
+_ONE = decimals(1)
+
+
+def rate_answer(
+    file: ResultsFile,
+    ratings: Ratings,
+    choice: PriorChoice | None = None,
+    *,
+    pairs: Sequence[tuple[int, int]] = (),
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return the ratings of a league, or how far apart the players of some pairs are.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and what `fit` made of them.
+    choice
+        how the prior was chosen, if it was chosen by prediction.
+    pairs
+        positions in `ratings.players`; the answer is about them if there are any.
+    warnings
+        what else may be wrong.
+
+    >>> from evenbreak.files.results.results_file import ResultsFile
+    >>> from evenbreak.ratings import Results, fit
+    >>> night = Results.from_names(["Ann"], ["Bo"], [7], [4])
+    >>> answer = rate_answer(ResultsFile(night, "r.csv", (), (), ""), fit(night), pairs=[(0, 1)])
+    >>> print(answer.sentences[0])
+    Ann is rated 17.3 points above Bo, give or take 22.6, and wins a game between them 60% of the
+    time.
+    """
+    if pairs:
+        rows = [_pair(ratings, *pair) for pair in pairs]
+        first, table = "\n".join(map(_pair_in_words, rows)), Table("pairs", _PAIR_COLUMNS, rows)
+    else:
+        first, table = _highest_in_words(ratings), _players_table(ratings)
+    return Answer(
+        f"{file.source}: {_counted(file, ratings)}\nRatings on {like_scale_words(ratings.scale)}",
+        [
+            first,
+            *_fit_in_words(ratings, choice),
+            *form_words(ratings.form, ratings.scale),
+            *unlinked_words(ratings),
+            table,
+        ],
+        details=[
+            *([] if pairs else [_ERRORS_IN_WORDS]),
+            *prior_details(ratings, choice),
+            *form_details(ratings.form, ratings.scale),
+            *groups_table(ratings),
+        ],
+        csv=table,
+        warnings=[
+            *file.warnings,
+            *file.ties,
+            *prior_warnings(file, ratings, choice),
+            *warnings,
+        ],
+        data={
+            **_how(ratings, choice),
+            "form": form_data(ratings.form),
+            "rows_left_out": file.skipped,
+        },
+    )
+
+
+_ERRORS_IN_WORDS = (
+    "'Give or take' is the standard error of a rating on its own. 'In comparisons' is the "
+    "quasi-standard error: add the squares of two players' and take the root for the standard "
+    "error of their difference. It is smaller because the uncertainty that the whole league "
+    "shares cancels."
+)
+
+
+def _players_table(ratings: Ratings) -> Table:
+    """Return every player, group by group, the strongest of each first."""
+    by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
+    columns = [
+        Column("player", "player", left=True),
+        Column("rating", "rating", _ONE),
+        Column("standard_error", "give or take", _ONE),
+        Column("quasi_error", "in comparisons", _ONE, detail=True),
+        *(Column(name, name if ratings.games.any() else None) for name in ("games", "won", "lost")),
+        Column("races_won", "matches won" if by_winner else None),
+        Column("races_lost", "matches lost" if by_winner else None),
+        Column("component", "group" if ratings.component.max() > 1 else None),
+        *([Column("match_form")] if ratings.match_form else []),
+        Column("scale"),
+    ]
+    shared = [*([ratings.match_form] if ratings.match_form else []), ratings.scale.text]
+    order = ratings.strongest_first()
+    order.sort(key=lambda k: ratings.component[k])
+    values = [
+        np.asarray(getattr(ratings, str(one.name)))[order].tolist()
+        for one in columns[1 : -len(shared)]
+    ]
+    values += [[value] * len(order) for value in shared]
+    names = [ratings.players[k] for k in order]
+    return Table("players", columns, list(zip(names, *values, strict=True)))
+
+
+_PAIR_COLUMNS = (
+    Column("player_a", "A", left=True),
+    Column("player_b", "B", left=True),
+    Column("difference", "A above B by", signed(1)),
+    Column("standard_error", "give or take", _ONE),
+    Column("p_game_a", "A wins a game", decimals(3)),
+    Column("note"),
+)
+
+
+def _pair(ratings: Ratings, first: int, second: int) -> tuple[Any, ...]:
+    names = ratings.players[first], ratings.players[second]
+    if ratings.component[first] != ratings.component[second]:
+        return (*names, None, None, None, NOT_LINKED)
+    difference = float(ratings.rating[first] - ratings.rating[second])
+    p_game = ratings.scale.win_probability(difference)
+    return (*names, difference, ratings.difference_error(*names), p_game, None)
+
+
+def _pair_in_words(row: Sequence[Any]) -> str:
+    a, b, difference, error, p_game, note = row
+    if note is not None:
+        return f"{a} and {b} cannot be compared: {note}."
+    strong, weak, p = (a, b, p_game) if difference >= 0 else (b, a, 1.0 - p_game)
+    return (
+        f"{strong} is rated {_ONE(abs(difference))} points above {weak}, give or take "
+        f"{_ONE(error)}, and wins a game between them {percent(p)} of the time."
+    )
+
+
+def _highest_in_words(ratings: Ratings) -> str:
+    best = next(k for k in ratings.strongest_first() if ratings.component[k] == 1)
+    where = " in the largest group" if ratings.component.max() > 1 else ""
+    return (
+        f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "
+        f"take {_ONE(ratings.standard_error[best])}. A player's true rating is within the give or "
+        "take about two times in three."
+    )
+
+
+def _counted(file: ResultsFile, ratings: Ratings) -> str:
+    """Return what the ratings rest on."""
+    games, races = int(ratings.won.sum()), int(ratings.races_won.sum())
+    made = [count_of(int((~ratings.idle).sum()), "player")]
+    if games:
+        made += [count_of(ratings.matches - races, "match", "matches"), count_of(games, "game")]
+    if races:
+        made.append(f"{count_of(races, 'match', 'matches')} known by the winner alone")
+    left_out = [
+        count_of(file.skipped, "bad row") if file.skipped else "",
+        count_of(ratings.forfeits, "forfeit") if ratings.forfeits else "",
+        f"{ratings.empty:,} at 0-0" if ratings.empty else "",
+        f"{ratings.later:,} after {ratings.as_of}" if ratings.later else "",
+    ]
+    out = ", ".join(filter(None, left_out))
+    return ", ".join(made) + (f" (left out: {out})" if out else "")
+
+
+def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
+    """Yield what the ratings rest on besides the results, where something was asked for."""
+    yield from level_words(ratings, choice)
+    if ratings.named:
+        names = [f"{name} has {points:g}" for name, points in ratings.named]
+        on_average, other = (" on average", "their mean") if names[1:] else ("", "that player")
+        yield (
+            f"Ratings are set so that {listed(names)}{on_average}; 'give or take' is the "
+            f"uncertainty of the difference from {other}."
+        )
+    if ratings.half_life is not None:
+        yield (
+            f"A match counts half after {ratings.half_life:g} days; so weighted, the results "
+            f"count as much as {ratings.weight:,.0f} games played on the last day."
+        )
+    if ratings.break_advantage is not None:
+        points, error = ratings.break_advantage, ratings.break_error
+        stronger = "higher" if points >= 0 else "lower"
+        known = ", as given" if error is None else f", give or take {_ONE(error)}"
+        yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
+
+
+def unlinked_words(ratings: Ratings) -> Iterator[str]:
+    """Yield what to know about players whom no chain of opponents links.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
+    >>> print(*unlinked_words(fit(season)))
+    2 groups of players, of 3 and 2, never met: compare ratings only within a group. All
+    groups are assumed to be equally strong on average; a match or two between them would link
+    them.
+    """
+    sizes = [int(size) for size in np.bincount(ratings.component)[1:] if size > 1]
+    if len(sizes) > 1:
+        more = [f"{len(sizes) - SIZES:,} more"] if len(sizes) > SIZES else []
+        yield (
+            f"{len(sizes):,} groups of players, of "
+            f"{listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}, never met: compare "
+            "ratings only within a group. All groups are assumed to be equally strong on average; "
+            "a match or two between them would link them."
+        )
+    idle = int(ratings.idle.sum())
+    if idle:
+        have, their = ("has", "the rating is") if idle == 1 else ("have", "their rating is")
+        yield (
+            f"{count_of(idle, 'player')} {have} no games that count; {their} the one assumed "
+            "before any result."
+        )
+
+
+def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
+    scale = ratings.scale
+    return {
+        "scale": scale.name,
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "anchored_at": dict(ratings.named),
+        "prior_sd_points": scale.points(ratings.prior_sd),
+        "prior_sd_log_odds": ratings.prior_sd,
+        "priors_tried": None
+        if choice is None
+        else [
+            {"prior_sd_points": scale.points(width), "log_loss": loss}
+            for width, loss in zip(choice.tried, choice.log_loss, strict=True)
+        ],
+        "prior_learnt": None if choice is None else choice.learnt,
+        "levels": levels_data(ratings, choice),
+        "groups": group_rows(ratings),
+        "evidence": evidence_rows(choice),
+        "half_life_days": ratings.half_life,
+        "played_by_weight": ratings.weight,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
+        "break_advantage": ratings.break_advantage,
+        "break_advantage_standard_error": ratings.break_error,
+        "matches": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
+    }

@@ -1,0 +1,367 @@
+"""Which races players are offered, and the fairest of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+
+from evenbreak.answers.kit.wording import count_of
+from evenbreak.arrays import Floats, Ints
+from evenbreak.errors import InputError
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.given_ratings import (
+    MOST_DOUBLINGS,
+    fair_races_given_ratings,
+    length_given_ratings,
+    win_given_ratings,
+)
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_scale import LevelScale
+from evenbreak.matches.evening import Length
+from evenbreak.matches.minutes import match_minutes
+from evenbreak.matches.pace import Pace
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale
+
+
+@dataclass(frozen=True)
+class OfferedRaces:
+    """The races on offer: limited by their longest match, or by what the stronger player needs.
+
+    Parameters
+    ----------
+    games
+        the races m:n with games[0] <= m + n - 1 <= games[1].
+    race_to
+        instead: the races in which the stronger player needs this many games.
+
+    Raises
+    ------
+    InputError
+        if both are given, or neither.
+
+    >>> OfferedRaces(race_to=7).in_words
+    'The fairest races in which the stronger player needs 7 games.'
+    """
+
+    games: tuple[int, int] | None = None
+    race_to: int | None = None
+
+    def __post_init__(self) -> None:
+        if (self.games is None) == (self.race_to is None):
+            raise InputError(
+                f"games is {self.games!r} and race_to is {self.race_to!r}; give exactly one of them"
+            )
+
+    def fairest(
+        self, gap: ArrayLike, error: ArrayLike, scale: Scale, form: float = 0.0
+    ) -> tuple[Ints, Ints]:
+        """Return (m, n), the races nearest to even for these rating differences.
+
+        Chances are averaged over how far each difference may be off, `error` being its
+        standard error; 0 takes the ratings as right. They are averaged over form of the day too.
+        """
+        return fair_races_given_ratings(
+            gap, error, games=self.games, race_to=self.race_to, scale=scale, form=form
+        )
+
+    @property
+    def in_words(self) -> str:
+        """What was chosen from, in a sentence."""
+        if self.games is None:
+            needs = count_of(self.race_to or 0, "game")
+            return f"The fairest races in which the stronger player needs {needs}."
+        low, high = self.games
+        span = f"{low:,} to " if low < high else ""
+        text = f"The fairest races whose longest match has {span}{count_of(high, 'game')}"
+        return f"{text}; each pair gets the most even one." if low < high else f"{text}."
+
+
+FAIR_WITHIN = 0.1
+"""How far from 1/2 the chance of a fair race may be."""
+
+NOT_LINKED = "no race: no chain of opponents links the two"
+"""The note on a pair whose ratings cannot be compared."""
+
+NOT_FAIR = "no race allowed is fair"
+"""How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
+
+
+def all_pairs(roster: Roster) -> Ints:
+    """Return all pairs of players as places in the roster, the stronger of the two first.
+
+    The pairs of the strongest player come first; players with equal ratings stay in the order
+    of the list.
+
+    >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
+    [[1, 2], [1, 0], [2, 0]]
+    """
+    order = np.argsort(-roster.rating, kind="stable")
+    return order[np.column_stack(np.triu_indices(len(roster), 1))]
+
+
+def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
+    """Refuse ratings that are not levels of the chart, and standard errors that are too large.
+
+    Raises
+    ------
+    DataError
+        with one line for each such player.
+    """
+    most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
+    problems = Problems(file.source)
+    problems.add_rows(
+        file.lines,
+        np.flatnonzero(roster.standard_error > most),
+        lambda place: (
+            f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
+            f"{roster.standard_error[place]:g} says nothing about a player; write {most:g} points "
+            "at most, or check --scale"
+        ),
+    )
+    if isinstance(chart, LevelChart):
+        levels = ", ".join(map(str, chart.levels))
+        problems.add_rows(
+            file.lines,
+            np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
+            lambda place: (
+                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is not a "
+                f"level of the chart {chart.name}; write one of {levels}"
+            ),
+        )
+    problems.raise_any()
+
+
+@dataclass(frozen=True, eq=False)
+class Races:
+    """The race of each pair, who wins it and how long it lasts.
+
+    `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
+    right); `mean` and `p90` are the mean length and the games within which 90% of such races
+    end; `minutes` has the same two in minutes, if there is a pace, and `lengths` the distribution
+    of each race's length.
+    """
+
+    m: Ints
+    n: Ints
+    p_win: Floats
+    plug_in: Floats
+    mean: Floats
+    p90: Ints
+    lengths: Sequence[Length]
+    minutes: tuple[Floats, Floats] | None
+
+    @classmethod
+    def of(
+        cls,
+        gap: Floats,
+        error: Floats,
+        m: Ints,
+        n: Ints,
+        scale: Scale,
+        pace: Pace | None = None,
+        form: float = 0.0,
+    ) -> Races:
+        """Return the races m:n of pairs with these differences and standard errors."""
+        way: dict[str, Any] = {"scale": scale, "form": form}
+        mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
+        minutes = np.zeros((2, len(gap)))
+        lengths: list[Length] = [Length([], [])] * len(gap)
+        for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
+            of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
+            length = length_given_ratings(gap[of_race], error[of_race], *race, **way)
+            mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
+            if pace is not None:
+                timed = match_minutes(length.games, length.probability, pace)
+                minutes[:, of_race] = timed.mean, timed.quantile(0.9)
+            for place, chances in zip(of_race.tolist(), length.probability, strict=True):
+                lengths[place] = Length(length.games, chances)
+        return cls(
+            m,
+            n,
+            win_given_ratings(gap, error, m, n, **way),
+            win_given_ratings(gap, 0.0, m, n, **way),
+            mean,
+            p90,
+            lengths,
+            None if pace is None else (minutes[0], minutes[1]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class RosterMatchups:
+    """The races of pairs of players.
+
+    Parameters
+    ----------
+    frame
+        a row for each pair, as `roster_matchups` describes it.
+    chart_lengths, best_lengths
+        the distribution of the length of each pair's race from the chart and of the fairest one,
+        without the pairs that no chain of opponents links; None if that kind is not asked for.
+    linked
+        which pairs are linked by a chain of opponents.
+    """
+
+    frame: pd.DataFrame
+    chart_lengths: Sequence[Length] | None
+    best_lengths: Sequence[Length] | None
+    linked: NDArray[np.bool_]
+
+    def __repr__(self) -> str:
+        return f"<RosterMatchups of {len(self.frame):,} pairs>"
+
+
+def roster_matchups(
+    roster: Roster,
+    pairs: Ints,
+    *,
+    scale: Scale,
+    chart: Chart | LevelChart | None = None,
+    levels: LevelScale | None = None,
+    offered: OfferedRaces | None = None,
+    pace: Pace | None = None,
+    form: float = 0.0,
+) -> RosterMatchups:
+    """Return the races of pairs of players, their chances and their lengths.
+
+    Parameters
+    ----------
+    roster
+        how strong everybody is, with new players filled in. A player whose error is not stated
+        is taken to be rated exactly.
+    pairs
+        places in the roster, shape (k, 2).
+    scale
+        what the points mean.
+    chart
+        the league's chart; ratings are rounded to whole points to look it up.
+    levels
+        how strong the levels are, where ratings are skill levels; None: ratings are strengths.
+    offered
+        the races among which the fairest is sought.
+    pace
+        how fast matches are played; None: no minutes.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation).
+
+    Returns
+    -------
+    RosterMatchups
+        its frame has player_a, player_b; difference of the ratings and difference_error, its
+        standard error (none where it is stated for neither), in points; p_game_a and
+        p_game_a_plug_in; with a chart the columns chart_race_a, chart_race_b, chart_p_win_a,
+        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with offered
+        races race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
+        mean_minutes and minutes_p90 of each; note. A chance is conditional on the ratings and
+        their errors, that of the race averaged over them; a plug-in chance on the ratings
+        being right. The unfairness is the distance of the chance from 1/2.
+
+    Raises
+    ------
+    InputError
+        if neither a chart nor races are offered, a player has no rating, or the chart has no
+        such level.
+    """
+    if chart is None and offered is None:
+        raise InputError("chart and offered are missing; give one of them at least")
+    if np.isnan(roster.rating).any():
+        raise InputError("roster has players without a rating; fill them in by with_starters")
+    a, b = pairs[:, 0], pairs[:, 1]
+    linked = _linked(roster, a, b)
+    a, b = a[linked], b[linked]
+    strength = roster.rating if levels is None else levels.strength(roster.rating)
+    gap = strength[a] - strength[b]
+    known = np.nan_to_num(roster.standard_error)
+    error = np.hypot(known[a], known[b])
+    stated = ~np.isnan(roster.standard_error)
+    columns: dict[str, Any] = {
+        "difference": gap,
+        "difference_error": np.where(stated[a] | stated[b], error, np.nan),
+        "p_game_a": win_given_ratings(gap, error, 1, 1, scale=scale),
+        "p_game_a_plug_in": scale.win_probability(gap),
+    }
+    by_chart = best = None
+    if chart is not None:
+        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace, form)
+        columns |= _columns("chart_", by_chart)
+    if offered is not None:
+        best = Races.of(gap, error, *offered.fairest(gap, error, scale, form), scale, pace, form)
+        columns |= _columns("", best)
+    everyone = {
+        "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],
+        "player_b": [roster.players[k] for k in pairs[:, 1].tolist()],
+    }
+    rows = np.flatnonzero(linked)
+    frame = pd.DataFrame(columns, index=rows).reindex(np.arange(len(pairs)))
+    whole = [name for name in columns if name.endswith(("race_a", "race_b", "games_p90"))]
+    frame = frame.astype(dict.fromkeys(whole, "Int64"))
+    frame = pd.concat([pd.DataFrame(everyone, dtype=object), frame], axis=1)
+    frame["note"] = _notes(roster, pairs, linked, best)
+    return RosterMatchups(
+        frame, by_chart.lengths if by_chart else None, best.lengths if best else None, linked
+    )
+
+
+def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
+    """Return which pairs can be compared; a new player's starter rating compares with anybody's."""
+    group = np.where(roster.games == 0, 0, roster.component)
+    linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
+    return linked
+
+
+def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
+    """Return whether no chain of opponents links two players of a list."""
+    return not _linked(roster, np.array([a]), np.array([b]))[0]
+
+
+def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:
+    points = _whole(rating)
+    if isinstance(chart, LevelChart):
+        return chart.races(points[a], points[b])
+    return chart.races(points[a] - points[b])
+
+
+def _whole(rating: Floats) -> Floats:
+    """Return ratings in whole points, halves upwards."""
+    rounded: Floats = np.floor(rating + 0.5)
+    return rounded
+
+
+def _columns(prefix: str, races: Races) -> dict[str, Any]:
+    columns: dict[str, Any] = {
+        "race_a": races.m,
+        "race_b": races.n,
+        "p_win_a": races.p_win,
+        "p_win_a_plug_in": races.plug_in,
+    }
+    if prefix:
+        columns["unfairness"] = np.abs(races.p_win - 0.5)
+    columns |= {"mean_games": races.mean, "games_p90": races.p90}
+    if races.minutes is not None:
+        columns |= dict(zip(("mean_minutes", "minutes_p90"), races.minutes, strict=True))
+    return {prefix + name: values for name, values in columns.items()}
+
+
+def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races | None) -> list[str]:
+    """Return the note on each pair: no link, no fair race, who is new."""
+    notes: list[list[str]] = [[] for _ in pairs]
+    for row in np.flatnonzero(~linked).tolist():
+        notes[row].append(NOT_LINKED)
+    if best is not None:
+        chances = np.full(len(pairs), 0.5)
+        chances[linked] = best.p_win
+        for row in np.flatnonzero(np.abs(chances - 0.5) > FAIR_WITHIN).tolist():
+            notes[row].append(f"{NOT_FAIR}: the nearest gives A {chances[row]:.2f}")
+    new = roster.games == 0
+    for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
+        a, b = new[pairs[row]]
+        notes[row].append("A and B are new" if a and b else f"{'A' if a else 'B'} is new")
+    return ["; ".join(note) for note in notes]

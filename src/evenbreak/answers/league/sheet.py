@@ -1,0 +1,201 @@
+"""The fair-race sheet of a league: what every form of it, printed or written, is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from evenbreak import __version__
+from evenbreak.answers.kit.remarks import file_name, fingerprints
+from evenbreak.answers.kit.scales import like_scale_words
+from evenbreak.answers.kit.wording import race
+from evenbreak.answers.league.pairs import Band, SurePair, chart_bands, matchups_frame, sure_pairs
+from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.results import Results
+
+NO_RACE = "-"
+"""Stands for the race of two players who cannot be compared."""
+
+
+MOST_ON_SHEET = 96
+"""Players on one sheet, whatever its form: 16 pages of paper."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A league's ratings, and the fairest race of each pair of the players chosen.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and the ratings that come from them.
+    offered
+        the races to choose from.
+    rated, paired
+        the tables of `Ratings.to_frame` and `matchups_frame`.
+    choice
+        how the prior was chosen, if it was.
+    title
+        what stands above it, such as the name of the league; '' for none.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
+    >>> sheet = Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2])
+    >>> sheet.races["Cy", "Ann"], sheet.strongest(2).races
+    ('4:7', {('Ann', 'Bo'): '7:6', ('Bo', 'Ann'): '6:7'})
+    """
+
+    file: ResultsFile
+    ratings: Ratings
+    offered: OfferedRaces
+    rated: pd.DataFrame
+    paired: pd.DataFrame
+    choice: PriorChoice | None = None
+    title: str = ""
+
+    @classmethod
+    def of(
+        cls,
+        file: ResultsFile,
+        ratings: Ratings,
+        offered: OfferedRaces,
+        players: Sequence[int],
+        choice: PriorChoice | None = None,
+        title: str = "",
+    ) -> Sheet:
+        """Return the sheet that pairs these players (positions in `ratings.players`)."""
+        paired = matchups_frame(ratings, players, offered)
+        return cls(file, ratings, offered, ratings.to_frame(), paired, choice, title)
+
+    def __repr__(self) -> str:
+        return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
+
+    def strongest(self, most: int) -> Sheet:
+        """Return the sheet with the races of the strongest players only."""
+        names = set(self.listed["player"].head(most))
+        both = self.paired["player_a"].isin(names) & self.paired["player_b"].isin(names)
+        return replace(self, paired=self.paired[both])
+
+    @cached_property
+    def listed(self) -> pd.DataFrame:
+        """The rows of `rated` of the players who are paired; the index is the place, from 0."""
+        names = {*self.paired["player_a"], *self.paired["player_b"]}
+        return self.rated[self.rated["player"].isin(names)]
+
+    @cached_property
+    def races(self) -> dict[tuple[str, str], str]:
+        """The race of each two players, from the side of the first."""
+        return races_by_name(self.paired)
+
+    @cached_property
+    def sure(self) -> list[SurePair]:
+        """How well the difference of each pair is known, the best known first."""
+        return sure_pairs(self.paired, self.ratings.scale)
+
+    @cached_property
+    def bands(self) -> list[Band]:
+        """The chart that the races come to, empty if there is none.
+
+        It is that of a pair whose difference is known as well as for half of the pairs.
+        """
+        if not self.sure:
+            return []
+        furthest = max(pair.difference for pair in self.sure)
+        of = self.ratings
+        return chart_bands(self.offered, of.scale, furthest, self.typical_error, of.match_form)
+
+    @property
+    def typical_error(self) -> float:
+        """The standard error of the difference of half of the pairs, or less; 0 without pairs."""
+        return self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
+
+    @cached_property
+    def summary(self) -> pd.DataFrame:
+        """What the sheet was made from and how: the table of summary.csv."""
+        made = summary_frame(self.file, self.ratings, self.paired, self.offered)
+        given = pd.DataFrame({"key": ["title"], "value": [self.title]}, dtype=object)
+        return pd.concat([given, made], ignore_index=True) if self.title else made
+
+
+def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
+    """Return the race of each two players as text, from the side of the first."""
+    races = {}
+    rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
+    for pair in rows:
+        races[pair.player_a, pair.player_b] = race((pair.race_a, pair.race_b))
+        races[pair.player_b, pair.player_a] = race((pair.race_b, pair.race_a))
+    return races
+
+
+def summary_frame(
+    file: ResultsFile, ratings: Ratings, paired: pd.DataFrame, offered: OfferedRaces
+) -> pd.DataFrame:
+    """Return what a report was made from and how, as rows of key and value.
+
+    `components` counts those of players with games; `anchor` is the mean rating of each
+    component, so the rating of a player without games; the standard deviation of the prior
+    is given in natural log-odds and in points of the scale.
+    """
+    scale = ratings.scale
+    first, last = dates_of(file.results, ratings.as_of)
+    rows: dict[str, object] = {
+        "results_file": file_name(file),
+        "results_sha256": fingerprints(file),
+        "matches_read": len(file.results),
+        "matches_used": ratings.matches,
+        "forfeits_left_out": ratings.forfeits,
+        "empty_left_out": ratings.empty,
+        "later_left_out": ratings.later,
+        "first_date": first,
+        "last_date": last,
+        "games": int(ratings.won.sum()),
+        "players": len(ratings.players),
+        "players_without_games": int(ratings.idle.sum()),
+        "components": count_groups(ratings),
+        "groups_of_similar_names": len(file.similar_names),
+        "scale": f"{like_scale_words(scale)}; not an official rating",
+        "points_per_doubling": scale.points_per_doubling,
+        "anchor": ratings.anchor,
+        "prior_sd_log_odds": ratings.prior_sd,
+        "prior_sd_points": float(scale.points(ratings.prior_sd)),
+        "joined_below_points": float(scale.points(ratings.levels.joined)),
+        "newcomers_below_points": ratings.newcomer,
+        "race_counts": ratings.levels.race,
+        "team_sd_points": float(scale.points(ratings.levels.team_sd)),
+        "division_sd_points": float(scale.points(ratings.levels.division_sd)),
+        "half_life_days": ratings.half_life,
+        "match_form_log_odds": ratings.match_form,
+        "as_of": None if ratings.as_of is None else str(ratings.as_of),
+        "race_to": offered.race_to,
+        "games_lo": offered.games[0] if offered.games else None,
+        "games_hi": offered.games[1] if offered.games else None,
+        "pairs": len(paired),
+        "pairs_without_race": int(paired["race_a"].isna().sum()),
+        "evenbreak_version": __version__,
+    }
+    return pd.DataFrame(
+        {"key": list(rows), "value": pd.Series(list(rows.values()), dtype="object")}
+    )
+
+
+def count_groups(ratings: Ratings) -> int:
+    """Return how many groups of players never met; a player without results is no group."""
+    return len(np.unique(ratings.component[~ratings.idle]))
+
+
+def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:
+    """Return the first and last day, up to `as_of`, on which a match was played; '' if unknown."""
+    counted = results.played().results, results.won_only()
+    stated = [part.date for part in counted if part.date is not None]
+    days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")
+    days = days[~np.isnat(days) if as_of is None else days <= as_of]
+    return (str(days.min()), str(days.max())) if len(days) else ("", "")

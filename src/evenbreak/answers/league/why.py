@@ -1,0 +1,361 @@
+"""Why two players have the ratings and the race that they have, and what would change them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.scales import decimals_of, like_scale_words
+from evenbreak.answers.kit.wording import chance, percent, race
+from evenbreak.answers.league.pairs import matchups_frame
+from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
+from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings.consistency import who_won
+from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.prior import PriorChoice
+from evenbreak.ratings.rating_sources import rating_sources
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.scale import Scale
+
+SOURCES = {
+    "prior": "assumed before",
+    "brought": "rating brought along",
+    "results": "these results",
+}
+"""What a person reads for each source of a rating."""
+
+MOST_LISTED = 10
+"""Matches of each player that a person is shown; CSV and JSON have all."""
+
+
+def why_answer(
+    file: ResultsFile,
+    ratings: Ratings,
+    pair: tuple[int, int],
+    offered: OfferedRaces,
+    refit: Refit,
+    choice: PriorChoice | None = None,
+) -> Answer:
+    """Return which matches made two ratings, and what one more match would change.
+
+    Parameters
+    ----------
+    file, ratings
+        the results, and what was made of them.
+    pair
+        positions in `ratings.players`.
+    offered
+        the races among which the fairest is sought.
+    refit
+        rates other results in the same way.
+    choice
+        how the prior was chosen, if it was.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
+    >>> file = ResultsFile(season, "season.csv", (), (), "")
+    >>> answer = why_answer(file, fit(season), (0, 1), OfferedRaces(race_to=7), fit)
+    >>> answer.to_dict()["one_more"][0]["score"], answer.to_dict()["matches"][0]["worth"] > 0
+    ('7-5', True)
+    """
+    now = Standing.of(ratings, pair, offered)
+    more = one_more_match(file.results, ratings, pair, now, offered, refit)
+    matches = matches_behind(file.results, ratings, pair, refit)
+    scale = ratings.scale
+    names = ratings.players[pair[0]], ratings.players[pair[1]]
+    brought, sources = ratings.levels.beginning is not None, [_sources_table(ratings, pair)]
+    return Answer(
+        f"{names[0]} and {names[1]} in {file.source}\nRatings on {like_scale_words(scale)}",
+        [
+            " ".join([_now_in_words(now, names, scale), _more_in_words(more, now)]).rstrip(),
+            _players_table(ratings, pair),
+            *(sources if brought else []),
+            *([_more_table(more, now, names, scale)] if more else []),
+            *(_matches_table(matches, name, scale) for name in names),
+            "Worth: how much lower (or, with a minus, higher) the rating would be if this match "
+            "had not been played and all others had.",
+        ],
+        details=[*prior_details(ratings, choice), *([] if brought else sources)],
+        warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
+        data={
+            "player_a": names[0],
+            "player_b": names[1],
+            "difference": now.ratings[0] - now.ratings[1],
+            "difference_error": now.difference_error,
+            "race_a": now.race and now.race[0],
+            "race_b": now.race and now.race[1],
+            "p_win_a": now.p_win,
+            "evidence": evidence_rows(choice),
+            "one_more": [
+                {
+                    "winner": one.winner,
+                    "score": one.score,
+                    "rating_a": one.then.ratings[0],
+                    "rating_b": one.then.ratings[1],
+                    "race_a": one.then.race and one.then.race[0],
+                    "race_b": one.then.race and one.then.race[1],
+                    "p_win_a": one.then.p_win,
+                }
+                for one in more
+            ],
+        },
+        csv=Table("matches", [Column(name) for name in MATCH], matches),
+    )
+
+
+def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
+    a, b = names
+    decimals = decimals_of(scale)
+    first, second = now.ratings
+    text = f"{a} is rated {first:.{decimals}f} and {b} {second:.{decimals}f}"
+    if now.race is None or now.p_win is None or now.difference_error is None:
+        return f"{text}. No chain of opponents links the two, so they cannot be compared."
+    return (
+        f"{text}: {abs(first - second):.{decimals}f} points apart, give or take "
+        f"{now.difference_error:.{decimals}f}. Their fairest race is {race(now.race)}, and {a} "
+        f"wins it {percent(now.p_win)} of the time."
+    )
+
+
+def _more_in_words(more: Sequence[OneMore], now: Standing) -> str:
+    changes = [
+        f"If {one.winner} wins their next match {one.score}, the race becomes "
+        f"{race(one.then.race)}."
+        for one in more
+        if one.then.race is not None and one.then.race != now.race
+    ]
+    if more and not changes:
+        return "Whoever wins their next match, that race stays."
+    return " ".join(changes)
+
+
+def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
+    decimals = decimals_of(ratings.scale)
+
+    def points(value: float) -> str:
+        return f"{value:.{decimals}f}"
+
+    columns = [
+        Column("player", "player", left=True),
+        Column("rating", "rating", points),
+        Column("standard_error", "give or take", points),
+        *(Column(name, name, "{:,}".format) for name in ("games", "won", "lost")),
+    ]
+    rows = [
+        (
+            ratings.players[k],
+            float(ratings.rating[k]),
+            float(ratings.standard_error[k]),
+            *(int(getattr(ratings, name)[k]) for name in ("games", "won", "lost")),
+        )
+        for k in pair
+    ]
+    return Table("players", columns, rows)
+
+
+def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
+    """Return what each rating is made of."""
+    decimals = decimals_of(ratings.scale)
+
+    def points(value: float | None) -> str:
+        return "" if value is None else f"{value:.{decimals}f}"
+
+    columns = [
+        Column("player", "player", left=True),
+        Column("source", "source", SOURCES.__getitem__, left=True),
+        Column("rating", "rating\nby it alone", points),
+        Column("standard_error", "give or take", points),
+        Column("weight", "weight", percent),
+    ]
+    rows = [
+        (ratings.players[player], *source)
+        for player in pair
+        for source in rating_sources(ratings, player)
+    ]
+    title = "What the ratings are made of: each is the average of its sources, by weight."
+    return Table("sources", columns, rows, title)
+
+
+def _more_table(
+    more: Sequence[OneMore], now: Standing, names: tuple[str, str], scale: Scale
+) -> Table:
+    a, b = names
+    decimals = decimals_of(scale)
+
+    def over(name: str) -> str:
+        return "\n".join(name.split())
+
+    def change(value: float) -> str:
+        return f"{value:+.{decimals}f}"
+
+    columns = [
+        Column("match", "one more match", left=True),
+        Column("change_a", over(a), change),
+        Column("change_b", over(b), change),
+        Column("race", "fair\nrace", race),
+        Column("p_win_a", f"{over(a)}\nwins it", chance),
+    ]
+    rows = [
+        (
+            f"{one.winner} wins {one.score}",
+            one.then.ratings[0] - now.ratings[0],
+            one.then.ratings[1] - now.ratings[1],
+            one.then.race,
+            one.then.p_win,
+        )
+        for one in more
+    ]
+    title = "What one more match between the two would change, at their fair race:"
+    return Table("", columns, rows, title)
+
+
+def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) -> Table:
+    decimals = decimals_of(scale)
+    own = [match for match in matches if match[0] == name]
+    most = sorted(own, key=lambda match: -abs(match[-1]))[:MOST_LISTED]
+    dated = any(match[1] for match in own)
+    columns = [
+        Column("date", "date" if dated else None, left=True),
+        Column("opponent", "against", left=True),
+        Column("opponent_rating", "rated", lambda value: f"{value:.{decimals}f}"),
+        Column("result", "", left=True),
+        Column("score", "score"),
+        Column("worth", "worth", lambda value: f"{value:+.{decimals}f}"),
+    ]
+    rows = [
+        (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most
+    ]
+    which = f"the {len(most)} that matter most of {len(own)}" if len(own) > len(most) else "all"
+    title = f"The matches behind the rating of {name}: {which if own else 'none yet'}."
+    return Table("", columns, rows, title)
+
+
+Refit = Callable[[Results], Ratings]
+"""Rates other results in the same way."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Two ratings, and the fairest race between them; no race where they cannot be compared."""
+
+    ratings: tuple[float, float]
+    difference_error: float | None
+    race: tuple[int, int] | None
+    p_win: float | None
+
+    @classmethod
+    def of(cls, ratings: Ratings, pair: tuple[int, int], offered: OfferedRaces) -> Standing:
+        """Return where two players stand (positions in `ratings.players`)."""
+        both = float(ratings.rating[pair[0]]), float(ratings.rating[pair[1]])
+        (row,) = matchups_frame(ratings, pair, offered).to_dict("records")
+        if row["note"] and not row["p_win_a"] >= 0.0:  # not a number: there is no race
+            return cls(both, None, None, None)
+        needs, p_win = (int(row["race_a"]), int(row["race_b"])), float(row["p_win_a"])
+        if row["player_a"] != ratings.players[pair[0]]:
+            needs, p_win = needs[::-1], 1.0 - p_win
+        return cls(both, float(row["difference_error"]), needs, p_win)
+
+
+@dataclass(frozen=True)
+class OneMore:
+    """One more match between the two: who wins it how, and where they stand then."""
+
+    winner: str
+    score: str
+    then: Standing
+
+
+def one_more_match(
+    results: Results,
+    ratings: Ratings,
+    pair: tuple[int, int],
+    now: Standing,
+    offered: OfferedRaces,
+    refit: Refit,
+) -> list[OneMore]:
+    """Return what changes if either wins their fair race by the most likely score."""
+    if now.race is None:
+        return []
+    p = ratings.scale.win_probability(now.ratings[0] - now.ratings[1])
+    day = ratings.as_of
+    if day is None and results.date is not None:
+        day = np.fmax.reduce(results.date[results.counted])
+    found = []
+    for winner in (0, 1):
+        needs, other = now.race[winner], now.race[1 - winner]
+        score = (needs, _likeliest_loss(needs, other, 1.0 - p if winner == 0 else p))
+        a_first = score if winner == 0 else score[::-1]
+        again = refit(results.with_match(*pair, *a_first, date=day))
+        then = replace(again, form=ratings.form)
+        found.append(
+            OneMore(
+                ratings.players[pair[winner]],
+                f"{score[0]}-{score[1]}",
+                Standing.of(then, pair, offered),
+            )
+        )
+    return found
+
+
+def _likeliest_loss(needs: int, other: int, p_loser: float) -> int:
+    """Return the games that the loser most likely has when the winner gets the last of `needs`.
+
+    >>> _likeliest_loss(7, 7, 0.5), _likeliest_loss(7, 5, 0.2)
+    (6, 1)
+    """
+    return max(range(other), key=lambda k: math.comb(needs - 1 + k, k) * p_loser**k + k * 1e-12)
+
+
+MATCH = ("player", "date", "opponent", "opponent_rating", "score", "result", "worth")
+"""The columns of a match: the player comes first, and the score is that player's."""
+
+
+def matches_behind(
+    results: Results, ratings: Ratings, pair: tuple[int, int], refit: Refit
+) -> list[tuple[Any, ...]]:
+    """Return the matches of both players that count, each with what it is worth to the rating."""
+    counts = results.counted
+    if ratings.as_of is not None and results.date is not None:
+        counts = counts & (results.date <= ratings.as_of)
+    here = np.isin(results.player_a, pair) | np.isin(results.player_b, pair)
+    winner = who_won(results)
+    if results.winner is not None:
+        winner = np.where(results.winner > 0, results.winner, winner)
+    rows = []
+    for row in np.flatnonzero(counts & here).tolist():
+        without = refit(results.select(np.arange(len(results)) != row)).rating
+        for player in pair:
+            if player in (results.player_a[row], results.player_b[row]):
+                worth = float(ratings.rating[player] - without[player])
+                match = _match(results, ratings, row, player, int(winner[row]))
+                rows.append((pair.index(player), row, match, worth))
+    rows.sort(key=lambda one: one[:2])
+    return [(*match, worth) for _, _, match, worth in rows]
+
+
+def _match(
+    results: Results, ratings: Ratings, row: int, player: int, winner: int
+) -> tuple[Any, ...]:
+    first = int(results.player_a[row]) == player
+    opponent = int((results.player_b if first else results.player_a)[row])
+    own, other = int(results.score_a[row]), int(results.score_b[row])
+    if not first:
+        own, other = other, own
+    scored = results.unscored is None or not results.unscored[row]
+    result = "level" if not winner else "won" if winner == (1 if first else 2) else "lost"
+    day = None if results.date is None or np.isnat(results.date[row]) else str(results.date[row])
+    return (
+        ratings.players[player],
+        day,
+        ratings.players[opponent],
+        float(ratings.rating[opponent]),
+        f"{own}-{other}" if scored else None,
+        result,
+    )

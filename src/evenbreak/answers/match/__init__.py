@@ -1,0 +1,1 @@
+"""One match: its odds, its length, formats and fair races; games shot by shot."""

@@ -1,0 +1,268 @@
+"""Where a chain ends, or what it does in the long run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import by_way
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import chance, count_of, games, listed
+from evenbreak.chains.chain import Chain
+from evenbreak.chains.explore import chain_of
+from evenbreak.chains.limits import Limit, stochastic_limit
+from evenbreak.chains.mixing import apparent_period, spectral_gap
+from evenbreak.chains.passage_times import steps_to_absorption
+from evenbreak.chains.powers import propagate
+from evenbreak.chains.spectrum import Spectrum, spectrum
+from evenbreak.chains.ways import WAYS, Way
+from evenbreak.errors import AccuracyError, ChainError, GameError
+from evenbreak.game import Game, graph_of
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+NAMED = 5
+"""States that a sentence names, the likeliest ones."""
+
+
+def chain_answer(
+    chain: Chain,
+    *,
+    steps: int | None = None,
+    warnings: Sequence[str] = (),
+    via: Way | None = None,
+) -> Answer:
+    """Return the stochastic limit of a chain from its start, or its density after some steps.
+
+    Parameters
+    ----------
+    chain
+        the chain; its states are texts.
+    steps
+        files then hold the density after so many steps, in place of the limit.
+    warnings
+        what may be wrong with the chain, a sentence each.
+    via
+        the way to the limit, as for `stochastic_limit`.
+
+    >>> from evenbreak.chains import chain_of
+    >>> arcs = [("S1", "W", 0.3), ("S1", "S2", 0.7), ("S2", "L", 0.2), ("S2", "S1", 0.8)]
+    >>> print(chain_answer(chain_of(arcs, start="S1")).sentences[0])
+    The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
+    """
+    limit = stochastic_limit(chain, via=via)
+    mean_steps, doubts = mean_steps_of(chain)
+    states, structure = list(chain.states), chain.structure
+    columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
+    values: list[Sequence[Any]] = [states, structure.kinds]
+    sentences = [in_the_end(limit, structure.kinds, mean_steps)]
+    density = None
+    if steps is not None:
+        after = f"after {count_of(steps, 'step')}"
+        density = dict(zip(states, propagate(chain, steps=steps).tolist(), strict=True))
+        columns.append(Column("density", after, chance))
+        values.append(list(density.values()))
+        sentences.insert(0, f"A{after[1:]} the chain is in {_places(density)}.")
+    columns.append(Column("limit", "in the long run", chance))
+    values.append(limit.probability.tolist())
+    classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
+    return Answer(
+        f"A chain of {count_of(len(states), 'state')} that starts in {chain.start!r}",
+        [
+            "\n".join(sentences),
+            Table("", columns, list(zip(*values, strict=True))),
+            *_way(via, limit),
+        ],
+        [
+            "A transient state is left for good, an absorbing state is never left, and a recurrent "
+            "state is returned to again and again."
+        ],
+        warnings=[*warnings, *doubts],
+        data={
+            "start": chain.start,
+            "limit": limit.to_dict(),
+            "states": {state: {"class": label, "kind": kind} for state, label, kind in classes},
+            "period": limit.period,
+            "mean_steps": mean_steps,
+            "bound": limit.bound,
+            "steps": steps,
+            "density": density,
+        },
+        csv=Table(
+            "probabilities",
+            [Column("state"), Column("probability", exact=True)],
+            list((density or limit.to_dict()).items()),
+        ),
+    )
+
+
+def _way(via: Way | None, limit: Limit) -> list[Part]:
+    """Return how the limit was found, beside the closed form of a line or else elimination."""
+    if via is None:
+        return []
+    beside: Way = "kernel" if limit.chain.line is not None else "elimination"
+    known = stochastic_limit(limit.chain, via=beside)
+    pairs = zip(limit.probability.tolist(), known.probability.tolist(), strict=True)
+    return by_way(via, pairs, beside=beside)
+
+
+def mean_steps_of(chain: Chain) -> tuple[float | None, list[str]]:
+    """Return the mean number of steps to absorption, and why there is none where it is lost."""
+    try:
+        return steps_to_absorption(chain).mean, []
+    except AccuracyError as error:
+        doubt = f"the mean number of steps could not be calculated ({error}); absorption may be "
+        return None, [doubt + "certain nevertheless"]
+
+
+def in_the_end(limit: Limit, kinds: Sequence[str], mean_steps: float | None) -> str:
+    """Return where the chain ends, or where it is in the long run."""
+    where = _places(limit.to_dict())
+    if any(p and kind != "absorbing" for p, kind in zip(limit.probability, kinds, strict=True)):
+        text = f"In the long run the chain is in {where}."
+        if limit.is_cesaro:
+            text += f" It never settles (period {limit.period}): these are long-run averages."
+        return text
+    steps = f", after {games(mean_steps)} steps on average" if mean_steps else ""
+    return f"The chain ends in {where}{steps}."
+
+
+def _places(density: Mapping[Any, float]) -> str:
+    """Return the likeliest states, each with its chance."""
+    likeliest = sorted((item for item in density.items() if item[1]), key=lambda item: -item[1])
+    named = [f"{state!r} ({chance(p)})" for state, p in likeliest[:NAMED]]
+    more = len(likeliest) - len(named)
+    return listed([*named, f"{more:,} other states"] if more > 0 else named, "or")
+
+
+@dataclass(frozen=True, eq=False)
+class Road:
+    """What a game's road from its graph to its limit passes.
+
+    Parameters
+    ----------
+    graph
+        the game as a directed graph; its states are texts, and the chances out of each add up to
+        1 to the last digit.
+    chain
+        the sparse transition matrix of the graph.
+    limits
+        the stochastic limit by each way that can find it; by elimination always.
+    spectrum
+        all eigenpairs, or for a large chain the leading ones. If the matrix has too few
+        eigenvectors, only those of eigenvalue 1; None where these are not certain either.
+    gap
+        see `spectral_gap`; None if it is not certain.
+    period
+        see `apparent_period`; that of the limit if it is not certain.
+    refused
+        why there is no answer, by what there is none of: a way, 'spectrum', 'gap'.
+    """
+
+    graph: nx.DiGraph[str]
+    chain: Chain
+    limits: Mapping[str, Limit]
+    spectrum: Spectrum | None
+    gap: float | None
+    period: int
+    refused: Mapping[str, str]
+
+    @property
+    def limit(self) -> Limit:
+        """The limit by elimination, which loses no digits."""
+        return self.limits["elimination"]
+
+    @property
+    def differences(self) -> dict[str, float]:
+        """The largest difference of each other way's limit from the one by elimination."""
+        exact = self.limit.probability
+        return {
+            way: float(np.abs(limit.probability - exact).max())
+            for way, limit in self.limits.items()
+            if way != "elimination"
+        }
+
+
+def road_of(game: Game | nx.DiGraph[Any], *, start: str | None = None) -> Road:
+    """Return the road of a game.
+
+    Parameters
+    ----------
+    game
+        the game, or the graph of one as `graph_of` returns it.
+    start
+        the state in which to begin, if it is not that of the game or graph.
+
+    Raises
+    ------
+    GameError
+        if two states are written alike.
+
+    >>> from evenbreak.games import OneBall
+    >>> road = road_of(OneBall(0.4, 0.8))
+    >>> road.graph, road.chain
+    (<networkx.classes.digraph.DiGraph object at ...>, <Chain of 4 states, 6 arcs, start 'S1'>)
+    >>> road.spectrum.values.round(4), round(road.limits["eigen"]["W"], 12)
+    (array([ 1.    ,  1.    ,  0.3464, -0.3464]), 0.454545454545)
+    >>> list(road.refused)
+    []
+    """
+    graph = _adding_up(_named(graph_of(game) if isinstance(game, Game) else game))
+    chain = chain_of(graph, start=start)
+    limits: dict[str, Limit] = {}
+    refused: dict[str, str] = {}
+
+    def attempt(what: str, function: Any, *args: Any, **options: Any) -> Any:
+        try:
+            return function(*args, **options)
+        except (AccuracyError, ChainError) as error:
+            refused[what] = str(error)
+            return None
+
+    for way in WAYS:
+        found = attempt(way, stochastic_limit, chain, via=way)
+        if found is not None:
+            limits[way] = found
+    pairs = attempt("spectrum", spectrum, chain)
+    if pairs is None:
+        units = int(chain.structure.closed.sum())
+        pairs = attempt("eigenvectors of 1", spectrum, chain, k=units)
+    gap = attempt("gap", spectral_gap, chain)
+    period = limits["elimination"].period if gap is None else apparent_period(chain)
+    return Road(graph, chain, limits, pairs, gap, period, refused)
+
+
+def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
+    """Return the graph with its states as texts, as files have them."""
+    import networkx as nx
+
+    names = {state: str(state) for state in graph}
+    if len(set(names.values())) < len(names):
+        raise GameError("two states of the game are written alike; give each its own text")
+    named: nx.DiGraph[str] = nx.relabel_nodes(graph, names)
+    return named
+
+
+def _adding_up(graph: nx.DiGraph[str]) -> nx.DiGraph[str]:
+    """Return the graph with the chances out of each state adding up to 1, correctly rounded.
+
+    Where they miss it all are scaled, and the largest becomes what the others leave over.
+    """
+    for state in graph:
+        arcs = [arc for _, _, arc in graph.out_edges(state, data=True)]
+        total = math.fsum(arc["probability"] for arc in arcs)
+        if total in (0.0, 1.0):
+            continue
+        for arc in arcs:
+            arc["probability"] /= total
+        largest = max(arcs, key=lambda arc: arc["probability"])
+        others = [arc["probability"] for arc in arcs if arc is not largest]
+        largest["probability"] = -math.fsum([-1.0, *others])
+    return graph

@@ -1,0 +1,315 @@
+"""A game's graph, matrix, eigenvalues and limit, and the tables that go into files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import chance, count_of, decimals, listed, percent
+from evenbreak.answers.match.chain import Road, in_the_end, mean_steps_of
+
+LEADING = 6
+"""Eigenvalues that a person reads."""
+
+SAME = 1e-12
+"""Limits that differ by less than this count as the same."""
+
+WAY_WORDS = {
+    "kernel": "the closed form",
+    "elimination": "elimination",
+    "eigen": "the eigenvectors",
+}
+
+
+def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Answer:
+    """Return what the graph of a game is, and where it leads.
+
+    Parameters
+    ----------
+    title
+        the game in words.
+    road
+        what was found.
+    warnings
+        what was not written, or was there before.
+
+    >>> from evenbreak.answers.match.chain import road_of
+    >>> from evenbreak.games import OneBall
+    >>> answer = graph_answer("One-ball", road_of(OneBall(0.4, 0.8)))
+    >>> print(answer.sentences[0])
+    One-ball is a graph of 4 states and 4 arcs.
+    Player 1 wins with chance 0.4545 and player 2 with chance 0.5455.
+    The chain ends in 'L' (0.5455) or 'W' (0.4545), after 1.82 steps on average.
+    >>> print(answer.sentences[2])
+    The closed form, elimination and the eigenvectors give the same limit, to within 1e-12.
+    """
+    chain, structure = road.chain, road.chain.structure
+    mean_steps, doubts = mean_steps_of(chain)
+    states, arcs = len(chain), road.graph.number_of_edges()
+    values = [] if road.spectrum is None else road.spectrum.values.tolist()
+    first = [
+        f"{title} is a graph of {count_of(states, 'state')} and {count_of(arcs, 'arc')}.",
+        in_the_end(road.limit, structure.kinds, mean_steps),
+    ]
+    wins = wins_of(road)
+    if wins:
+        who = [f"player {player} with chance {chance(p)}" for player, p in wins.items()]
+        first.insert(1, f"{listed(who).replace(' with', ' wins with', 1).capitalize()}.")
+    return Answer(
+        f"From graph to limit: {title[0].lower()}{title[1:]}",
+        [
+            "\n".join(first),
+            _classes_words(road),
+            _ways_words(road),
+            _spectrum_words(road),
+            _leading(values[:LEADING]),
+        ],
+        [
+            "Two states are in the same class if each can be reached from the other. The gap is 1 "
+            "less the largest modulus of an eigenvalue more than 1e-8 inside the unit circle: in "
+            "the end the distance to the limit falls by this share with each step.",
+            Quantities(
+                [
+                    Quantity("gap", road.gap, "gap", decimals(6)),
+                    Quantity("period", road.limit.period, "period of the chain"),
+                    *(
+                        Quantity(
+                            f"difference_{way}",
+                            difference,
+                            f"difference of {WAY_WORDS[way]} from elimination",
+                            lambda d: f"{d:.1e}",
+                        )
+                        for way, difference in road.differences.items()
+                    ),
+                ]
+            ),
+            *(f"{what}: {why}" for what, why in road.refused.items()),
+        ],
+        warnings=[*warnings, *doubts],
+        data={
+            "states": states,
+            "arcs": arcs,
+            "wins": {str(player): p for player, p in wins.items()},
+            "start": chain.start,
+            "mean_steps": mean_steps,
+            "classes": classes_table(road).to_dicts(),
+            "eigenvalues": Table("", _EIGENVALUE, _eigenvalue_rows(values)).to_dicts(),
+            "all_eigenvalues": len(values) == states,
+            "refused": dict(road.refused),
+        },
+        csv=limit_table(road),
+    )
+
+
+def wins_of(road: Road) -> dict[int, float]:
+    """Return each player's chance of winning, of the players who win somewhere.
+
+    >>> from evenbreak.answers.match.chain import road_of
+    >>> from evenbreak.games import OneBall
+    >>> {player: round(p, 6) for player, p in wins_of(road_of(OneBall(0.4, 0.8))).items()}
+    {1: 0.454545, 2: 0.545455}
+    """
+    wins: dict[int, float] = {}
+    for state, attributes in road.graph.nodes(data=True):
+        if (winner := attributes["winner"]) is not None:
+            wins[winner] = wins.get(winner, 0.0) + road.limit[state]
+    return dict(sorted(wins.items()))
+
+
+def _classes_words(road: Road) -> str:
+    structure = road.chain.structure
+    closed = int(structure.closed.sum())
+    passing = structure.count - closed
+    if structure.count == 1:
+        period = int(structure.periods[0])
+        again = f": a state can return only after a multiple of {period} steps" * (period > 1)
+        return f"Every state can be reached from every other: one class, of period {period}{again}."
+    periods = sorted(set(structure.periods[structure.closed].tolist()))
+    return (
+        f"Its states form {structure.count:,} classes. {closed:,} "
+        f"{'is' if closed == 1 else 'are'} never left (period {listed(periods, 'or')}), and "
+        f"{passing:,} {'is' if passing == 1 else 'are'} left for good."
+    )
+
+
+def _ways_words(road: Road) -> str:
+    apart = max(road.differences.values(), default=0.0)
+    ways = listed([WAY_WORDS[way] for way in road.limits])
+    agree = f"to within {SAME:.0e}" if apart < SAME else f"to within {apart:.1e}"
+    text = f"{ways[0].upper()}{ways[1:]} give the same limit, {agree}."
+    if len(road.limits) == 1:
+        text = "The limit is found by elimination."
+    if "kernel" in road.refused:
+        text += " The closed form is for states in a line, and these are not."
+    if "eigen" in road.refused:
+        text += f" By eigenvectors: {road.refused['eigen']}."
+    return text
+
+
+def _spectrum_words(road: Road) -> str:
+    if road.spectrum is None:
+        return f"The eigenvalues are not certain: {road.refused['eigenvectors of 1']}."
+    values, n = road.spectrum.values, len(road.chain)
+    gap = _gap_words(road)
+    if "spectrum" in road.refused:
+        return (
+            "Only the eigenvectors of eigenvalue 1 are given. The others do not all exist (the "
+            f"matrix of a race is defective), or are not certain.{gap}"
+        )
+    if n == 1:
+        return f"The only eigenvalue is 1.{gap}"
+    if n == 2:
+        return f"Both eigenvalues are found, and both are real.{gap}"
+    real = "all real" if np.isrealobj(values) else "some of them complex"
+    which = "All" if len(values) == n else "The leading"
+    first = f" The first {LEADING} are below." if len(values) > LEADING else ""
+    return f"{which} {len(values):,} eigenvalues are found, {real}.{gap}{first}"
+
+
+def _gap_words(road: Road) -> str:
+    if road.gap is None:
+        return f" How fast the distance to the limit falls is not certain: {road.refused['gap']}."
+    if road.gap > 1.0 - SAME and road.limit.is_cesaro:
+        return " After a fixed number of steps the chain only goes round (the gap is 1)."
+    if road.gap > 1.0 - SAME:
+        return " The limit is reached after a fixed number of steps (the gap is 1)."
+    what, ages = "long-run cycle" if road.limit.is_cesaro else "limit", ""
+    if road.period != road.limit.period:
+        what = f"limit, averaged over {road.period} steps,"
+        ages = f" For a very long time the chain goes round as if its period were {road.period}."
+    return (
+        f" In the end the distance to the {what} falls by {percent(road.gap)} with each step (the "
+        f"gap is {road.gap:.4g}).{ages}"
+    )
+
+
+_EIGENVALUE = [
+    Column("number", ""),
+    Column("real", "eigenvalue", decimals(6), exact=True),
+    Column("imaginary", "imaginary part", lambda part: f"{part:+.6f}i" if part else "", exact=True),
+    Column("modulus", "modulus", decimals(6), exact=True),
+]
+
+
+def _leading(values: Sequence[complex]) -> Table:
+    """Return the leading eigenvalues as a person reads them."""
+    rows = _eigenvalue_rows(values)
+    if not any(complex(value).imag for value in values):
+        return Table("", _EIGENVALUE[:2], [row[:2] for row in rows])
+    return Table("", _EIGENVALUE, rows)
+
+
+def _eigenvalue_rows(values: Iterable[complex]) -> list[tuple[Any, ...]]:
+    rows = enumerate(map(complex, values), 1)
+    return [(k, value.real, value.imag, abs(value)) for k, value in rows]
+
+
+def eigenvalue_table(road: Road) -> Table:
+    """Return the eigenvalues found, those equal to 1 first."""
+    values = [] if road.spectrum is None else road.spectrum.values.tolist()
+    return Table("eigenvalues", _EIGENVALUE, _eigenvalue_rows(values))
+
+
+def eigenvector_table(road: Road) -> Table:
+    """Return a row for each state with its entries in the right and the left eigenvectors.
+
+    The columns are right_1, right_2, ..., left_1, left_2, ..., numbered as the eigenvalues;
+    where vectors are complex, each is followed by its imaginary part.
+    """
+    pairs = road.spectrum
+    if pairs is None:
+        return Table("eigenvectors", [Column("state")], [(state,) for state in road.chain.states])
+    names, columns = ["state"], [list(road.chain.states)]
+    for side, vectors in (("right", pairs.right), ("left", pairs.left.T)):
+        for k, vector in enumerate(vectors.T, 1):
+            names.append(f"{side}_{k}")
+            columns.append(vector.real.tolist())
+            if np.iscomplexobj(vectors):
+                names.append(f"{side}_{k}_imaginary")
+                columns.append(vector.imag.tolist())
+    rows = list(zip(*columns, strict=True))
+    return Table("eigenvectors", [Column(name, exact=name != "state") for name in names], rows)
+
+
+def arcs_table(road: Road) -> Table:
+    """Return the arcs, those out of the start first, because a file of arcs begins there."""
+    columns = [Column("source"), Column("target"), Column("probability", exact=True)]
+    arcs: list[Any] = sorted(
+        road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start
+    )
+    return Table("arcs", columns, arcs)
+
+
+def states_table(road: Road) -> Table:
+    """Return the states in the order of the matrix, with all that is known of each."""
+    structure = road.chain.structure
+    nodes = [attributes for _, attributes in road.graph.nodes(data=True)]
+    return Table(
+        "states",
+        [
+            Column("state"),
+            Column("kind"),
+            Column("winner"),
+            Column("class"),
+            Column("class_kind"),
+            Column("period"),
+            Column("limit", exact=True),
+        ],
+        list(
+            zip(
+                road.chain.states,
+                [node["kind"] for node in nodes],
+                [node["winner"] for node in nodes],
+                (structure.label + 1).tolist(),
+                structure.kinds,
+                structure.periods[structure.label].tolist(),
+                road.limit.probability.tolist(),
+                strict=True,
+            )
+        ),
+    )
+
+
+def classes_table(road: Road) -> Table:
+    """Return the communicating classes, upstream first."""
+    structure, limit = road.chain.structure, road.limit.probability
+    kinds = [structure.kinds[i] for i in structure.order[structure.offsets[:-1]]]
+    sums = np.bincount(structure.label, weights=limit, minlength=structure.count)
+    return Table(
+        "classes",
+        [
+            Column("class"),
+            Column("states"),
+            Column("kind"),
+            Column("period"),
+            Column("limit", exact=True),
+        ],
+        list(
+            zip(
+                range(1, structure.count + 1),
+                np.diff(structure.offsets).tolist(),
+                kinds,
+                structure.periods.tolist(),
+                sums.tolist(),
+                strict=True,
+            )
+        ),
+    )
+
+
+def limit_table(road: Road) -> Table:
+    """Return the limit of each state by every way; a way that cannot has empty cells."""
+    missing = [None] * len(road.chain)
+    columns = [
+        road.limits[way].probability.tolist() if way in road.limits else missing
+        for way in WAY_WORDS
+    ]
+    return Table(
+        "limit",
+        [Column("state"), *(Column(way, exact=True) for way in WAY_WORDS)],
+        list(zip(road.chain.states, *columns, strict=True)),
+    )

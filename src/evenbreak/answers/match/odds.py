@@ -1,0 +1,203 @@
+"""The chances of a match, and its length."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Part, Quantities, Quantity
+from evenbreak.answers.kit.wording import chance, decimals, games, percent
+from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.games.ahead import Ahead
+from evenbreak.games.match import Match
+from evenbreak.matches.odds import MatchOdds, match_odds
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from fractions import Fraction
+
+    from evenbreak.chains.ways import Way
+
+
+def odds_answer(
+    players: TwoPlayers, match: Match, *, exact: bool = False, via: Way | None = None
+) -> Answer:
+    """Return the chances of a match between two players, and its length.
+
+    They are averaged over how far ratings from a list may be off, and over form of the day.
+
+    Parameters
+    ----------
+    players, match
+        who plays what.
+    exact
+        whether to add the chances of winning as fractions, of players without ratings.
+    via
+        the way to the chances, of players whose ratings are taken as exact; see `match_odds`.
+
+    >>> from evenbreak.answers.match.two_players import TwoPlayers
+    >>> from evenbreak.games import Race, Rack
+    >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
+    >>> print(answer.sentences[0])
+    A wins the match 53% of the time.
+    It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
+    """
+    odds = _odds(players, match) if via is None else match_odds(match, via=via)
+    p_win = _exact_wins(match) if exact else ()
+    a, b = players.names
+    from_now = " from now on" if any(match.score) else ""
+    by_break = players.p_game_a is None
+    quantities = [
+        Quantity("p_game_a", _p_game(players), f"{a} wins a game", chance),
+        Quantity("p1", players.rack.p1 if by_break else None),
+        Quantity("p2", players.rack.p2),
+        Quantity("p_win_a", odds.p_win_1, f"{a} wins the match", chance),
+        Quantity("p_win_b", odds.p_win_2, f"{b} wins the match", chance),
+        *(Quantity(f"p_win_{who}_exact", str(p)) for who, p in zip("ab", p_win, strict=False)),
+        Quantity(
+            "p_never_ends",
+            odds.p_never_ends,
+            "the match never ends" if odds.p_never_ends else None,
+            chance,
+        ),
+        Quantity("mean_games", odds.mean_games, "games, on average", games),
+        Quantity("sd_games", odds.sd_games, "games, standard deviation", games, detail=True),
+        Quantity("games_p50", odds.games_p50, "half of the matches end within", games),
+        Quantity("games_p90", odds.games_p90, "9 out of 10 matches end within", games),
+        Quantity(
+            "p_hill_hill",
+            odds.p_hill_hill,
+            "it goes hill-hill: the last possible game decides",
+            chance,
+        ),
+        Quantity(
+            "p_shutout_a", odds.p_shutout_1, f"{a} wins without losing a game{from_now}", chance
+        ),
+        Quantity(
+            "p_shutout_b", odds.p_shutout_2, f"{b} wins without losing a game{from_now}", chance
+        ),
+        Quantity("scale", None if players.scale is None else players.scale.name),
+    ]
+    return Answer(
+        f"{players.description}\n{match_words(match, players.names)}",
+        [
+            _in_words(odds, match, players),
+            *([_exact_words(p_win, players.names)] if exact else []),
+            Quantities(quantities),
+            *_way(via, odds, match),
+            *filter(None, [players.averaged, players.by_form]),
+        ],
+        warnings=players.doubts,
+        data=players.named,
+    )
+
+
+def _exact_wins(match: Match) -> tuple[Fraction, Fraction]:
+    from evenbreak.matches.win import win_probability
+
+    p_1, p_2 = (win_probability(match, player=player, exact=True) for player in (1, 2))
+    return p_1, p_2
+
+
+def _exact_words(p_win: Iterable[Fraction], names: tuple[str, str]) -> str:
+    lines = (f"{name} wins: {fraction_words(p)}" for name, p in zip(names, p_win, strict=True))
+    return "\n".join(("The exact chances:", *lines))
+
+
+def fraction_words(p: Fraction) -> str:
+    """Return a fraction and its decimal, which is cut off after 30 digits.
+
+    >>> from fractions import Fraction
+    >>> fraction_words(Fraction(297, 625))
+    '297/625 = 0.4752'
+    >>> fraction_words(Fraction(9, 13))
+    '9/13 = 0.692307692307692307692307692307...'
+    """
+    from decimal import ROUND_DOWN, Context, Decimal, Inexact
+
+    if p.denominator == 1:
+        return str(p)
+    context = Context(prec=30, rounding=ROUND_DOWN)
+    decimal = context.divide(Decimal(p.numerator), Decimal(p.denominator))
+    return f"{p} = {decimal:f}" + ("..." if context.flags[Inexact] else "")
+
+
+def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
+    if players.scale is None or not (players.error or players.form):
+        return match_odds(match, form=players.form)
+    from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
+
+    return odds_given_ratings(
+        match, players.difference, players.error, scale=players.scale, form=players.form
+    )
+
+
+def _way(via: Way | None, odds: MatchOdds, match: Match) -> list[Part]:
+    if via is None:
+        return []
+    from evenbreak.answers.kit.by_way import DEFECTIVE, by_way
+    from evenbreak.matches.endings import is_bounded
+
+    # A match of two racks or more that ends has states that lead to each other, but not back.
+    defective = is_bounded(match) and (odds.mean_games or 0.0) > 1.0
+    names = [name for name in odds._fields if name.startswith("p_")]
+    kernel = match_odds(match)
+    return by_way(
+        via,
+        [(getattr(odds, name), getattr(kernel, name)) for name in names],
+        note=DEFECTIVE if via == "eigen" and defective else "",
+    )
+
+
+def _p_game(players: TwoPlayers) -> float | None:
+    """Return P(A wins a game), averaged as the odds are, None where it depends on who breaks."""
+    if not players.error or players.scale is None:
+        return players.p_game_a
+    from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+
+    return win_given_ratings(players.difference, players.error, 1, 1, scale=players.scale)
+
+
+def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:
+    a, b = players.names
+    if (winner := match.decided(*match.score)) is not None:
+        return f"{players.names[winner - 1]} has won the match."
+    if odds.p_never_ends:
+        if odds.p_never_ends == 1.0:
+            return "The match never ends."
+        return f"The match may never end; the chance of that is {chance(odds.p_never_ends)}."
+    ours, theirs = odds.p_win_1, odds.p_win_2
+    name, p, left = (a, ours, theirs) if ours >= theirs else (b, theirs, ours)
+    text = f"{name} wins the match {percent(p, left)} of the time."
+    if odds.mean_games is None or odds.games_p90 is None:
+        return text
+    length = decimals(1)(odds.mean_games) if odds.mean_games < 1e6 else games(odds.mean_games)
+    more = " more" if any(match.score) else ""
+    return (
+        f"{text}\nIt lasts {length}{more} games on average, and 9 out of 10 such matches end "
+        f"within {odds.games_p90:,}."
+    )
+
+
+def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
+    """Return what is played.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
+    'Race 3:1 in sets of 3:3, score 1:0'
+    """
+    if isinstance(match, Ahead):
+        a, b = names
+        by = f"{match.m} ({a}) or {match.n} ({b})" if match.m != match.n else str(match.m)
+        text = f"First to lead by {by}"
+    else:
+        text = f"Race {match.m}:{match.n}"
+    if (win_by := getattr(match, "win_by", 1)) > 1:
+        text += f", win by {win_by}"
+    if isinstance(match.rack, Match):
+        text += f" in sets of {match.rack.m}:{match.rack.n}"
+    if any(match.score):
+        text += f", score {match.score[0]}:{match.score[1]}"
+    if (winner := match.decided(*match.score)) is not None:
+        text += f": {names[winner - 1]} has won"
+    return text

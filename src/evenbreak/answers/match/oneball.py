@@ -1,0 +1,176 @@
+"""Which shot to take in the one-ball game."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import by_way
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import chance, count_of, listed, percent
+from evenbreak.chains.ways import Way
+from evenbreak.practice.shots import (
+    CHOICE_LOOK_AHEADS,
+    RankedShot,
+    ShotChoice,
+    compare_shots,
+    critical_p2,
+)
+
+SAME = 1e-12
+"""Two chances that differ by less are the same but for rounding."""
+
+_SUPPOSED = {
+    "infinite": "if the two shots are repeated until one is made",
+    "two shots": "if the game is even after two misses",
+    "all shots": "if the game is even once all the shots given are missed",
+}
+
+_OF_LATER = {"later", "p_win_all_shots"}
+"""The columns for shots after the first two."""
+
+_COLUMNS = (
+    Column("shot", "shot", left=True),
+    Column("kind", "kind", left=True),
+    Column("p1", "you\nmake", "{:g}".format),
+    Column("p2", "miss\nleaves", "{:g}".format),
+    Column("p_win_infinite", "you win,\nrepeated", chance),
+    Column("p_win_two_shots", "you win,\n2 shots", chance),
+    Column("later", "then", left=True),
+    Column("p_win_all_shots", "you win,\nall shots", chance),
+    Column("critical_p2", "even\nat", chance),
+    Column("behind", "behind\nbest", chance),
+    Column("turning_p2", "best\nup to", chance),
+)
+
+
+def oneball_answer(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
+) -> Answer:
+    """Return the shots that a player may choose from, the best first, and which to take.
+
+    Parameters
+    ----------
+    shots
+        what the player may choose from, named by numbers.
+    look_ahead
+        as for `compare_shots`.
+    via
+        the way to the chances of winning.
+
+    >>> from evenbreak.practice import ShotChoice
+    >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
+    Take shot 2: you win 59% of the time, against 45% with shot 1.
+    Shot 2 stays the best as long as a miss leaves the opponent a chance below 0.5143.
+    """
+    ranked = compare_shots(shots, look_ahead=look_ahead, via=via)
+    other = "two shots" if look_ahead == "infinite" else "infinite"
+    otherwise = compare_shots(shots, look_ahead=other, via=via)
+    shot = ranked[0].shot
+    heading = (
+        f"You make the shot with probability {shot.p1:g}; after a miss, the opponent makes theirs "
+        f"with {shot.p2:g}"
+    )
+    words = "'Even at': the game is even if a miss leaves the opponent this chance."
+    if len(ranked) > 1:
+        heading = f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
+        words = (
+            f"The shots are ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': "
+            "the shot is the best one if a miss leaves less than this."
+        )
+    known = any(one.later for one in shots)
+    columns = [column for column in _COLUMNS if known or column.name not in _OF_LATER]
+    if known:
+        words = (
+            f"'Then': your chance for the shot after these two, the opponent's, and so on. {words}"
+        )
+    return Answer(
+        heading,
+        [
+            _advice(ranked, otherwise, look_ahead),
+            Table("shots", columns, [_row(one, look_ahead, via, known=known) for one in ranked]),
+            words,
+            *by_way(
+                via,
+                (
+                    (shot.win(ahead, via=via), shot.win(ahead))
+                    for shot in shots
+                    for ahead in CHOICE_LOOK_AHEADS
+                ),
+            ),
+        ],
+        data={"look_ahead": look_ahead},
+    )
+
+
+def _row(one: RankedShot, look_ahead: str, via: Way | None, *, known: bool) -> tuple[Any, ...]:
+    shot = one.shot
+    cells = {
+        "shot": int(shot.name),
+        "kind": shot.region,
+        "p1": shot.p1,
+        "p2": shot.p2,
+        "p_win_infinite": shot.win(via=via),
+        "p_win_two_shots": shot.win("two shots", via=via),
+        "later": " ".join(map("{:g}".format, shot.later)),
+        "p_win_all_shots": shot.win("all shots", via=via),
+        "critical_p2": _even_at(shot, look_ahead),
+        "behind": one.behind,
+        "turning_p2": one.turning_p2,
+    }
+    return tuple(cell for name, cell in cells.items() if known or name not in _OF_LATER)
+
+
+def _even_at(shot: ShotChoice, look_ahead: str) -> float | None:
+    """Return the p2 at which the game is even; None if there is none."""
+    if look_ahead == "all shots":
+        return shot.break_even_p2(0.5, look_ahead)
+    critical = critical_p2(shot.p1)
+    return critical if critical <= 1.0 else None
+
+
+def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_ahead: str) -> str:
+    """Return what to do, and what it depends on.
+
+    Parameters
+    ----------
+    ranked, otherwise
+        the shots as asked, and by another look-ahead.
+    look_ahead
+        the one asked for.
+    """
+    best = ranked[0]
+    wins = f"you win {percent(best.win)} of the time"
+    if not any((best.shot.p1, best.shot.p2, *best.shot.later)) and best.win == 0.0:
+        return "Neither of you ever makes a ball, so nobody wins."
+    if len(ranked) == 1:
+        return f"{wins.capitalize()}.\n{_alone(best, look_ahead)}"
+    equals = sorted((one.shot.name for one in ranked if one.behind < SAME), key=int)
+    if len(equals) > 1:
+        return f"Shots {listed(equals)} are equally good: {wins}."
+    name, second = best.shot.name, ranked[1]
+    text = (
+        f"Take shot {name}: {wins}, against {percent(second.win)} with shot {second.shot.name}.\n"
+        f"Shot {name} stays the best "
+    )
+    if best.turning_p2 is None:
+        text += "whatever a miss leaves."
+    else:
+        text += f"as long as a miss leaves the opponent a chance below {chance(best.turning_p2)}."
+    if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
+        other = "two shots" if look_ahead == "infinite" else "infinite"
+        text += f"\nBut {_SUPPOSED[other]}, shot {otherwise[0].shot.name} is better."
+    return text
+
+
+def _alone(one: RankedShot, look_ahead: str) -> str:
+    critical = _even_at(one.shot, look_ahead)
+    if critical is None:
+        are = "are" if one.win > 0.5 else "are not"
+        return f"You {are} the favourite, whatever a miss leaves."
+    if critical == 0.0:
+        return "You are not the favourite, whatever a miss leaves."
+    if abs(critical - one.shot.p2) < SAME:
+        return "The game is even: leave a little less, and you are the favourite."
+    if one.shot.p2 < critical:
+        return f"You are the favourite as long as a miss leaves a chance below {chance(critical)}."
+    return f"You would be the favourite if a miss left a chance below {chance(critical)}."

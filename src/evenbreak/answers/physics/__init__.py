@@ -1,0 +1,1 @@
+"""Shots, strokes and the table."""

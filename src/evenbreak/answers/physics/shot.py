@@ -1,0 +1,321 @@
+"""A shot traced from the tip until both balls stop: where they go, and how they get there."""
+
+import math
+from typing import Any
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.worded import worded
+from evenbreak.answers.kit.wording import decimals
+from evenbreak.answers.physics.hit import (
+    SQUIRT,
+    Units,
+    cut_words,
+    friction_values,
+    friction_words,
+    spin_words,
+)
+from evenbreak.answers.physics.strike import tip_words
+from evenbreak.physics.aimed import AimedShot
+from evenbreak.physics.deflection import deflection
+from evenbreak.physics.leg import Leg, Phase
+from evenbreak.physics.pockets import Pocket
+from evenbreak.physics.shot import Shot, spin_ratios
+
+_WORDS = {
+    "cut_deg": ("cut angle, degrees", 2),
+    "hit_spin_speed_ratio": ("topspin J at the hit (1 is natural roll)", 3),
+    "hit_side_spin_speed_ratio": ("sidespin J at the hit (above 0 is right)", 3),
+    "throw_deg": ("throw of the object ball, degrees", 2),
+    "deflection_thrown_deg": ("deflection of the cue ball, degrees", 2),
+}
+_DETAILS = {
+    "deflection_deg": ("deflection without friction between the balls, degrees", 2),
+    "energy_lost_at_hit_j": ("energy lost at the hit, joules", 3),
+}
+
+
+def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = None) -> Answer:
+    """Return where both balls of a shot go, and how.
+
+    Parameters
+    ----------
+    traced
+        the shot.
+    units
+        in which the answer is given.
+    pocket
+        at which an aimed shot is aimed.
+
+    >>> import math
+    >>> from evenbreak.answers.physics.hit import METRIC
+    >>> from evenbreak.physics import shot, strike_for_speed
+    >>> found = shot(strike_for_speed(1.1), math.radians(30.0), 0.5)
+    >>> print(shot_answer(found, METRIC).sentences[0])
+    The object ball stops after 5.15 s, 205.5 centimetres from the head cushion and 11.0 from
+    the right one. The cue ball stops after 4.67 s, 175.4 centimetres from the head cushion and
+    112.4 from the right one.
+    """
+    aimed = traced if isinstance(traced, AimedShot) else None
+    found = traced.shot if isinstance(traced, AimedShot) else traced
+    quantities = [
+        *_tip(found, units),
+        *_hit(found, units),
+        *_aim(aimed, units),
+        *_way("approach", "", found.approach, units),
+        *_way("cue", "cue ball", found.cue_leg, units),
+        *_way("object", "object ball", found.object_leg, units),
+    ]
+    words = shot_words(found, aimed, units, pocket) + ([SQUIRT] if found.strike.side else [])
+    return Answer(
+        shot_heading(found, units, pocket),
+        [*words, Quantities(quantities), _phases(found, units)],
+        data={"phases": [_record(leg, phase, units) for leg, phase in _moves(found)]},
+    )
+
+
+def _tip(found: Shot, units: Units) -> list[Quantity]:
+    strike = found.strike
+    values = {
+        "spin_speed_ratio": strike.topspin,
+        "side_spin_speed_ratio": strike.side,
+        "direction_deg": _degrees(-math.remainder(found.direction, 2.0 * math.pi)),
+        "cut_deg": _degrees(found.cut),
+        "reached": found.reached,
+    }
+    return [
+        units.speed.quantity("ball_speed", strike.speed, "speed of the cue ball off the tip"),
+        units.speed.quantity("stick_speed", strike.stick_speed),
+        *worded(values, _WORDS),
+    ]
+
+
+def _hit(found: Shot, units: Units) -> list[Quantity]:
+    """Return what is known of the hit and of the angles after it."""
+    state, throw = found.at_hit, found.throw
+    speed = topspin = side = object_cut = smooth = lost = None
+    if state is not None and throw is not None:
+        speed, cut = state.speed, abs(found.cut)
+        topspin, side = spin_ratios(state, found.strike.ball.radius)
+        object_cut = math.copysign(1.0, found.cut) * (cut - throw)
+        lost = found.approach.energy(state.time).total - found.energy(state.time).total
+        if cut or abs(topspin) >= 1e-9:  # a full hit with stun leaves the cue ball where it is
+            smooth = deflection(cut, topspin)
+    values = {
+        "hit_spin_speed_ratio": topspin,
+        "hit_side_spin_speed_ratio": side,
+        "throw_deg": _degrees(throw),
+        "object_cut_deg": _degrees(object_cut),
+        "deflection_deg": _degrees(smooth),
+        "deflection_thrown_deg": _degrees(found.deflection),
+        "energy_lost_at_hit_j": lost,
+    }
+    return [
+        Quantity("hit_s", state and state.time),
+        units.speed.quantity("hit_speed", speed, "speed of the cue ball at the hit"),
+        *worded(friction_values(found.mu, found.collision, found.friction), {}),
+        *worded(values, _WORDS, _DETAILS),
+    ]
+
+
+def _aim(aimed: AimedShot | None, units: Units) -> list[Quantity]:
+    x = y = offset = turn = miss = None
+    if aimed is not None:
+        x, y = map(float, aimed.target)
+        right = math.copysign(1.0, aimed.unaided.cut)  # thinner is to the right in a cut to it
+        offset, turn, miss = right * aimed.offset, right * aimed.turn, aimed.miss
+    length = units.length.quantity
+    return [
+        length("target_x", x),
+        length("target_y", y),
+        length("aim_offset", offset),
+        Quantity("aim_turn_deg", _degrees(turn)),
+        length("miss", miss),
+    ]
+
+
+def _way(name: str, ball: str, leg: Leg | None, units: Units) -> list[Quantity]:
+    """Return how far a ball slides and rolls, and where and how its way ends."""
+    slides = rolls = x = y = time = speed = ending = pocket = None
+    if leg is not None:
+        lengths = {phase.motion: phase.length for phase in leg.phases}
+        slides, rolls = lengths.get("slides", 0.0), lengths.get("rolls", 0.0)
+        end = leg.state(leg.end)
+        x, y = map(float, end.position)
+        ending, pocket, time = leg.ending, leg.pocket or None, leg.end
+        speed = 0.0 if ending == "rest" else end.speed
+    length = units.length.quantity
+    heading = f"{ball} ends, from the head cushion" if ball else None
+    return [
+        length(f"{name}_slide", slides),
+        length(f"{name}_roll", rolls),
+        Quantity(f"{name}_end", ending),
+        Quantity(f"{name}_pocket", pocket),
+        length(f"{name}_end_x", x, heading, 1, detail=True),
+        length(f"{name}_end_y", y, "and from the right one" if ball else None, 1, detail=True),
+        Quantity(f"{name}_end_s", time),
+        units.speed.quantity(f"{name}_end_speed", speed),
+    ]
+
+
+def _degrees(angle: float | None) -> float | None:
+    """Return an angle in degrees; what rounding leaves of none is none."""
+    return None if angle is None else math.degrees(angle) if abs(angle) > 1e-13 else 0.0
+
+
+def _moves(found: Shot) -> list[tuple[Leg, Phase]]:
+    return [(leg, phase) for leg in found.legs for phase in leg.phases]
+
+
+def _phases(found: Shot, units: Units) -> Table:
+    """Return the phases as a person reads them."""
+    length, speed = units.length, units.speed
+    far, fast = length.key, speed.key.replace("_", "/")
+    hundredths, joules = decimals(2), decimals(3)
+    columns = [
+        Column("ball", "", left=True),
+        Column("motion", "", left=True),
+        Column("begin_s", "from\ns", hundredths),
+        Column("end_s", "to\ns", hundredths),
+        Column("length", f"travels\n{far}", decimals(1)),
+        Column("speed", f"speed\n{fast}", hundredths),
+        Column("end_speed", f"at end\n{fast}", hundredths),
+        Column("energy", "energy\njoules", joules, detail=True),
+        Column("end_energy", "at end\njoules", joules, detail=True),
+    ]
+    rows = []
+    for leg, phase in _moves(found):
+        ends = (phase.begin, phase.end)
+        times, paces = [end.time for end in ends], [end.speed / speed.size for end in ends]
+        energies = [leg.energy(time).total for time in times]
+        way = phase.length / length.size
+        rows.append([phase.ball, phase.motion, *times, way, *paces, *energies])
+    return Table("", columns, rows)
+
+
+def _record(leg: Leg, phase: Phase, units: Units) -> dict[str, Any]:
+    """Return a phase as JSON holds it: when, where, how fast, with what spin and energy."""
+    far, fast = units.length, units.speed
+    row: dict[str, Any] = {"ball": phase.ball, "motion": phase.motion}
+    for name, state in (("begin", phase.begin), ("end", phase.end)):
+        row[f"{name}_s"] = state.time
+        for axis, place in zip("xy", state.position, strict=True):
+            row[f"{name}_{axis}_{far.key}"] = float(place) / far.size
+        for axis, pace in zip("xy", state.velocity, strict=True):
+            row[f"{name}_v{axis}_{fast.key}"] = float(pace) / fast.size
+        for axis, turn in zip("xyz", state.spin, strict=True):
+            row[f"{name}_spin_{axis}_rad_s"] = float(turn)
+        row[f"{name}_speed_{fast.key}"] = state.speed / fast.size
+        row[f"{name}_energy_j"] = leg.energy(state.time).total
+    row[f"length_{far.key}"] = phase.length / far.size
+    return row
+
+
+def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
+    """Return what is played, in two lines, and what friction is assumed."""
+    length = units.length
+    if pocket is None:
+        apart = math.dist(found.approach.slide.position, found.object_position)
+        where = (
+            f"{cut_words(_unsigned_degrees(found.cut))}; {length.typed(apart)} between the centres"
+        )
+    else:
+        places = (found.approach.slide.position, found.object_position)
+        cue, standing = (f"({x / length.size:g}, {y / length.size:g})" for x, y in places)
+        where = f"Cue ball at {cue}, object ball at {standing} {length.words}; pocket {pocket.name}"
+    speed = units.speed.typed(found.strike.speed)
+    friction = friction_words(found.mu, found.collision, found.friction)
+    return f"{where}\n{tip_words(found.strike)}; cue ball at {speed}\n{friction}"
+
+
+def shot_words(
+    found: Shot, aimed: AimedShot | None, units: Units, pocket: Pocket | None
+) -> list[str]:
+    """Return what happens: first where the balls end, then how the shot is aimed and hits."""
+    state = found.at_hit
+    if state is None:
+        how = {"cushion": "meets a cushion", "pocket": "drops", "rest": "stops"}
+        return [
+            f"The cue ball never reaches the object ball: it {how[found.approach.ending]} after "
+            f"{units.length.text(found.approach.length)}."
+        ]
+    miss = "" if pocket is None else _miss(found, pocket, units)
+    ends = [miss]
+    if found.object_leg and found.cue_leg:
+        ends.append(_end(found.object_leg, units, "It" if miss else "The object ball"))
+        ends.append(_end(found.cue_leg, units, "The cue ball"))
+    after = f"after {decimals(2)(state.time)} s" if found.approach.phases else "at once"
+    topspin, _ = spin_ratios(state, found.strike.ball.radius)
+    spin = spin_words(round(topspin, 2) + 0.0)
+    arrival = f"The cue ball arrives {after} with {spin}{_motion(found.approach)}."
+    aim = [*_aim_in_words(aimed, pocket, units)] if aimed and pocket else []
+    return [" ".join(filter(None, ends)), " ".join([*aim, arrival])]
+
+
+def _motion(approach: Leg) -> str:
+    """Return whether the ball only slides, or only rolls, up to the hit."""
+    words = {"slides": ", still sliding", "rolls": ", rolling from the start"}
+    return words.get("".join(phase.motion for phase in approach.phases), "")
+
+
+def _end(leg: Leg, units: Units, ball: str) -> str:
+    """Return where and how the way of a ball ends."""
+    if leg.ending == "rest" and not leg.phases:
+        return f"{ball} stops dead."
+    end = leg.state(leg.end)
+    pace = f"at {units.speed.text(end.speed)}"
+    if leg.ending == "pocket":
+        return f"{ball} drops into the {leg.pocket} pocket {pace}."
+    x, y = (decimals(1)(place / units.length.size) for place in map(float, end.position))
+    place = f"{x} {units.length.words} from the head cushion and {y} from the right one"
+    if leg.ending == "rest":
+        return f"{ball} stops after {decimals(2)(leg.end)} s, {place}."
+    return f"{ball} meets a cushion {pace}, {place}; it is not followed further."
+
+
+def _miss(found: Shot, pocket: Pocket, units: Units) -> str:
+    """Return why the object ball does not drop; nothing if it does."""
+    leg = found.object_leg
+    if leg is None or leg.ending == "pocket":
+        return ""
+    end = leg.state(leg.end)
+    length = units.length
+    if leg.ending == "rest":
+        left = math.dist(end.position, (pocket.x, pocket.y))
+        why = f"it stops {length.text(left)} short of the pocket"
+    elif (gap := pocket.width_from(*end.velocity)) < found.strike.ball.diameter:
+        why = f"from this angle the pocket is only {length.text(gap, 2)} wide, less than the ball"
+    else:
+        why = "a cushion is in the way"
+    return f"The object ball does not drop: {why}."
+
+
+def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
+    """Return where to aim, and how far throw would take the ball off."""
+    length = units.length
+    goal, sentences = "the middle of the pocket", []
+    x, y = aimed.target - aimed.shot.object_position
+    beside = (pocket.x - aimed.target[0]) * y - (pocket.y - aimed.target[1]) * x
+    # How far to the right of the middle the target is, seen from the object ball.
+    right = -float(beside) / aimed.distance
+    if right:
+        goal = "that point"
+        sentences.append(
+            "A cushion is in the way of the middle of the pocket, so play for a point "
+            f"{length.text(abs(right), 2)} to the {'right' if right > 0.0 else 'left'} of it."
+        )
+    right = math.copysign(1.0, aimed.unaided.cut) * aimed.offset
+    amount = length.text(abs(right), 2)
+    if amount.startswith("0.00 "):
+        return [*sentences, f"Aim at {goal}: there is hardly any throw."]
+    side = "right" if right > 0.0 else "left"
+    aim = f"Aim {amount} to the {side} of {goal}"
+    if aimed.unaided.throw is None:
+        return [*sentences, f"{aim}: throw brings the ball back."]
+    miss = length.text(abs(aimed.miss), 2)
+    return [*sentences, f"{aim}; without that, throw takes the ball {miss} off line."]
+
+
+def _unsigned_degrees(angle: float) -> float:
+    """Return an angle in degrees as it was typed."""
+    return round(math.degrees(angle), 9)

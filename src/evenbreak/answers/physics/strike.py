@@ -1,0 +1,202 @@
+"""The spin and the speed that a cue ball gets from the tip."""
+
+import math
+from dataclasses import replace
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Quantities, Quantity
+from evenbreak.answers.kit.worded import worded
+from evenbreak.answers.kit.wording import decimals
+from evenbreak.answers.physics.hit import Units, spin_words
+from evenbreak.errors import InputError
+from evenbreak.physics.friction import miscue_offset, tip_friction_of
+from evenbreak.physics.objects import Cloth
+from evenbreak.physics.offset import (
+    ContactPoint,
+    ball_speed_ratio,
+    effective_contact,
+    roll_side,
+    stun_offset,
+)
+from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
+from evenbreak.physics.strike import Strike
+
+_WORDS = {
+    "spin_speed_ratio": ("topspin J (1 is natural roll)", 3),
+    "side_spin_speed_ratio": ("sidespin J (above 0 is right)", 3),
+    "roll_side_spin_speed_ratio": ("sidespin J once the ball rolls", 3),
+    "ball_speed_ratio": ("speed of the ball / speed of the cue", 3),
+    "later_spin_speed_ratio": ("topspin J at --distance", 3),
+    "later_side_spin_speed_ratio": ("sidespin J at --distance", 3),
+    "stun_offset": ("--offset for a stun shot at --distance, at the same speed of the ball", 3),
+}
+_DETAILS = {
+    "off_centre": ("distance from the centre, in radii", 3),
+    "miscue_offset": ("largest distance without a miscue, in radii", 3),
+    "roll_speed_ratio": ("the same once the ball rolls", 3),
+    "later_offset": ("offset that gives that topspin at once", 3),
+}
+
+MOST_TIP_FRICTION = 1.0
+"""No tip has a higher coefficient of friction."""
+
+
+def strike_answer(
+    strike: Strike,
+    units: Units,
+    *,
+    cloth: Cloth,
+    distance: float | None = None,
+    speed_known: bool = True,
+) -> Answer:
+    """Return what a strike makes of the cue ball, and whether it is a miscue.
+
+    Parameters
+    ----------
+    strike
+        how the tip hits the ball.
+    units
+        in which the answer is given.
+    cloth
+        that the ball slides on.
+    distance
+        metres after which the spin is asked for.
+    speed_known
+        whether the speed of the cue is known; if not, there are only ratios.
+
+    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.physics import strike
+    >>> answer = strike_answer(strike(1.524, -0.3), IMPERIAL, cloth=Cloth())
+    >>> print(answer.sentences[0])
+    No miscue: the cue ball leaves at 77.0 inches per second with draw (-0.75). It is a stun
+    shot after 19.6 inches and rolls after 28.8 inches.
+    """
+    found = _found(strike, cloth, units, distance, speed_known)
+    if strike.miscue:  # the tip slips, and none of this comes true
+        found = [replace(one, value=None) for one in found]
+        sentence = _miscue_words(strike)
+    else:
+        values = {one.name: one.value for one in found}
+        sentence = _words(strike, units, values, distance, speed_known)
+    place = {
+        "offset": strike.offset,
+        "side_offset": strike.side_offset,
+        "off_centre": strike.off_centre,
+        "miscue": strike.miscue,
+        "miscue_offset": miscue_offset(strike.cue.tip_friction),
+    }
+    speed = f"; cue at {units.speed.typed(strike.stick_speed)}" if speed_known else ""
+    return Answer(
+        f"{tip_words(strike)}{speed}",
+        [sentence, Quantities([*worded(place, _WORDS, _DETAILS), *found])],
+    )
+
+
+def tip_words(strike: Strike) -> str:
+    """Return where the tip hits, in ball radii.
+
+    >>> from evenbreak.physics import strike
+    >>> tip_words(strike(1.0, -0.3, 0.1)), tip_words(strike(1.0))
+    ('Tip 0.3 radii below and 0.1 radii right of the centre', 'Tip in the centre')
+    """
+    up, right = strike.offset, strike.side_offset
+    places = []
+    if up:
+        places.append(f"{abs(up):g} radii {'above' if up > 0.0 else 'below'}")
+    if right:
+        places.append(f"{abs(right):g} radii {'right' if right > 0.0 else 'left'} of")
+    return f"Tip {' and '.join(places)} the centre" if places else "Tip in the centre"
+
+
+def _miscue_words(strike: Strike) -> str:
+    needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
+    limit = miscue_offset(strike.cue.tip_friction)
+    better_tip = (
+        f", or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})"
+        if needed <= MOST_TIP_FRICTION
+        else ""
+    )
+    return (
+        "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
+        f"{limit:.3f} of the radius{better_tip}."
+    )
+
+
+def _words(
+    strike: Strike,
+    units: Units,
+    found: dict[str, float | None],
+    distance: float | None,
+    speed_known: bool,
+) -> str:
+    hand = "right" if strike.side > 0.0 else "left"
+    english = f" and {hand} english" if strike.side else ""
+    pace = f" at {units.speed.text(strike.speed)}" if speed_known else ""
+    text = f"No miscue: the cue ball leaves{pace} with {spin_words(strike.topspin)}{english}."
+    stun, roll = (found[f"{name}_{units.length.key}"] for name in ("stun", "slide"))
+    if roll:
+        start = "" if stun is None else f"is a stun shot after {decimals(1)(stun)} "
+        start += f"{units.length.words} and " if start else ""
+        text += f" It {start}rolls after {decimals(1)(roll)} {units.length.words}."
+    later = found["later_spin_speed_ratio"]
+    if distance is not None and later is not None:
+        spin = spin_words(round(later, 2) + 0.0)
+        text += f" After {units.length.typed(distance)} it has {spin}."
+    return text
+
+
+def _found(
+    strike: Strike, cloth: Cloth, units: Units, distance: float | None, speed_known: bool
+) -> list[Quantity]:
+    """Return the spins, the speeds and the distances of the ball."""
+    ratio = ball_speed_ratio(strike.off_centre, strike.ball.mass / strike.cue.mass)
+    spins = {
+        "spin_speed_ratio": strike.topspin,
+        "side_spin_speed_ratio": strike.side,
+        "roll_side_spin_speed_ratio": roll_side(-strike.side_offset, 1.0 + strike.offset),
+        "ball_speed_ratio": ratio,
+        "roll_speed_ratio": roll_speed(ratio, ratio * strike.topspin),
+    }
+    spin, pace = strike.topspin, strike.speed
+    stun = stun_distance(pace, spin, cloth) if spin < 0.0 else None
+    speed, length = units.speed.quantity, units.length.quantity
+    moving = [
+        speed("ball_speed", pace, "speed of the ball"),
+        speed("stick_speed_after", strike.stick_speed_after, "speed of the cue after", detail=True),
+        speed("roll_speed", roll_speed(pace, pace * spin), "speed of the ball once it rolls"),
+        length("slide", drag_distance(pace, spin, cloth), "distance until it rolls"),
+        length("stun", stun, "distance until it is a stun shot"),
+    ]
+    if not speed_known:
+        moving = [replace(one, value=None) for one in moving]
+    later = worded(_later(strike, cloth, distance), _WORDS, _DETAILS)
+    return [*worded(spins, _WORDS, _DETAILS), *moving, *later]
+
+
+def _later(strike: Strike, cloth: Cloth, distance: float | None) -> dict[str, float | None]:
+    """Return the spin after a distance, and where to hit for a stun shot there at this speed."""
+    names = ("later_spin_speed_ratio", "later_side_spin_speed_ratio", "later_offset", "stun_offset")
+    if distance is None:
+        return dict.fromkeys(names)
+    struck = ContactPoint(-strike.side_offset, 1.0 + strike.offset)
+    now = effective_contact(struck, strike.speed, _time_to(distance, strike, cloth), cloth)
+    stun = _stun(strike, distance, cloth)
+    return dict(zip(names, (2.5 * (now.z - 1.0), -2.5 * now.y, now.z - 1.0, stun), strict=True))
+
+
+def _stun(strike: Strike, distance: float, cloth: Cloth) -> float | None:
+    """Return the offset for a stun shot after a distance; None if it would be a miscue."""
+    try:
+        offset = float(stun_offset(strike.speed, distance, cloth))
+    except InputError:  # a ball of this speed does not slide so far
+        return None
+    return offset if -offset <= miscue_offset(strike.cue.tip_friction) else None
+
+
+def _time_to(distance: float, strike: Strike, cloth: Cloth) -> float:
+    """Return when the ball has slid a distance, or begins to roll before that, in seconds."""
+    speed, slip = float(strike.speed), 1.0 - float(strike.topspin)
+    slowing = math.copysign(cloth.mu_slide * cloth.gravity, slip)
+    rolls = 2.0 * abs(slip) * speed / (7.0 * abs(slowing))
+    left = speed**2 - 2.0 * slowing * distance
+    return rolls if left < 0.0 else min(rolls, 2.0 * distance / (speed + math.sqrt(left)))

@@ -1,0 +1,1 @@
+"""Drills, practice scores and runs."""

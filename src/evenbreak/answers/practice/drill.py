@@ -1,0 +1,369 @@
+"""Where a progressive drill settles, and which level to practise."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import by_way
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.simulated import luck_words
+from evenbreak.answers.kit.wording import chance, count_of, decimals
+from evenbreak.chains.ways import Way
+from evenbreak.files.practice import DrillLogFile
+from evenbreak.practice.drills import DrillStatistics, drill_statistics
+from evenbreak.practice.levels import MORE
+from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.log_tests import PlayedAgainTest
+from evenbreak.stats.summary import Distribution
+
+MUCH = 1e6
+"""From here on a gain is shown with three digits."""
+
+
+def drill_answer(
+    statistics: DrillStatistics, description: str, *, via: Way | None = None
+) -> Answer:
+    """Return where a drill settles in the long run, and what to practise.
+
+    Parameters
+    ----------
+    statistics
+        of the drill.
+    description
+        which drill it is, in a line.
+    via
+        the way by which the statistics were found.
+
+    >>> from evenbreak.games import Drill
+    >>> from evenbreak.practice import drill_statistics
+    >>> drill = drill_statistics(Drill.progressive(0.8))
+    >>> print(drill_answer(drill, "80% of shots").sentences[0])
+    Practise level 4: five more successes in 100 there raise your average level by 0.11, more than
+    at any other level. For now you settle at an average level of 4.35.
+    """
+    law = statistics.distribution
+    success = statistics.drill.success
+    rows = zip(law.values, success, law.probability, statistics.gain, statistics.lift, strict=True)
+    parts: list[Part] = [f"{_advice(statistics)} {_settled(law)}"]
+    if statistics.period > 1:
+        parts.append(
+            "Odd-numbered and even-numbered attempts are at different levels for ever; the long "
+            "run is the average of both."
+        )
+    columns = [
+        Column("level", "level", left=True),
+        Column("p_success", "success", chance),
+        Column("long_run", "share of attempts\nin the long run", chance),
+        Column("gain", "gain", amount, detail=True),
+        Column("lift", "five more in 100\nraise the average by", amount),
+    ]
+    return Answer(
+        description,
+        [*parts, Table("levels", columns, list(rows)), *_way(via, statistics)],
+        details=[
+            Quantities([Quantity("mean", law.mean, "average level", decimals(3)), *spread(law)]),
+            GAIN_WORDS,
+        ],
+        data={"practise_next": statistics.practise_next, "period": statistics.period},
+    )
+
+
+def _way(via: Way | None, statistics: DrillStatistics) -> list[Part]:
+    if via is None:
+        return []
+    kernel = drill_statistics(statistics.drill).distribution.probability
+    return by_way(via, zip(statistics.distribution.probability, kernel, strict=True))
+
+
+def _advice(statistics: DrillStatistics) -> str:
+    level = statistics.practise_next
+    if level is None:
+        return "More success at any level would not raise your average level."
+    lift = statistics.lift[level - 1]
+    return (
+        f"Practise level {level}: {better(statistics.drill.success[level - 1])} there raise your "
+        f"average level by {lift:.2f}, more than at any other level."
+    )
+
+
+def _settled(law: Distribution) -> str:
+    return f"For now you settle at an average level of {law.mean:.2f}."
+
+
+GAIN_WORDS = (
+    "'Gain' is how fast the average level rises with the chance of success at that level (the "
+    "slope)."
+)
+
+
+def spread(law: Distribution) -> list[Quantity]:
+    """Return the summary of the level in the long run, without its mean."""
+    return [
+        Quantity("median", law.median, "median: half of the attempts are at this or below"),
+        Quantity("mode", law.mode, "mode: the most frequent level"),
+        Quantity("sd", law.sd, "standard deviation", decimals(3)),
+    ]
+
+
+def better(p: float) -> str:
+    """Return the improvement by which levels are compared, from a chance p."""
+    return "five more successes in 100" if p <= 1.0 - MORE else "successes without a miss"
+
+
+def amount(value: float) -> str:
+    """Return a gain or a lift with three decimals, or three digits if it is huge.
+
+    >>> amount(2.3014), amount(5.56e299), amount(float("inf"))
+    ('2.301', '5.56e+299', 'inf')
+    """
+    return f"{value:.3f}" if value < MUCH else f"{value:.3g}"
+
+
+UNLIKELY = 0.05
+"""A p-value below which chance is no longer taken for the explanation."""
+
+SURE = 0.8
+"""From this probability on, the second best level is not mentioned."""
+
+
+def drill_log_answer(
+    file: DrillLogFile, analysis: LogAnalysis, *, seed: int, levels_given: bool = True
+) -> Answer:
+    """Return what the log of a drill says.
+
+    Parameters
+    ----------
+    file, analysis
+        the log, and its analysis.
+    seed
+        of the simulations for its tests.
+    levels_given
+        whether the number of levels was given; otherwise it is the highest one in the log.
+    """
+    log = file.log
+    best, off = analysis.practise_next, analysis.furthest_off_model
+    tests = {name: getattr(analysis, name) for name in ("difference", "memory", "model_test")}
+    return Answer(
+        _heading(file, levels_given=levels_given),
+        [
+            _practise(analysis) + _untried(analysis),
+            " ".join(_findings(analysis)),
+            _table(analysis),
+            _averages(analysis),
+        ],
+        details=[
+            Quantities(spread(analysis.implied), "The level in the long run:"),
+            *_tests(analysis),
+            "A p-value (p) is how often chance alone gives a result at least this extreme, here "
+            f"among {count_of(analysis.replicas, 'log')} simulated for each test, with sessions "
+            f"like yours; {_luck(analysis)}.",
+            GAIN_WORDS,
+        ],
+        warnings=file.warnings,
+        data={
+            "practise_next": best and best.level,
+            **{name: test and test._asdict() for name, test in tests.items()},
+            "model": analysis.model and analysis.model._asdict(),
+            "furthest_off_model": off and off.level,
+            "attempts": len(log),
+            "sessions": log.sessions,
+            "against_the_rule": len(log.jumps),
+            "replicas": analysis.replicas,
+            "seed": seed,
+        },
+    )
+
+
+def _luck(analysis: LogAnalysis) -> str:
+    tests = (analysis.difference, analysis.memory, analysis.model_test)
+    return luck_words((test.p_error for test in tests if test is not None), "p-value")
+
+
+def _heading(file: DrillLogFile, *, levels_given: bool) -> str:
+    log = file.log
+    text = (
+        f"{file.source}: {count_of(len(log), 'attempt')} in {count_of(log.sessions, 'session')}, "
+        f"a drill of {count_of(len(log.attempts), 'level')}"
+    )
+    return text if levels_given else f"{text} (the highest in the log)"
+
+
+def _table(analysis: LogAnalysis) -> Table:
+    columns = [
+        Column("level", "level", left=True),
+        Column("attempts", "tried"),
+        Column("successes", "made"),
+        Column("p_success", "success", chance),
+        Column("p_low", "between", decimals(2)),
+        Column("p_high", "and", decimals(2)),
+        Column("p_model", "model", chance, detail=True),
+        Column("visited", "so far", chance),
+        Column("expected", "by\nchance", chance, detail=True),
+        Column("long_run", "long run", chance),
+        Column("gain", "gain", amount, detail=True),
+        Column("lift", "lift", amount),
+        Column("lift_low", "lift\nfrom", amount, detail=True),
+        Column("lift_high", "to", amount, detail=True),
+        Column("p_best", "best", decimals(2)),
+    ]
+    return Table(
+        "levels",
+        columns,
+        analysis.levels,
+        "Your success rate at each level, with its 95% interval; the share of your attempts at "
+        "that level, so far and in the long run; its lift: how much five more successes in 100 "
+        "there would raise your average level; and how likely it is to be the best level to "
+        "practise:",
+    )
+
+
+def _averages(analysis: LogAnalysis) -> Quantities:
+    low, high = analysis.mean_low, analysis.mean_high
+    return Quantities(
+        [
+            Quantity("mean_so_far", analysis.visited.mean, "average level so far", decimals(2)),
+            Quantity(
+                "mean",
+                analysis.implied.mean,
+                "average level in the long run",
+                decimals(2),
+                note=f"(between {low:.2f} and {high:.2f})",
+            ),
+            Quantity("mean_low", low),
+            Quantity("mean_high", high),
+        ]
+    )
+
+
+def _practise(analysis: LogAnalysis) -> str:
+    best = analysis.practise_next
+    missed = [report for report in analysis.levels if report.attempts > report.successes]
+    if best is None:
+        return _nothing_to_practise(levels=len(analysis.levels), missed=bool(missed))
+    text = (
+        f"Practise level {best.level} next: {better(best.p or 0.0)} there raise your average level "
+        f"by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
+    )
+    others = [report for report in missed if report is not best]
+    if not others:
+        return f"{text}It is the only level that you missed."
+    text += f"It is {_percent(best.p_best)} certain that no other level helps more"
+    if best.p_best >= SURE:
+        return f"{text}."
+    second = max(others, key=lambda report: report.p_best)
+    return (
+        f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would show "
+        "which of them it is."
+    )
+
+
+def _nothing_to_practise(*, levels: int, missed: bool) -> str:
+    if levels == 1:
+        return (
+            "With only one level there is nothing to climb; give the number of levels of the drill."
+        )
+    if not missed:
+        return (
+            "You never missed, so the log cannot show what to practise; log more attempts, if "
+            "possible at higher levels."
+        )
+    return "No level that you missed would raise your average level."
+
+
+def _untried(analysis: LogAnalysis) -> str:
+    """Return how the first level that was not tried, above one that was, is counted."""
+    for below, report in pairwise(analysis.levels):
+        if below.attempts and not report.attempts:
+            return (
+                f" You have not tried level {report.level} yet; until then you are taken to miss "
+                "there every time."
+            )
+    return ""
+
+
+def _percent(p: float) -> str:
+    """Return a probability in words that leave some doubt.
+
+    >>> [_percent(p) for p in (0.714, 0.9995, 0.001)]
+    ['71%', 'more than 99%', 'less than 1%']
+    """
+    if p > 0.99:
+        return "more than 99%"
+    return "less than 1%" if p < 0.01 else f"{100 * p:.0f}%"
+
+
+def _findings(analysis: LogAnalysis) -> Iterator[str]:
+    """Yield what stands out in the log beyond chance, or that nothing does."""
+    memory, model = analysis.memory, analysis.model_test
+    found = []
+    if analysis.difference.p_value < UNLIKELY:
+        found.append(
+            "Your sessions are not at the levels that your success rates would lead to; perhaps "
+            "you stop when things go well."
+        )
+    if memory is not None and memory.p_value < UNLIKELY:
+        worse = "miss" if memory.seen > memory.by_chance else "success"
+        found.append(f"After a {worse} you do worse, and more so than by chance.")
+    off = analysis.furthest_off_model
+    if model is not None and model.p_value < UNLIKELY and off is not None:
+        usual = off.attempts * (off.p_model or 0.0)
+        found.append(
+            f"Level {off.level} is out of line: you made {off.successes} of {off.attempts} where "
+            f"{usual:.0f} would fit your other levels."
+        )
+    if not found:
+        yield "Nothing else in the log stands out beyond chance."
+        return
+    yield from found
+    if memory is not None and memory.p_value >= UNLIKELY:
+        yield "There is no sign that one attempt affects the next."
+
+
+def _tests(analysis: LogAnalysis) -> Iterator[Part]:
+    """Yield the tests of the log, a paragraph each."""
+    test = analysis.difference
+    yield (
+        f"Levels: if you went on for ever with these success rates, {100 * test.seen:.0f} attempts "
+        f"in 100 would be at other levels than so far; in simulated sessions like yours this is "
+        f"{100 * test.by_chance:.0f} in 100 ({_p(test)})."
+    )
+    if analysis.memory is not None:
+        test = analysis.memory
+        yield (
+            f"Memory: at the same level you succeed {_often(test.seen)} after a success "
+            f"{'as' if not round(100 * test.seen) else 'than'} after a miss; by chance alone it "
+            f"would be {_often(test.by_chance)} ({_p(test)})."
+        )
+    model, test_of_model = analysis.model, analysis.model_test
+    if model is None:
+        yield "Without attempts above level 1, nothing can be said about single shots."
+        return
+    text = (
+        f"Single shots: if level i takes i - 1 good shots in a row, the chance of making a "
+        f"shot is {model.p:.3f} (between {model.low:.3f} and {model.high:.3f})."
+    )
+    if test_of_model is not None:
+        text += f" The fit to all levels has {_p(test_of_model)}."
+    if model.level_1_misses:
+        text += (
+            f" Level 1 would then never be missed, so your {model.level_1_attempts} attempts "
+            f"there, {model.level_1_misses} of them missed, are left out."
+        )
+    yield text
+
+
+def _p(test: PlayedAgainTest) -> str:
+    return f"p = {test.p_value:.2g}"
+
+
+def _often(difference: float) -> str:
+    """Return a difference of two success rates in words.
+
+    >>> _often(0.024), _often(-0.3), _often(0.004)
+    ('2 times in 100 more often', '30 times in 100 less often', 'as often')
+    """
+    hundredths = round(100 * difference)
+    if not hundredths:
+        return "as often"
+    many = count_of(abs(hundredths), "time")
+    return f"{many} in 100 {'more' if hundredths > 0 else 'less'} often"

@@ -1,0 +1,1 @@
+"""Sandbagging: what it brings, and who may be doing it."""

@@ -1,0 +1,268 @@
+"""What it pays to lose matches on purpose: by matches dumped, in cycles, and by chart."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import chance, count_of, decimals, percent
+from evenbreak.errors import InputError
+from evenbreak.handicaps.ladders.ladder import Ladder
+from evenbreak.league.dump_cycle import DumpCycle, best_cycle
+from evenbreak.league.sandbag_pay import (
+    DumpRow,
+    Sandbagging,
+    entering_low,
+    most_dumped,
+    sandbagging,
+)
+
+CYCLE = 10
+"""The matches of the cycles of dumping and playing in earnest that are looked at."""
+
+NUMBER = decimals(2)
+
+
+class PayQuestion(NamedTuple):
+    """How many matches are dumped and then played in earnest, from where, and for what.
+
+    Parameters
+    ----------
+    dumped, earnest
+        the most matches dumped, and the matches played in earnest afterwards.
+    start
+        the rating error before, in points.
+    stake, dumped_stake
+        what a match won is worth more than one lost: in earnest, and where it is dumped.
+    in_a_row, prize
+        the matches won in a row that win a tournament, and what it pays.
+    """
+
+    dumped: int
+    earnest: int
+    start: int
+    stake: float
+    dumped_stake: float
+    in_a_row: int
+    prize: float
+
+
+class PayFindings(NamedTuple):
+    """What sandbagging pays on one ladder.
+
+    Parameters
+    ----------
+    ladder
+        the ladder.
+    pays, all_pays
+        what is shown, and the same for as many matches dumped as the ladder has room for.
+    cycle
+        the most profitable cycle for a player willing to be a doubling under-rated; None if it
+        was not looked for.
+    enters
+        extra wins of a player who enters a doubling too low, established or as a newcomer.
+    """
+
+    ladder: Ladder
+    pays: Sandbagging
+    all_pays: Sandbagging
+    cycle: DumpCycle | None
+    enters: dict[str, float]
+
+    @property
+    def doubling(self) -> int:
+        """The points that double the odds of a game."""
+        return round(self.ladder.system.scale.points_per_doubling)
+
+
+def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -> PayFindings:
+    """Return what sandbagging pays on a ladder.
+
+    Raises
+    ------
+    InputError
+        if one match dumped already takes the rating to the ladder's end.
+    """
+    asked = question._asdict()
+    most = most_dumped(ladder, question.start)
+    if not most:
+        raise InputError(
+            f"with the system {ladder.system.name} one match lost takes the rating more than "
+            f"{ladder.widest} points below the skill; use smaller steps, or a higher rating at "
+            "the start"
+        )
+    pays = sandbagging(ladder, **{**asked, "dumped": min(question.dumped, most)})
+    # The best number may lie beyond the table.
+    all_pays = sandbagging(ladder, **{**asked, "dumped": most})
+    doubling = round(ladder.system.scale.points_per_doubling)
+    kinds = {"established": False} | ({"newcomer": True} if ladder.system.newcomer_steps else {})
+    enters = {
+        kind: float(entering_low(ladder, doubling, question.earnest, newcomer=new)[-1])
+        for kind, new in kinds.items()
+    }
+    stakes = {"stake": question.stake, "dumped_stake": question.dumped_stake}
+    cycle = best_cycle(ladder, [CYCLE], lowest=-float(doubling), **stakes) if cycles else None
+    return PayFindings(ladder, pays, all_pays, cycle, enters)
+
+
+def sandbag_pay_answer(
+    found: PayFindings, question: PayQuestion, warnings: Sequence[str] = ()
+) -> Answer:
+    """Return what sandbagging pays on one ladder; in files, a `DumpRow` for each number dumped.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> question = PayQuestion(2, 20, 0, 10.0, 1.0, 3, 0.0)
+    >>> found = sandbag_pay(Ladder("npl", widest=120), question, cycles=False)
+    >>> print(sandbag_pay_answer(found, question).sentences[0])
+    Sandbagging pays at these stakes, most of all with 64 matches dumped: a profit of 57.67.
+    """
+    ladder, best = found.ladder, found.all_pays.best
+    shown = len(found.pays.rows) - 1
+    if shown < question.dumped:
+        warnings = [
+            *warnings,
+            f"{ladder.chart.name}: at most {count_of(shown, 'match', 'matches')} can be dumped; "
+            f"the rating is then {ladder.widest} points below the skill",
+        ]
+    plain = [tuple(map(_finite, row)) for row in found.pays.rows]
+    rows = Table("rows", [Column(name) for name in best._fields], plain)
+    return Answer(
+        _heading(found, question),
+        [*_in_words(found, question), _by_dumped(found.pays.rows, question), _EXPLANATION],
+        warnings=warnings,
+        data={
+            "chart": ladder.chart.name,
+            "system": ladder.system.name,
+            "best": best,
+            "p_win": found.pays.p_win,
+            "p_honest": found.pays.p_honest,
+            "cycle": found.cycle,
+            "enters_low": found.enters,
+        },
+        csv=rows,
+    )
+
+
+_EXPLANATION = (
+    "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
+    "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many "
+    "of these come from the last match dumped. 'Pays from': how many times as much "
+    "as a win in a dumped match a win in earnest must be worth. 'Profit': the gain over an honest "
+    "player, in the unit of the stakes."
+)
+
+
+def _heading(found: PayFindings, question: PayQuestion) -> str:
+    chart, system = found.ladder.chart.name, found.ladder.system
+    start = (
+        f" The rating starts {question.start:+d} points off the skill." if question.start else ""
+    )
+    rule = f"{system.in_words[:1].upper()}{system.in_words[1:]}"
+    return (
+        f"What losing on purpose pays: chart {chart}, system {system.name}\n{rule}. Opponents are "
+        f"as good as the player and correctly rated.{start}\n{_stakes(question)}"
+    )
+
+
+def _stakes(question: PayQuestion) -> str:
+    prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
+    return (
+        f"Stakes: winning is worth {question.stake:g} in a match played in earnest, "
+        f"{question.dumped_stake:g} in one that is dumped{prize}."
+    )
+
+
+def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
+    best, cheapest, cycle = found.all_pays.best, found.all_pays.cheapest, found.cycle
+    if best.dumped:
+        yield (
+            "Sandbagging pays at these stakes, most of all with "
+            f"{count_of(best.dumped, 'match', 'matches')} dumped: a profit of {best.profit:.2f}."
+        )
+    else:
+        yield "Sandbagging does not pay at these stakes, however many matches are dumped."
+    if math.isfinite(cheapest.break_even):
+        aside = "Leaving the prize aside, it" if question.prize else "It"
+        yield (
+            f"{aside} pays off over {question.earnest} matches in earnest only if a win in earnest "
+            f"is worth at least {cheapest.break_even:.2f} times as much as a win in a dumped match "
+            f"(with {cheapest.dumped} dumped)."
+        )
+    if cycle is not None and cycle.dumped and cycle.profit > 0.0:
+        yield (
+            f"In cycles of {CYCLE} matches, the most profitable plan for a player willing to be "
+            f"{found.doubling} points under-rated is to dump {cycle.dumped} and play "
+            f"{cycle.earnest} in earnest. They are then {-cycle.rating_error:.1f} points "
+            f"under-rated when they start to play in earnest, win {percent(cycle.p_win)} of these "
+            f"matches and gain {cycle.profit:.2f} a match."
+        )
+    steps = ""
+    if "newcomer" in found.enters:
+        steps = f"; with the newcomer steps, {found.enters['newcomer']:.2f} more"
+    yield (
+        f"A player who enters the league {found.doubling} points under-rated wins "
+        f"{found.enters['established']:.2f} more of their first {question.earnest} matches than a "
+        f"correctly rated player{steps}."
+    )
+
+
+def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
+    columns = [
+        Column("dumped", "matches\ndumped"),
+        Column("given_away", "given\naway", NUMBER),
+        Column("p_first", "wins\nthe next", chance),
+        Column("p_in_a_row", f"wins {question.in_a_row}\nin a row", chance),
+        Column("extra_wins", f"extra\nwins in {question.earnest}", NUMBER),
+        Column("for_the_last", "by the\nlast", NUMBER),
+        Column("break_even", "pays\nfrom", NUMBER),
+        Column("profit", "profit", NUMBER),
+    ]
+    of_dumps = ("given_away", "extra_wins", "for_the_last", "profit")
+    view = [
+        [
+            None if not row.dumped and name in of_dumps else _finite(getattr(row, name))
+            for name in (str(column.name) for column in columns)
+        ]
+        for row in rows
+    ]
+    return Table("", columns, view)
+
+
+def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -> Answer:
+    """Return what sandbagging pays on each chart of a system; in files, a row for each."""
+    columns = [
+        Column("chart", "chart", left=True),
+        Column("dumped", "best\ndumped"),
+        Column("p_first", "wins\nthe next", chance),
+        Column("p_in_a_row", f"wins {question.in_a_row}\nin a row", chance),
+        Column("extra_wins", f"extra\nwins in {question.earnest}", NUMBER),
+        Column("break_even", "pays\nfrom", NUMBER),
+        Column("profit", "profit", NUMBER),
+        Column("enters_low", "enters\nlow", NUMBER),
+    ]
+    rows = []
+    for one in found:
+        best, name = one.all_pays.best, one.ladder.chart.name
+        pays_from = _finite(one.all_pays.cheapest.break_even)
+        wins = (best.p_first, best.p_in_a_row, best.extra_wins)
+        rows.append((name, best.dumped, *wins, pays_from, best.profit, one.enters["established"]))
+    least, most = (pick(found, key=lambda one: one.all_pays.best.profit) for pick in (min, max))
+    return Answer(
+        f"What losing on purpose pays by chart: system {found[0].ladder.system.name}\n"
+        f"{_stakes(question)}",
+        [
+            f"Sandbagging pays least on {least.ladder.chart.name}: at most "
+            f"{least.all_pays.best.profit:.2f} at these stakes. It pays most on "
+            f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
+            Table("charts", columns, rows),
+            "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
+            "times as much as a win in a dumped match a win in earnest must be worth. 'Enters "
+            f"low': how many more of their first {question.earnest} matches a player wins who "
+            f"enters the league {found[0].doubling} points under-rated.",
+        ],
+    )
+
+
+def _finite(value: Any) -> Any:
+    return None if math.isinf(value) else value

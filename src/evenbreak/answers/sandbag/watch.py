@@ -1,0 +1,383 @@
+"""Whose results look like sandbagging, and what each match of one player weighs."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, race, some_of
+from evenbreak.league.nights import PlayedNight
+from evenbreak.league.sandbag_watch import Watched
+from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.fit import fit
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale, scale_of
+
+SHOWN = 10
+"""How many players a terminal shows, if no more are flagged."""
+
+FEW_NEW = 0.1
+"""The share of players without a rating of their own from which a warning is due."""
+
+NAMED = 3
+"""How many flagged players the first sentence names."""
+
+HONEST_PLAYER = {
+    "any": "an honest player of any skill",
+    "established": "an honest player whose rating is as accurate as ratings are in the long run",
+}
+"""Who is called honest, by the kind."""
+
+
+class WatchRow(NamedTuple):
+    """A player's line: matches, the evidence against them, and when they were flagged.
+
+    Parameters
+    ----------
+    player, matches, won
+        the player, the number of matches and of matches won.
+    e_value, largest_e
+        the evidence after the last match, and its largest value after any match.
+    p_value
+        the smallest alpha at which the player would have been flagged.
+    e_any, e_established
+        the evidence after the last match, against honest players of each kind.
+    flagged
+        whether the player was flagged.
+    alarm_match, alarm_date
+        after which of their matches, counted from 1, and when; None where there is none.
+    league_wide
+        whether they would have been flagged at alpha divided by the number of players.
+    event
+        in which of the events that were tried their results look like dumped matches; None if in
+        no single one of them, or if the player is not flagged.
+    """
+
+    player: str
+    matches: int
+    won: int
+    e_value: float
+    largest_e: float
+    p_value: float
+    e_any: float
+    e_established: float
+    flagged: bool
+    alarm_match: int | None
+    alarm_date: str | None
+    league_wide: bool
+    event: str | None = None
+
+
+def sandbag_watch_answer(
+    watched: Sequence[Watched], results: Results, source: str, *, warnings: Sequence[str] = ()
+) -> Answer:
+    """Return whose results look like sandbagging; in files, a `WatchRow` for each player.
+
+    Parameters
+    ----------
+    watched
+        what `watch` returned for these results.
+    results, source
+        the season, and what its file is called.
+    warnings
+        what may be wrong with what was given.
+    """
+    rows = watch_rows(watched, results)
+    players = Table("players", [Column(name, cell=_yes) for name in WatchRow._fields], rows)
+    if not rows:
+        data: dict[str, Any] = {"alpha": None, "honest": None, "tried_events": []}
+        return Answer(source, ["No match was played."], warnings=warnings, data=data, csv=players)
+    alpha, honest = watched[0].alpha, watched[0].honest
+    matches = count_of(sum(row.matches for row in rows) // 2, "match", "matches")
+    return Answer(
+        f"{source}: {matches} of {count_of(len(rows), 'player')}",
+        [
+            " ".join([_who_is_flagged(rows), *_where(rows)]),
+            *_players(rows),
+            f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
+            "1, rises with each result that is likelier from a sandbagger than from an honest "
+            "player, and falls with the others. It is not a verdict: look at the player's matches "
+            "(--player), and ask.",
+            f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}. "
+            f"If all {len(rows):,} players are honest, at most {alpha * len(rows):.2g} of them are "
+            "flagged on average. This holds if form varies as much as --day-sd says.",
+        ],
+        details=[
+            f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
+            f"one honest player of the league is flagged would be at most {percent(alpha)}. The "
+            "evidence is an e-value: its mean over honest players is at most 1 after any number "
+            "of matches.",
+            *_tried(watched[0]),
+        ],
+        warnings=warnings,
+        data={"alpha": alpha, "honest": honest, "tried_events": _events(watched[0])},
+        csv=players,
+    )
+
+
+def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
+    """Return a warning if form of the day is established in results, and what --day-sd fits it.
+
+    >>> day_sd_doubts(Results.from_names(["Ann"], ["Bo"], [7], [5]), "npl")
+    []
+    """
+    ratings = fit(results, scale=scale)
+    form = day_form(results, ratings) if ratings.matches else None
+    if form is None or not form.established:
+        return []
+    # Two players' forms, alike and independent, make up that of their difference.
+    points = scale_of(scale).points(form.sd) / math.sqrt(2.0)
+    return [
+        "honest players are taken to play at the same strength every day, but in these results "
+        f"their form varies by about {points:.0f} points from match to match; give --day-sd "
+        f"{points:.0f}, or players may be flagged for a good or bad day"
+    ]
+
+
+def unrated_doubts(roster: Roster, results: Results) -> list[str]:
+    """Return a warning if too many players begin without a rating of their own.
+
+    These are players whose rating rests on no games, and those who share one rating where most
+    players do.
+
+    >>> club = Roster(["Ann", "Bo", "Cy"], [80, 80, 80])
+    >>> len(unrated_doubts(club, Results.from_names(["Ann"], ["Bo"], [7], [5])))
+    1
+    """
+    seen = {results.players[place] for place in (*results.player_a, *results.player_b)}
+    playing = np.array([name in seen for name in roster.players])
+    rated = roster.rating[playing]
+    same, many = np.unique(rated[~np.isnan(rated)], return_counts=True)
+    shared = np.isin(rated, same[many > len(rated) / 2])
+    new = int((shared | (roster.games[playing] == 0) | np.isnan(rated)).sum())
+    if not new or new < FEW_NEW * len(rated):
+        return []
+    return [
+        f"{new:,} of {count_of(len(rated), 'player')} begin without a rating of their own, but "
+        "--honest established takes all ratings to be as accurate as in the long run; strong "
+        "newcomers may be flagged for winning, so use --honest any"
+    ]
+
+
+def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:
+    """Return a line for each player, the one with the largest evidence first."""
+    rows = []
+    for one in watched:
+        alarm = one.alarm
+        rows.append(
+            WatchRow(
+                one.player,
+                len(one.rows),
+                int(one.won.sum()),
+                one.e_value,
+                one.largest_e,
+                one.p_value,
+                _e(one.any[-1]),
+                _e(one.established[-1]),
+                alarm is not None,
+                None if alarm is None else alarm + 1,
+                None if alarm is None else _date(results, int(one.rows[alarm])),
+                one.largest_e >= len(watched) / one.alpha,
+                one.event,
+            )
+        )
+    return sorted(rows, key=lambda row: (-row.largest_e, row.player))
+
+
+def _yes(value: Any) -> Any:
+    """Return a value as CSV has it: a truth as 'yes' or nothing."""
+    return ("yes" if value else "") if isinstance(value, bool) else value
+
+
+def _who_is_flagged(rows: Sequence[WatchRow]) -> str:
+    flagged = [row for row in rows if row.flagged]
+    if not flagged:
+        return f"None of {count_of(len(rows), 'player')} is flagged."
+    named = [
+        f"{row.player} after match {row.alarm_match}"
+        + f" ({row.alarm_date})" * bool(row.alarm_date)
+        for row in flagged[:NAMED]
+    ]
+    if len(flagged) > NAMED:
+        named.append(f"{len(flagged) - NAMED:,} more")
+    verb = "is" if len(flagged) == 1 else "are"
+    return f"{len(flagged):,} of {count_of(len(rows), 'player')} {verb} flagged: {listed(named)}."
+
+
+def _where(rows: Sequence[WatchRow]) -> Iterator[str]:
+    """Yield for each event in which flagged players seem to have dumped matches who they are."""
+    found: dict[str, list[str]] = {}
+    for row in rows:
+        if row.event is not None:
+            found.setdefault(row.event, []).append(row.player)
+    for event, names in found.items():
+        yield f"The results of {some_of(names, NAMED)} look like matches dumped in {event}."
+
+
+def _events(one: Watched) -> list[str]:
+    return [event for event in one.tried if event is not None]
+
+
+def _tried(one: Watched) -> Iterator[str]:
+    """Yield how the events that were tried enter the evidence."""
+    events = _events(one)
+    if events:
+        yield (
+            f"Each of the {count_of(len(events), 'event')} ({some_of(events, NAMED)}) was tried as "
+            "the only one in which matches are dumped, besides dumps in any event. The evidence is "
+            f"the average of these {len(one.tried)} e-values, which is an e-value too, so honest "
+            "players are flagged no more often. With --dumps-in only the event that you name is "
+            "tried; choose it before you look at the results."
+        )
+
+
+def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
+    shown = rows[: max(SHOWN, sum(row.flagged for row in rows))]
+    columns = [
+        Column("player", "player", left=True),
+        Column("matches", "matches"),
+        Column("won", "won"),
+        Column("e_value", "evidence\nnow", evidence),
+        Column("largest_e", "highest", evidence),
+        Column("alarm_match", "flagged\nat match"),
+        Column("alarm_date", "on"),
+    ]
+    names = [column.name for column in columns]
+    yield Table("", columns, [[getattr(row, str(name)) for name in names] for row in shown])
+    if len(rows) > len(shown):
+        yield f"{len(rows) - len(shown):,} more players have less evidence against them."
+
+
+def sandbag_player_answer(
+    one: Watched,
+    nights: Sequence[PlayedNight],
+    results: Results,
+    *,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return what each match of one player weighs; in files, a row for each match."""
+    dates = results.date
+    rows = [
+        (None if dates is None else str(dates[row[0]]), *row[1:]) for row in match_rows(one, nights)
+    ]
+    names = ("date", "opponent", "rating", "opponent_rating", "games_won", "games_lost")
+    needs = ("needs", "opponent_needs", "won", "e_value", "factor")
+    matches = Table("matches", [Column(name, cell=_yes) for name in (*names, *needs)], rows)
+    limit = evidence(1.0 / one.alpha)
+    said = (
+        f"Not flagged: the evidence is {evidence(one.e_value)} now and was never above "
+        f"{evidence(one.largest_e)}; a player is flagged at {limit}."
+        if one.alarm is None
+        else f"Flagged after match {one.alarm + 1}, when the evidence reached {limit}; it is "
+        f"{evidence(one.e_value)} now."
+    )
+    return Answer(
+        f"{one.player}: {count_of(len(rows), 'match', 'matches')}",
+        [
+            said
+            if one.event is None
+            else f"{said} The results look like matches dumped in {one.event}.",
+            _matches(rows),
+            "'Weight' is what the match multiplies the evidence by: above 1, the result is "
+            "likelier from a sandbagger than from an honest player.",
+        ],
+        warnings=warnings,
+        data={
+            "player": one.player,
+            "alpha": one.alpha,
+            "honest": one.honest,
+            "alarm_match": None if one.alarm is None else one.alarm + 1,
+            "event": one.event,
+        },
+        csv=matches,
+    )
+
+
+def _matches(rows: Sequence[tuple[Any, ...]]) -> Table:
+    columns = [
+        Column("date", "date", left=True),
+        Column("opponent", "opponent", left=True),
+        Column("ratings", "ratings"),
+        Column("race", "race"),
+        Column("score", "score"),
+        Column("factor", "weight", decimals(2)),
+        Column("e_value", "evidence", evidence),
+    ]
+    view = [
+        (
+            date,
+            opponent,
+            f"{mine:g} - {theirs:g}",
+            None if needs is None else race((needs, needed)),
+            ("won" if won else "lost") if games is None else f"{games}-{lost}",
+            factor,
+            e,
+        )
+        for date, opponent, mine, theirs, games, lost, needs, needed, won, e, factor in rows
+    ]
+    return Table("", columns, view)
+
+
+def match_rows(one: Watched, nights: Sequence[PlayedNight]) -> list[tuple[Any, ...]]:
+    """Return a line for each match of a player: what it was, and what it did to the evidence.
+
+    Returns
+    -------
+    list of (row in the results, opponent, rating, opponent's rating, games won, games lost,
+    games the player needed, games the opponent needed, won, e after it, factor of e)
+    """
+    found, place = [], 0
+    for night in nights:
+        players, rating = night.changes.before.players, night.changes.before.rating
+        for match in night.changes.matches:
+            sides = (match.winner, match.loser)
+            if one.player not in (players[sides[0]], players[sides[1]]):
+                continue
+            won = players[match.winner] == one.player
+            me, other = sides if won else sides[::-1]
+            games, needs = (
+                (None, None) if pair is None else (pair if won else pair[::-1])
+                for pair in (match.games, match.race)
+            )
+            before = float(one.log_e[place - 1]) if place else 0.0
+            after = float(one.log_e[place])
+            found.append(
+                (
+                    int(night.rows[match.row]),
+                    players[other],
+                    float(rating[me]),
+                    float(rating[other]),
+                    *games,
+                    *needs,
+                    won,
+                    _e(after),
+                    _e(after - before),
+                )
+            )
+            place += 1
+    return found
+
+
+def evidence(e: float) -> str:
+    """Return a value of the evidence.
+
+    >>> evidence(0.0123), evidence(34.5), evidence(62_671.0), evidence(1.23e9)
+    ('0.012', '34.5', '62,671', '1.2e+09')
+    """
+    if e >= 1e6 or 0.0 < e < 1e-3:
+        return f"{e:.1e}"
+    return f"{e:,.0f}" if e >= 100 else f"{e:.3g}" if e >= 1 else f"{e:.2g}"
+
+
+def _e(log_e: float) -> float:
+    return math.exp(min(float(log_e), 700.0))
+
+
+def _date(results: Results, row: int) -> str | None:
+    if results.date is None or np.isnat(results.date[row]):
+        return None
+    return str(results.date[row])

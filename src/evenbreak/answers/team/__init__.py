@@ -1,0 +1,1 @@
+"""Team nights and team leagues: line-ups, caps, rounds, seasons."""

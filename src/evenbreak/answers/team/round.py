@@ -1,0 +1,352 @@
+"""A round between two teams: who wins it, and the head start that makes it even."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.scales import scale_words
+from evenbreak.answers.kit.wording import chance, count_of, decimals, percent
+from evenbreak.answers.team.lineup import race_words
+from evenbreak.arrays import Floats
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.race_of_pair import Race
+from evenbreak.handicaps.systems.team_handicap import team_handicap
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale
+from evenbreak.teams.league_rules import against_all, first_edges, league_nights
+from evenbreak.teams.order import BOTH, NAMED, order_of
+from evenbreak.teams.round_law import Outcome, RoundLaw, known_starts
+from evenbreak.teams.set_laws import set_laws
+from evenbreak.teams.squad import Squad, line_ups
+
+
+def team_round_answer(
+    teams: tuple[Roster, Roster],
+    law: RoundLaw,
+    *,
+    played: str,
+    scale: Scale,
+    games: int | None = None,
+    everybody: bool = False,
+    names: tuple[str, str] = ("team 1", "team 2"),
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return who wins a round, and the head start that makes it even.
+
+    Parameters
+    ----------
+    teams
+        both teams.
+    law
+        of the lead of the first.
+    played
+        what is played, in words.
+    scale
+        of the ratings.
+    games
+        the games of each match, if it is single games; then CSI's way is compared.
+    everybody
+        whether everybody meets everybody.
+    names
+        what the teams are called.
+    warnings
+        about the question.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> from evenbreak.teams import round_law
+    >>> us, them = Roster(["Ann"], [500]), Roster(["Bo"], [600])
+    >>> law = round_law(us, them, games=2)
+    >>> asked = {"played": "2 games", "scale": SCALES["fargo"], "games": 2}
+    >>> print(team_round_answer((us, them), law, **asked).sentences[0])
+    Without a head start team 1 wins the round 11% of the time, loses it 44% and ties it 44%.
+    With 1 game for team 1 it is nearest to even: they win it 56% of the time and lose it 44%; \
+there are no ties.
+    """
+    fair, plain = law.fair_start, law.with_start(0)
+    words = [f"Without a head start {names[0]} {_in_words(plain, 'wins', 'loses', 'ties')}."]
+    if fair:
+        ahead = law.with_start(fair)
+        seen = ahead if fair > 0 else Outcome(ahead.lose, ahead.tie, ahead.win)
+        words.append(
+            f"With {count_of(abs(fair), 'game')} for {names[fair < 0]} it is nearest to even: they "
+            f"{_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
+        )
+    else:
+        words.append("No head start of whole games brings it nearer to even.")
+    parts: list[Part] = ["\n".join(words)]
+    csi: int | None = None
+    if games is not None:
+        csi, said = _csi(teams, law, games, everybody, scale, names)
+        parts.append(said)
+    rows = [
+        (start, *law.with_start(start))
+        for start in known_starts(law, *([] if csi is None else [csi]))
+    ]
+    columns = [
+        Column("start_1", "head start", lambda start: _start_words(start, names), left=True),
+        Column("p_win_1", f"{names[0]}\nwins", chance),
+        Column("p_tie", "tie", chance),
+        Column("p_lose_1", f"{names[1]}\nwins", chance),
+    ]
+    data = [
+        Quantity("mean_lead_1", law.mean, f"lead of {names[0]} on average", decimals(2)),
+        Quantity("fair_start_1", fair),
+        Quantity("csi_start_1", csi),
+    ]
+    return Answer(
+        f"{count_of(len(teams[0]), 'player')} against {len(teams[1])}, {played}\n"
+        f"Ratings {scale_words(scale)}",
+        [*parts, Quantities(data), Table("starts", columns, rows, title="What a head start does")],
+        warnings=warnings,
+    )
+
+
+def _start_words(start: int, names: tuple[str, str]) -> str:
+    return f"{abs(start)} for {names[start < 0]}" if start else "none"
+
+
+def _in_words(seen: Outcome, win: str, lose: str, tie: str) -> str:
+    won = f"{win} the round {percent(seen.win)} of the time"
+    if not seen.tie:
+        return f"{won} and {lose} it {percent(seen.lose)}; there are no ties"
+    return f"{won}, {lose} it {percent(seen.lose)} and {tie} it {percent(seen.tie)}"
+
+
+def _csi(
+    teams: tuple[Roster, Roster],
+    law: RoundLaw,
+    games: int,
+    everybody: bool,
+    scale: Scale,
+    names: tuple[str, str],
+) -> tuple[int, str]:
+    """Return the start in games that CSI's way of rounding gives, and what it gives away."""
+    one, other = (float(roster.rating.mean()) for roster in teams)
+    pairs = len(teams[0]) * (len(teams[1]) if everybody else 1)
+    found = team_handicap(
+        one, other, match_ups=pairs, games=games, points_won=1.0, points_lost=0.0, scale=scale
+    )
+    start = found.points if found.to_team == 1 else -found.points
+    weaker, times = names[law.mean > 0], f", then times {games}" if games > 1 else ""
+    text = (
+        f"CSI's way (from the two averages, one game of each match, rounded down{times}) gives "
+        f"{count_of(found.points, 'game')}"
+    )
+    if found.points:
+        text += f" to {names[(found.to_team or 1) - 1]}"
+    if found.given_away > 0.005:
+        text += (
+            f"; {found.even_points:.2f} would even out the averages, so the rounding keeps "
+            f"{percent(found.given_away)} of them from {weaker}"
+        )
+    seen = law.with_start(start)
+    return start, f"{text}. Then {names[0]} {_in_words(seen, 'wins', 'loses', 'ties')}."
+
+
+_IN_WORDS = {
+    "alternate": "in turn, A in set 1",
+    "home": "always A",
+    "blind": "both at once, unseen",
+    "winner": "the winner of the last set, A in set 1",
+    "loser": "the loser of the last set, A in set 1",
+}
+_SMALL = 5e-4  # a chance that differs by less is the same
+
+
+@dataclass(frozen=True, eq=False)
+class LeagueRules:
+    """The teams of a league and its rules.
+
+    Parameters
+    ----------
+    rosters
+        each team's players, with a rating for everybody.
+    squads
+        the same with the caps of the league.
+    levels
+        each team's skill levels; NaN where none are stated.
+    race, scale
+        what is played in each set, and the scale of the ratings.
+    sets, order
+        how many sets a night has, and who names first.
+    """
+
+    rosters: Mapping[str, Roster]
+    squads: Mapping[str, Squad]
+    levels: Mapping[str, Floats]
+    race: Race
+    scale: Scale
+    sets: int
+    order: str
+
+    @property
+    def capped(self) -> bool:
+        """Whether the league has a cap."""
+        return any(squad.caps for squad in self.squads.values())
+
+    def nights(self, order: str, *, capped: bool = True) -> Floats:
+        """Return each team's chance against each other, as `league_nights`."""
+        every = list(self.squads.values())
+        used = every if capped else [Squad(one.names, (), one.times) for one in every]
+        return league_nights(used, self._law, sets=self.sets, order=order)
+
+    @cached_property
+    def _law(self) -> Callable[[int, int], Floats]:
+        rosters = list(self.rosters.values())
+
+        @cache
+        def law(i: int, j: int) -> Floats:
+            return set_laws(rosters[i], rosters[j], self.race, scale=self.scale)
+
+        return law
+
+    def check(self) -> None:
+        """Refuse teams that cannot fill a night within the caps."""
+        for team, squad in self.squads.items():
+            try:
+                line_ups(squad, (1,) * self.sets)
+            except InputError as error:
+                raise InputError(f"{team}: {error}") from None
+
+
+def team_rules_answer(
+    rules: LeagueRules, *, source: str = "", warnings: Sequence[str] = ()
+) -> Answer:
+    """Return what a cap and the order of nomination do to a team league.
+
+    Parameters
+    ----------
+    rules
+        the teams and the rules.
+    source
+        the name of the file, for the heading.
+    warnings
+        about the question.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> rosters = {
+    ...     "Racks": Roster(["Ann", "Bo", "Cy"], [640, 560, 450]),
+    ...     "Cues": Roster(["Di", "Ed", "Flo"], [540, 530, 500]),
+    ... }
+    >>> squads = {team: Squad(one.players) for team, one in rosters.items()}
+    >>> levels = {team: np.full(3, np.nan) for team in rosters}
+    >>> rules = LeagueRules(rosters, squads, levels, 5, SCALES["fargo"], 2, "AB")
+    >>> answer = team_rules_answer(rules)
+    >>> print(answer.sentences[0])
+    In the order AB, naming first in set 1 costs 0.9 points of winning chance on average; between \
+two teams of yours at most 0.9.
+    """
+    rules.check()
+    nights = rules.nights(rules.order)
+    parts: list[Part] = [_order_words(rules.order, nights)]
+    teams = list(rules.rosters)
+    if rules.capped:
+        free = rules.nights(rules.order, capped=False)
+        parts += [_cap_words(teams, against_all(free), against_all(nights))]
+        table = _teams_table(rules, against_all(nights), against_all(free))
+    else:
+        table = _teams_table(rules, against_all(nights), None)
+    parts += [_quantities(nights), table, _orders_table(rules, nights)]
+    heading = (
+        f"{count_of(len(teams), 'team')}{f' in {source}' if source else ''}, "
+        f"{count_of(rules.sets, 'set')} a night, {race_words(rules.race)}\nRatings "
+        f"{scale_words(rules.scale)}"
+    )
+    return Answer(heading, parts, warnings=warnings, csv=table)
+
+
+def _points(change: float) -> str:
+    return f"{100.0 * abs(change):.1f} points of winning chance"
+
+
+def _order_words(order: str, nights: Floats) -> str:
+    if BOTH in order and set(order) == {BOTH}:
+        return "Both captains name at once in every set, so nobody has the advantage of the toss."
+    edges = first_edges(nights)
+    mean, widest = float(np.nanmean(edges)), float(np.nanmax(np.abs(edges)))
+    if widest < _SMALL:
+        return f"In the order {order} it makes no difference who names first."
+    if abs(mean) < _SMALL:
+        return (
+            f"In the order {order} it makes no difference on average who names first in set 1; "
+            f"between two teams of yours up to {_points(widest)}."
+        )
+    return (
+        f"In the order {order}, naming first in set 1 {'gains' if mean > 0 else 'costs'} "
+        f"{_points(mean)} on average; between two teams of yours at most {100.0 * widest:.1f}."
+    )
+
+
+def _cap_words(teams: Sequence[str], free: Floats, capped: Floats) -> str:
+    change = capped - free
+    most, least = int(change.argmax()), int(change.argmin())
+    if np.abs(change).max() < _SMALL:
+        return "The cap changes nothing: the best line-ups keep it anyway."
+    said = (
+        f"With the cap the teams win between {percent(float(capped.min()))} and "
+        f"{percent(float(capped.max()))} of their nights, without it between "
+        f"{percent(float(free.min()))} and {percent(float(free.max()))}. It helps {teams[most]} "
+        f"most (+{_points(change[most])})"
+    )
+    return f"{said} and costs {teams[least]} most ({_points(change[least])})."
+
+
+def _quantities(nights: Floats) -> Quantities:
+    edges = first_edges(nights)
+    return Quantities(
+        [
+            Quantity("first_edge_mean", float(np.nanmean(edges))),
+            Quantity("first_edge_most", float(np.nanmax(np.abs(edges)))),
+        ]
+    )
+
+
+def _teams_table(rules: LeagueRules, capped: Floats, free: Floats | None) -> Table:
+    columns = [
+        Column("team", "team", left=True),
+        Column("players", "players"),
+        Column("rating_mean", "mean\nrating", lambda rating: f"{rating:.0f}"),
+        Column("level_sum", f"levels of the\nhighest {rules.sets}"),
+        Column("p_win_free", "wins without\nthe cap", chance),
+        Column("p_win", "wins with\nthe cap" if free is not None else "wins", chance),
+        Column("cap_worth", "the cap\nchanges", lambda change: f"{100.0 * change:+.1f}%"),
+    ]
+    rows: list[list[Any]] = []
+    for k, (team, roster) in enumerate(rules.rosters.items()):
+        levels = np.sort(rules.levels[team])[::-1][: rules.sets]
+        total = None if np.isnan(levels).any() else float(levels.sum())
+        before = None if free is None else float(free[k])
+        worth = None if before is None else float(capped[k]) - before
+        mean = float(roster.rating.mean())
+        rows.append([team, len(roster), mean, total, before, float(capped[k]), worth])
+    rows.sort(key=lambda row: -row[5] if row[6] is None else row[6])
+    if free is None:
+        columns[4], columns[6] = Column("p_win_free"), Column("cap_worth")
+    if all(row[3] is None for row in rows):
+        columns[3] = Column("level_sum")
+    title = "Each team against all others"
+    return Table("teams", columns, rows, title=title)
+
+
+def _orders_table(rules: LeagueRules, nights: Floats) -> Table:
+    """Return what naming first is worth in each order, blind apart: there nobody is first."""
+    rows = []
+    named = {order_of(name, rules.sets): name for name in NAMED if name != "blind"}
+    for order in dict.fromkeys([rules.order, *named]):
+        edges = first_edges(nights if order == rules.order else rules.nights(order))
+        meaning = _IN_WORDS.get(named.get(order, ""), "your league's")
+        rows.append([order, meaning, np.nanmean(edges), np.nanmax(np.abs(edges))])
+    columns = [
+        Column("order", "order", left=True),
+        Column("meaning", "who names first", left=True),
+        Column("edge_mean", "worth to A,\non average", lambda edge: f"{100.0 * edge:+.1f}%"),
+        Column("edge_most", "between two\nteams, at most", lambda edge: f"{100.0 * edge:.1f}%"),
+    ]
+    return Table("orders", columns, rows, title="What naming first is worth")

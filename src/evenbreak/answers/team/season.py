@@ -1,0 +1,245 @@
+"""How a season of team matches may end: title, promotion, relegation, and what tonight changes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, share
+from evenbreak.arrays import Ints
+from evenbreak.teams.season.chances import SeasonChances
+from evenbreak.teams.season.season import TeamSeason
+
+_HOME, _AWAY = 0, 2
+_NOTHING = 5e-4  # a change that is not listed
+
+
+def team_season_answer(
+    found: SeasonChances,
+    *,
+    up: int | None = None,
+    down: int | None = None,
+    rounds: str = "",
+    known: bool = False,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return the chances of each team's final place.
+
+    Parameters
+    ----------
+    found
+        the chances; those of the title, of `up` and of the places above `down` are watched.
+    up, down
+        how many teams go up and how many go down; None: nobody does.
+    rounds
+        what the matches watched are called: 'round 12', '' for the next matches.
+    known
+        whether the strengths are taken as right.
+    warnings
+        about the files.
+
+    >>> from evenbreak.teams import TeamSeason, season_chances
+    >>> season = TeamSeason(["Acers", "Bankers", "Caroms"], [[0, 1, 3, 2]], [[0, 2], [1, 2]],
+    ...                     [[3, 2], [2, 3]], [[0.5, 0.5], [0.5, 0.5]])
+    >>> print(team_season_answer(season_chances(season)).sentences[0])
+    Acers are the favourites and win the title 58% of the time; next are Caroms (33%) and Bankers
+    (8.3%).
+    """
+    season = found.season
+    table = _table(found, up, down)
+    tonight = _tonight(found, up, down, rounds)
+    parts: list[Part] = [
+        _in_words(found),
+        table,
+        _to_be_sure(found, up, down),
+    ]
+    if tonight is not None:
+        parts.append(tonight)
+    parts.append(_how(found, known=known))
+    matches = count_of(len(season.played), "match", "matches")
+    return Answer(
+        f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} to come\n"
+        f"{_rules(season)}",
+        parts,
+        details=[_places(found)],
+        data={
+            "exact": found.exact,
+            "seasons": found.seasons,
+            "standard_error": _error(found),
+        },
+        warnings=warnings,
+        csv=table,
+    )
+
+
+def _in_words(found: SeasonChances) -> str:
+    teams, title = found.season.teams, found.p_first(1)
+    best, *others = np.argsort(-title, kind="stable")[:3].tolist()
+    if title[best] >= 1.0 - 1e-12:
+        return f"{teams[best]} have won the title."
+    following = [f"{teams[k]} ({percent(title[k])})" for k in others if title[k] > 0.0]
+    text = f"{teams[best]} are the favourites and win the title {percent(title[best])} of the time"
+    if following:
+        text += f"; next {'are' if len(following) > 1 else 'is'} {listed(following)}"
+    return f"{text}."
+
+
+def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
+    season, teams = found.season, len(found.season.teams)
+    played = _matches(season.played, teams)
+    columns = [
+        Column("team", "team", left=True),
+        Column("played", "played"),
+        Column("points", "points", _points),
+        Column("p_title", "title", share),
+    ]
+    values: list[Any] = [season.teams, played.tolist(), _of_points(season.points)]
+    values.append(found.p_first(1).tolist())
+    if up is not None and up > 1:
+        columns.append(Column("p_up", f"first {up}", share))
+        values.append(found.p_first(up).tolist())
+    if down is not None:
+        columns.append(Column("p_down", f"last {down}", share))
+        values.append(found.p_place[:, teams - down :].sum(axis=1).tolist())
+    columns.append(Column("place_mean", "place,\naverage", decimals(1)))
+    values.append(found.mean_place.tolist())
+    order = sorted(range(teams), key=lambda k: (found.mean_place[k], -season.points[k]))
+    return Table("teams", columns, [[column[k] for column in values] for k in order])
+
+
+def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table:
+    """Return the points that make each team sure, whatever the others do."""
+    season, teams = found.season, len(found.season.teams)
+    columns = [Column("team", "team", left=True), Column("points_for_title", "title", _or_safe)]
+    values = [season.points_to_be_sure(1)]
+    if up is not None and up > 1:
+        columns.append(Column("points_for_up", f"first {up}", _or_safe))
+        values.append(season.points_to_be_sure(up))
+    if down is not None:
+        columns.append(Column("points_to_stay", "staying up", _or_safe))
+        values.append(season.points_to_be_sure(teams - down))
+    shown = [season.teams, *map(_of_points, values)]
+    rows = [
+        [column[team] for column in shown]
+        for team in np.argsort(-season.points, kind="stable").tolist()
+    ]
+    return Table(
+        "to_be_sure",
+        columns,
+        [row for row in rows if any(value is not None for value in row[1:])],
+        title="Points that a team still needs to be sure, whatever the others do (blank: its own "
+        "matches cannot make it sure)",
+    )
+
+
+def _of_points(points: Any) -> list[float | int | None]:
+    """Return points as numbers of one kind: whole ones if all are; None for NaN."""
+    kind = int if all(point.is_integer() for point in points[np.isfinite(points)]) else float
+    return [None if np.isnan(point) else kind(point) for point in points.tolist()]
+
+
+def _points(value: float) -> str:
+    return f"{value:g}"
+
+
+def _or_safe(value: float) -> str:
+    return "safe" if value == 0.0 else f"{value:g}"
+
+
+def _matches(pairs: Ints, teams: int) -> Ints:
+    return np.bincount(pairs[:, :2].ravel(), minlength=teams)
+
+
+def _tonight(found: SeasonChances, up: int | None, down: int | None, rounds: str) -> Table | None:
+    """Return what each match watched changes, for both of its teams."""
+    season, matches = found.season, found.watched.matches
+    if not matches:
+        return None
+    aims = [(1, "title", False)]
+    if up is not None and up > 1:
+        aims.append((up, f"the first {up}", False))
+    if down is not None:
+        aims.append((len(season.teams) - down, f"the last {down}", True))
+    rows: list[list[Any]] = []
+    for row, match in enumerate(matches):
+        home, away = season.to_come[match].tolist()
+        p_home, _, p_away = found.p_result[row]
+        for team, won, lost in ((home, _HOME, _AWAY), (away, _AWAY, _HOME)):
+            other = away if team == home else home
+            best: tuple[float, list[Any]] | None = None
+            for places, words, below in aims:
+                p = found.p_if[found.watched.places.index(places)][row, :, team]
+                chances = np.clip(1.0 - p if below else p, 0.0, 1.0).round(12)
+                moved = abs(chances[won] - chances[lost])
+                if np.isnan(moved) or moved < _NOTHING:
+                    continue
+                if best is None or moved > best[0]:
+                    best = moved, [words, float(chances[won]), float(chances[lost])]
+            if best is not None:
+                p_win = p_home if team == home else p_away
+                rows.append([season.teams[team], season.teams[other], float(p_win), *best[1]])
+    rows.sort(key=lambda row: -abs(row[4] - row[5]))
+    columns = [
+        Column("team", "team", left=True),
+        Column("opponent", "against", left=True),
+        Column("p_win", "wins", percent),
+        Column("at_stake", "at stake", left=True),
+        Column("p_if_won", "if they\nwin", share),
+        Column("p_if_lost", "if they\nlose", share),
+    ]
+    title = f"What {rounds or 'the next matches'} can change, the most first"
+    return Table("tonight", columns, rows, title=title)
+
+
+def _places(found: SeasonChances) -> Table:
+    teams = len(found.season.teams)
+    columns = [Column("team", "team", left=True)]
+    columns += [Column(f"p_{k}", str(k), share) for k in range(1, teams + 1)]
+    rows = [
+        [found.season.teams[team], *found.p_place[team].tolist()]
+        for team in np.argsort(found.mean_place, kind="stable").tolist()
+    ]
+    return Table("places", columns, rows, title="The chance of each place")
+
+
+def _rules(season: TeamSeason) -> str:
+    rules = season.rules
+    text = f"{rules.win:g} points for a win, {rules.draw:g} for a draw, {rules.loss:g} for a loss"
+    if rules.win == 0.0:
+        text = f"{count_of(1, 'point')} for each set" if rules.a_set == 1.0 else "points for sets"
+    elif rules.a_set:
+        text += f", {rules.a_set:g} for each set"
+    named = {
+        "difference": "sets won less lost",
+        "scored": "sets won",
+        "wins": "matches won",
+        "head-to-head": "the matches among those level",
+    }
+    ties = [named[tie] for tie in rules.ties]
+    return f"{text}; teams that are level: {', '.join([*ties, 'lot'])}"
+
+
+def _error(found: SeasonChances) -> float:
+    """Return the largest standard error of the chances in the table."""
+    return max(float(found.error(found.p_first(many)).max()) for many in found.watched.places)
+
+
+def _how(found: SeasonChances, *, known: bool) -> str:
+    strengths = (
+        "the strengths are taken as right"
+        if known
+        else "averaged over how strong the teams may be, as their sets so far allow"
+    )
+    if found.exact:
+        return (
+            f"All {found.seasons:,} ways in which the matches to come may end were gone through; "
+            f"{strengths}."
+        )
+    return (
+        f"{found.seasons:,} seasons were simulated; {strengths}. The chances in the table are "
+        f"right to within {percent(2.0 * _error(found))}, 19 times in 20."
+    )

@@ -1,0 +1,1 @@
+"""A tournament: odds, times, prizes, its moves from the draw to the final."""

@@ -1,0 +1,244 @@
+"""A chip tournament under way: who is at which table, the line, chips left, and when it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import clock, count_of, share
+from evenbreak.answers.tournament.time import (
+    WORTH_SAYING,
+    ends_words,
+    finish_luck,
+    finish_quantities,
+    minute_of_day,
+    moves_words,
+    time_of_day,
+)
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Turnover
+from evenbreak.tournaments.clock.event_pace import event_pace
+from evenbreak.tournaments.clock.finish import bands_of
+from evenbreak.tournaments.evening.events import Result, as_dict
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.moves import score_words
+from evenbreak.tournaments.evening.outlook import Outlook
+
+
+def chip_heading(state: Evening) -> str:
+    """Return what is played, in words."""
+    chart = "" if state.plan.chips is None else state.plan.chips.name
+    return f"Chips by the chart {chart}, on {count_of(state.plan.tables, 'table')}"
+
+
+def rack_words(result: Result) -> str:
+    """Return who won a rack.
+
+    >>> rack_words(Result("R7", ("Ann", "Bo"), (0, 1), "Bo"))
+    'Bo beat Ann in R7'
+    """
+    if result.forfeit:
+        return f"{score_words(result)} in {result.match}"
+    return f"{result.winner} beat {result.loser} in {result.match}"
+
+
+def chip_changes(before: Evening, after: Evening) -> list[str]:
+    """Return in words whose chips have changed, and who comes to a table."""
+    if not (before.drawn and after.drawn):
+        return []
+    was, now = before.chip_night, after.chip_night
+    said = []
+    for name, chips in now.chips.items():
+        if was.chips.get(name, chips) == chips:
+            continue
+        words = f"{name} has {count_of(chips, 'chip') if chips else 'no chips'} left"
+        if name in now.gone:
+            place = len(now.order) + len(now.gone) - now.gone.index(name)
+            words += f" and finishes in place {place}"
+        elif name in now.line:
+            words += f" and is number {now.line.index(name) + 1} in the line"
+        said.append(f"{words}.")
+    seated = {(one.table, one.players) for one in was.playing}
+    said += [
+        f"Table {one.table}: {' against '.join(one.players)}."
+        for one in now.playing
+        if (one.table, one.players) not in seated
+    ]
+    if len(now.order) > 1:
+        said += [f"Table {k} is closed." for k in was.tables if k not in now.tables]
+    gone = {one.result.match for one in before.aside}
+    came = [rack_words(one.result) for one in after.aside if one.result.match not in gone]
+    said += [f"Set aside: {words}." for words in came]
+    back = gone & after.counted.keys()
+    said += [f"Counts again: {rack_words(after.counted[name])}." for name in sorted(back)]
+    return said
+
+
+def entered_words(state: Evening, name: str) -> str:
+    """Return where a late player goes."""
+    night = state.chip_night
+    entered = f"{name} has entered with {count_of(night.chips[name], 'chip')}"
+    if name in night.line:
+        return f"{entered} and is number {night.line.index(name) + 1} in the line."
+    rack = next(rack for rack in night.playing if name in rack.players)
+    return f"{entered} and plays on table {rack.table}."
+
+
+def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answer:
+    """Return the state of a chip tournament: tables, line, chips, the odds, when it ends.
+
+    Parameters
+    ----------
+    night
+        the tournament.
+    said
+        what has just happened, a sentence each.
+    heading
+        what is played by whom.
+
+    >>> from evenbreak.tournaments import CHIP_CHARTS
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> plan = Plan("chips", 1, chips=CHIP_CHARTS["hoboken"], scale="fargo")
+    >>> both = Entrant("Ann", 650.0), Entrant("Bo", 500.0)
+    >>> happened = Opened(plan, both), Drawn(("Ann", "Bo"), None)
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> answer = chip_night_answer(Outlook(state, "2025-03-01T19:30:00"), [], "")
+    >>> answer.to_frame()[["name", "chips", "table", "p_title"]].round(4)
+      name  chips  table  p_title
+    0  Ann      4      1   0.8127
+    1   Bo      6      1   0.1873
+    """
+    state = night.state
+    playing = len(state.chip_night.order) > 1
+    odds = night.odds
+    words = list(said)
+    parts: list[Part] = []
+    luck: list[Part] = []
+    if playing:
+        parts.append(_tables(night))
+        finishes = night.chip_finishes()
+        parts.insert(0, finish_quantities(finishes))
+        luck.append(finish_luck(finishes))
+        begun = minute_of_day(night.start)
+        words += [f"Next in the line: {name}." for name in state.chip_night.line[:1]]
+        words.append(ends_words(*(begun + at for at in bands_of(finishes)[0])))
+    else:
+        words += [f"{name} wins the tournament." for name in state.chip_night.order]
+    table = _players(night, playing=playing)
+    pairs = zip(state.order, odds.title.tolist(), night.as_if_sure.title.tolist(), strict=True)
+    data = {
+        "odds": [{"name": n, "p_title": p, "p_title_if_sure": sure} for n, p, sure in pairs],
+        "odds_exact": odds.exact,
+        "ratings_averaged": odds is not night.as_if_sure,
+        "set_aside": [as_dict(one.result) for one in state.aside],
+    }
+    warnings = [
+        f"{rack_words(one.result)}, but after the correction one of them had no chips left by "
+        "then; the rack is kept but does not count, and its chip is given back"
+        for one in state.aside
+    ]
+    shown: list[Part] = ["\n".join(words), *parts, table]
+    return Answer(heading, shown, details=luck, warnings=warnings, data=data, csv=table)
+
+
+def _tables(night: Outlook) -> Table:
+    columns = [
+        Column("table", "table"),
+        Column("match", "rack", left=True),
+        Column(("player_a", "player_b"), "stays - challenger", " - ".join, left=True),
+        Column("state", "", left=True),
+    ]
+    begun = minute_of_day(night.start)
+    rows = [
+        [
+            rack.table,
+            rack.name,
+            rack.players,
+            f"since {time_of_day(begun + night.minutes(rack.since))}",
+        ]
+        for rack in night.state.chip_night.playing
+    ]
+    return Table("next", columns, rows)
+
+
+def _players(night: Outlook, *, playing: bool) -> Table:
+    """Return everybody: those at the tables, the line, and who is out."""
+    state = night.state.chip_night
+    title = dict(zip(night.state.order, night.odds.title.tolist(), strict=True))
+    table = {name: rack.table for rack in state.playing for name in rack.players}
+    rows: list[list[Any]] = []
+    for name in state.order:
+        number = state.line.index(name) + 1 if name in state.line else None
+        rows.append([name, state.chips[name], table.get(name), number, None, title[name]])
+    if not playing:
+        rows = [[name, state.chips[name], None, None, 1, 1.0] for name in state.order]
+    for place, name in enumerate(reversed(state.gone), len(rows) + 1):
+        rows.append([name, state.chips[name], None, None, place, 0.0])
+    columns = [
+        Column("name", "player", left=True),
+        Column("chips", "chips"),
+        Column("table", "table"),
+        Column("in_line", "in line"),
+        Column("place", "place") if state.gone else Column("place"),
+        Column("p_title", "title", lambda p: share(p) if p else ""),
+    ]
+    if not playing:
+        columns = [c if c.name in ("name", "chips", "place") else Column(c.name) for c in columns]
+    return Table("players", columns, rows)
+
+
+def chip_time_answer(
+    outlook: Outlook, heading: str, *, tables: int | None = None, turnover: Turnover | None = None
+) -> Answer:
+    """Return when a chip tournament ends, and what another table would change.
+
+    Parameters
+    ----------
+    outlook, heading
+        the tournament, and what is played by whom.
+    tables, turnover
+        as in `chip_minutes`.
+
+    Raises
+    ------
+    InputError
+        if nothing is left to play.
+    """
+    state = outlook.state
+    if len(state.chip_night.order) < 2:
+        raise InputError("all racks have been played")
+    usual = state.plan.tables if tables is None else tables
+    finishes = outlook.chip_finishes(tables=usual, turnover=turnover)
+    bands, _ = bands_of(finishes)
+    begun = minute_of_day(outlook.start)
+    words = ends_words(*(begun + at for at in bands))
+    changes = {"one_more_table": usual + 1, "one_table_fewer": usual - 1}
+    rows = []
+    for key, many in changes.items():
+        if many:
+            moved = outlook.chip_finishes(tables=many, turnover=turnover)
+            later = float(np.median(moved)) - bands[1]
+            rows.append([key, f"With {key.replace('_', ' ')}", later])
+            if key == "one_more_table" and later <= -WORTH_SAYING:
+                words += f" With one more table it would end {clock(-later)} earlier."
+    columns = [
+        Column("change"),
+        Column("in_words", "change", left=True),
+        Column("minutes_later", "the finish\nmoves by", moves_words),
+    ]
+    change = Table("what_if", columns, rows, title="What if")
+    parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
+    plain = event_pace(state.plan.discipline).mean_minutes(1)
+    usual_words = (
+        f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes, with the "
+        "change of players."
+    )
+    if timed := len(outlook.timed):
+        usual_words += f" The {count_of(timed, 'rack')} timed so far tonight adjust that."
+    parts.append(usual_words)
+    return Answer(heading, parts, csv=change, data={"start": outlook.start.isoformat()})

@@ -1,0 +1,395 @@
+"""A tournament under way: what just happened, what is played next, the odds, when it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, share
+from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
+from evenbreak.answers.tournament.odds import points_off
+from evenbreak.answers.tournament.prizes import Stake, stakes
+from evenbreak.answers.tournament.time import (
+    ends_words,
+    finish_luck,
+    finish_quantities,
+    minute_of_day,
+    time_of_day,
+)
+from evenbreak.answers.tournament.tournament import pair_words, races_words
+from evenbreak.tournaments.brackets.bracket import Place, Source
+from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.brackets.swiss import swiss_standings
+from evenbreak.tournaments.clock.finish import Call
+from evenbreak.tournaments.evening.chip_night import chips_of
+from evenbreak.tournaments.evening.events import Result, as_dict
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import can_draw, pairings, stage_to_draw, swiss_of
+from evenbreak.tournaments.evening.moves import free_tables, score_words
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.settling import tied_groups
+
+_LISTED = 8  # waiting matches that are named
+_UNDECIDED = (
+    "What each match decides is left out: many matches are still to be played, or something is "
+    "still to be drawn."
+)
+_SHOWN = 6  # players whose title odds everybody sees
+
+
+def heading(outlook: Outlook, source: str = "") -> str:
+    """Return what is played by whom."""
+    state = outlook.state
+    chips = state.plan.form == "chips"
+    races = chip_heading(state) if chips else races_words(state.races)
+    if not state.drawn:
+        text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
+    else:
+        form = state.bracket.format
+        played = len(state.winners)
+        so_far = f"{count_of(played, 'match', 'matches')} decided"
+        if chips:
+            so_far = f"{count_of(played, 'rack')} played"
+        players = count_of(len(state.order), "player")
+        text = f"{form[0].upper()}{form[1:]}: {players}, {so_far}\n{races}"
+    return f"{source}: {text}" if source else text
+
+
+def begun_at(outlook: Outlook) -> int:
+    """Return the time of day at which the evening began, in minutes after midnight."""
+    return minute_of_day(outlook.start)
+
+
+def night_answer(
+    night: Outlook,
+    said: Sequence[str] = (),
+    *,
+    decides: bool = False,
+    prizes: Sequence[float] = (),
+    source: str = "",
+) -> Answer:
+    """Return the state of a tournament: what is played next, the title odds, when it ends.
+
+    Parameters
+    ----------
+    night
+        the tournament.
+    said
+        what has just happened, a sentence each.
+    decides
+        whether to find what each match that can be played decides.
+    prizes
+        the money for each place, for what the matches decide.
+    source
+        the name of its file, for the heading.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
+    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> answer = night_answer(Outlook(state, "2025-03-01T19:30:00"))
+    >>> print(answer.sentences[0])
+    Now play F, Ann against Bo, on table 1.
+    It ends at about 20:08; 8 times out of 10 between 19:54 and 20:30.
+    """
+    state = night.state
+    if not state.drawn:
+        return _before_the_draw(state, heading(night, source), said)
+    if state.plan.form == "chips":
+        return chip_night_answer(night, said, heading(night, source))
+    odds = night.odds
+    words = list(said)
+    parts: list[Part] = []
+    tied = tied_groups(state)
+    under_way = bool(state.standing.to_play or tied) or stage_to_draw(state) is not None
+    if under_way:
+        decided = stakes(night, prizes) if decides else {}
+        said_now, shown = _what_is_next(night, decided, prizes, decides)
+        words += said_now
+        parts += shown
+    else:
+        first = [state.order[k] for k in np.flatnonzero(odds.title > 0.0).tolist()]
+        if len(first) == 1:
+            words.append(f"{first[0]} wins the tournament.")
+        else:
+            words.append(f"First place is tied: {listed(first)}.")
+            if state.plan.form != "swiss":
+                words[-1] += " Break the ties with: evenbreak tournament tiebreak"
+        parts.append(_places(state, odds.p_place, odds.bracket.places))
+    if state.plan.form == "swiss":
+        parts += swiss_table(state)
+    if under_way:
+        parts.append(_title_table(night))
+        if decides and state.standing.to_play and not decided:
+            parts.append(_UNDECIDED)
+    luck = [finish_luck(night.as_things_are.finishes)] if under_way else []
+    data: dict[str, Any] = {
+        "odds": [
+            {"name": name, "p_title": p, "p_title_if_sure": sure}
+            for name, p, sure in _title_odds(night)
+        ],
+        "odds_exact": odds.exact,
+        "ratings_averaged": odds is not night.as_if_sure,
+        "set_aside": [as_dict(one.result) for one in state.aside],
+    }
+    if under_way and not any(isinstance(part, Table) and part.name == "next" for part in parts):
+        data["next"] = []  # nothing can be played before a draw or a tie-break
+    warnings = [_aside_words(state, one.result) for one in state.aside]
+    above = heading(night, source)
+    said_all: list[Part] = ["\n".join(words), *parts]
+    return Answer(above, said_all, details=luck, warnings=warnings, data=data)
+
+
+def _what_is_next(
+    night: Outlook, decided: dict[str, Stake], prizes: Sequence[float], decides: bool
+) -> tuple[list[str], list[Part]]:
+    """Return in words and as a table what is played next and when it ends."""
+    state, tied = night.state, tied_groups(night.state)
+    words: list[str] = []
+    found, calls = night.as_things_are, night.calls
+    tables = _tables(night)
+    if tied:
+        words.append(
+            f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
+            "ties with: evenbreak tournament tiebreak"
+        )
+    if can_draw(state):
+        words.append(_draw_words(state))
+    elif state.standing.to_play:
+        words.append(_next_words(state, tables))
+        if len(decided) > 1:
+            words.append(_most_words(state, decided))
+    words.append(ends_words(*(begun_at(night) + at for at in found.bands)))
+    parts: list[Part] = [finish_quantities(found.finishes)]
+    if tables:
+        parts.append(_next_table(night, tables, decided, calls if decides else (), prizes))
+    return words, parts
+
+
+def _draw_words(state: Evening) -> str:
+    """Return that something can be drawn now."""
+    stage = str(stage_to_draw(state))
+    what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
+    return f"{what} can be drawn now, with: evenbreak tournament draw"
+
+
+def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
+    averaged, sure = night.odds.title.tolist(), night.as_if_sure.title.tolist()
+    return list(zip(night.state.order, averaged, sure, strict=True))
+
+
+def _title_table(night: Outlook) -> Table:
+    rows = sorted((row for row in _title_odds(night) if row[1] > 0.0), key=lambda row: -row[1])
+    columns = [Column("name", "player", left=True), Column("p_title", "title", share)]
+    sure = Column("p_title_if_sure", "title, if the\nratings are right", share)
+    shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
+    few = [row[: len(shown)] for row in rows[:_SHOWN]]
+    luck = "" if night.odds.exact else f", give or take {points_off(night.odds, title=True)}"
+    return Table("", shown, few, title=f"Odds of the title{luck}")
+
+
+def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
+    columns = [Column("name", "player", left=True), Column("rating", "rating")]
+    rows = [[entrant.name, entrant.rating] for entrant in state.entrants.values()]
+    if state.plan.form == "chips":
+        columns.append(Column("chips", "chips"))
+        for row, entrant in zip(rows, state.entrants.values(), strict=True):
+            row.append(chips_of(state.plan, entrant))
+    words = [*said, "Make the draw with: evenbreak tournament draw"]
+    return Answer(heading, ["\n".join(words), Table("entrants", columns, rows)])
+
+
+def _aside_words(state: Evening, result: Result) -> str:
+    """Return what is to be done about a match that the wrong players have played."""
+    name = result.match
+    seats = state.standing.seats.get(name)
+    if seats is None:  # its draw was undone
+        now, play = "the match is not drawn now", ""
+    elif NOBODY in seats:
+        now, play = "the match is not needed now", ""
+    elif None in seats:
+        waits = waits_for(state, name)
+        now, play = f"the match waits for {waits} now", f"Play {name} again, "
+    else:
+        now = f"it is {' against '.join(state.pair(name))} now"
+        play = f"Play {name} again, "
+    stand = f"let it stand (evenbreak tournament stand {name})"
+    settle = f"{play}{stand}" if play else f"{stand[0].upper()}{stand[1:]}"
+    if seats is None:
+        settle = "Draw again"
+    return (
+        f"{score_words(result)} in {name}, but {now}; the result is kept but does not count. "
+        f"{settle} or undo the correction"
+    )
+
+
+def waits_for(state: Evening, match: str) -> str:
+    """Return the matches whose result decides who plays a match."""
+    seats = state.standing.seats[match]
+    slots = state.bracket.match(match).slots
+    sources = [
+        slot.match
+        for slot, seat in zip(slots, seats, strict=True)
+        if seat is None and isinstance(slot, Source)
+    ]
+    return " and ".join(dict.fromkeys(sources))
+
+
+def _tables(night: Outlook) -> list[tuple[int | None, str]]:
+    """Return the matches on tables, those to call to the free tables, then those that wait."""
+    state = night.state
+    playing: list[tuple[int | None, str]] = sorted(
+        (one.call.table, name) for name, one in state.on_tables.items()
+    )
+    waiting = [call.match for call in night.calls if call.match not in night.to_call]
+    called = zip(free_tables(state), night.to_call, strict=False)
+    return [*playing, *called, *((None, name) for name in waiting)]
+
+
+def next_calls(night: Outlook) -> list[tuple[int, str]]:
+    """Return which matches to call to which of the free tables."""
+    tables = _tables(night)
+    return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
+
+
+def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str:
+    ready = [
+        f"{name}, {' against '.join(state.pair(name))}, on table {table}"
+        for table, name in tables
+        if table is not None and name not in state.on_tables
+    ]
+    waiting = [name for table, name in tables if table is None]
+    said = []
+    if ready:
+        said.append(f"Now play {'; '.join(ready)}.")
+    if waiting:
+        verb = "waits" if len(waiting) == 1 else "wait"
+        if len(waiting) <= _LISTED:
+            said.append(f"{listed(waiting)} {verb} for a table.")
+        else:
+            said.append(f"{len(waiting)} matches wait for a table or for their players.")
+    return " ".join(said) or "No match can be called before one of those on the tables ends."
+
+
+def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
+    """Return which match decides most."""
+    name, stake = next(iter(decided.items()))
+    pair = " against ".join(state.pair(name))
+    moves = percent(stake.title)
+    return f"{name}, {pair}, matters most for the title: its result moves {moves} of the odds."
+
+
+def _next_table(
+    night: Outlook,
+    tables: Sequence[tuple[int | None, str]],
+    decided: Mapping[str, Stake],
+    calls: Sequence[Call],
+    prizes: Sequence[float],
+) -> Table:
+    state = night.state
+    later = {call.match: call.later for call in calls if np.isfinite(call.later)}
+    columns = [
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column(("race_a", "race_b"), "race", _colon),
+        Column(("score_a", "score_b"), "score", _colon),
+        Column("table", "table"),
+        Column("state", "", left=True),
+    ]
+    rows: list[list[Any]] = []
+    for table, name in tables:
+        pair = state.pair(name)
+        if name in state.on_tables:
+            since = begun_at(night) + night.minutes(state.on_tables[name].at)
+            words = f"playing since {time_of_day(since)}"
+        else:
+            words = "call" if table else "waits for a table"
+        score = night.scores.get(name)
+        rows.append([name, pair, state.needed(name, pair), score, table, words])
+        if calls:
+            rows[-1].append(later.get(name))
+        if decided:
+            rows[-1].append(decided[name].title if name in decided else None)
+        if decided and prizes:
+            rows[-1].append(decided[name].prize if name in decided else None)
+    if not any(row[3] for row in rows):
+        columns[3] = Column(("score_a", "score_b"))
+    if calls:
+        columns.append(Column("minutes_later", "called first,\nends later by", _minutes))
+    if decided:
+        columns.append(Column("title_at_stake", "title odds\nthat move", percent))
+    if decided and prizes:
+        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
+    return Table("next", columns, rows)
+
+
+def _minutes(later: float) -> str:
+    return f"{later:.0f} min"
+
+
+def _colon(score: tuple[int, int]) -> str:
+    return f"{score[0]}:{score[1]}"
+
+
+def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
+    """Return who finished where; tied players share all the places they may get."""
+    rows = []
+    for k, name in enumerate(state.order):
+        possible = [places[j] for j in np.flatnonzero(p_place[k] > 0.0).tolist()]
+        if possible:
+            shared = Place(possible[0].first, possible[-1].last, possible[0].event)
+            rows.append((shared, str(shared), name))
+    rows.sort(key=lambda row: (row[0].event, row[0].first, row[0].last))
+    columns = [Column("place", "place"), Column("name", "player", left=True)]
+    return Table("places", columns, [row[1:] for row in rows])
+
+
+def bracket_table(state: Evening) -> Table:
+    """Return all matches of the bracket, with players, scores and where the players come from."""
+    columns = [
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column(("score_a", "score_b"), "score", _colon),
+        Column("winner", "winner", left=True),
+        Column("table", "table"),
+    ]
+    rows = []
+    for match in state.bracket.matches:
+        seats = state.standing.seats[match.name]
+        if NOBODY in seats:
+            continue
+        names = pair_words(state.standing, match.name)
+        result = state.counted.get(match.name)
+        score = winner = None
+        if result is not None:
+            winner = f"{result.winner} (forfeit)" if result.forfeit else result.winner
+            games = result.games
+            score = None if result.forfeit else (games[names[0]], games[names[1]])
+        on_table = state.on_tables.get(match.name)
+        table = None if on_table is None else on_table.call.table
+        rows.append([match.name, names, score, winner, table])
+    return Table("matches", columns, rows)
+
+
+def swiss_table(state: Evening) -> list[Part]:
+    """Return the standings of a Swiss, once a round is over."""
+    over = [
+        pairs
+        for pairs in pairings(state.later, state.counted)
+        if all(p.winner or p.second is None for p in pairs)
+    ]
+    if not over:
+        return []
+    rows = swiss_standings(swiss_of(state.plan, state.order), over)
+    columns = [
+        Column("name", "player", left=True),
+        Column("won", "matches\nwon"),
+        Column("buchholz", "won by their\nopponents"),
+    ]
+    title = f"Standings after round {len(over)}"
+    return [Table("standings", columns, [list(row) for row in rows], title=title)]

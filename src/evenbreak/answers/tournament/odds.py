@@ -1,0 +1,353 @@
+"""Who wins tonight's tournament: each player's chance of the title and of each other place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, share
+from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
+from evenbreak.answers.tournament.tournament import Tournament
+from evenbreak.arrays import Floats
+from evenbreak.tournaments.brackets.bracket import Place
+from evenbreak.tournaments.brackets.double import losers_qualifiers, redrawn
+from evenbreak.tournaments.brackets.standing import standing
+from evenbreak.tournaments.brackets.swiss import swiss
+from evenbreak.tournaments.odds.blind import blind_draw_odds
+from evenbreak.tournaments.odds.chances import Wins, chances_of
+from evenbreak.tournaments.odds.races import chances_given
+from evenbreak.tournaments.odds.redraws import redraw_odds
+from evenbreak.tournaments.odds.rematches import expected_rematches
+from evenbreak.tournaments.odds.swiss_odds import swiss_odds
+from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds, title_odds
+from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+
+_NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
+_SHOWN = 3  # places that everybody sees; the others are details
+
+
+def tournament_odds_answer(
+    tournament: Tournament,
+    *,
+    sure: bool = False,
+    walkovers: float = 0.0,
+    prizes: Sequence[float] = (),
+    fairest: bool = False,
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return each player's chance of each place.
+
+    Parameters
+    ----------
+    tournament
+        who plays what.
+    sure
+        whether to take the ratings as right; otherwise the odds are averaged over how far those
+        with a standard error may be off.
+    walkovers
+        the chance that a match is a walkover.
+    prizes
+        the money for each place, for each player's average prize.
+    fairest
+        whether to find the races by side that make a handicapped tournament fairest.
+    seed
+        of what has to be sampled.
+    warnings
+        about the question.
+
+    >>> from evenbreak.files.lists.roster import RosterFile
+    >>> from evenbreak.ratings import SCALES, Roster
+    >>> from evenbreak.tournaments import Races, double_elimination
+    >>> club = Roster(["Ann", "Bo", "Cy", "Di"], [640, 600, 560, 520])
+    >>> file = RosterFile(club, np.arange(2, 6), "club.csv", (), "")
+    >>> asked = double_elimination(club.players), Races(5), SCALES["fargo"], "as listed"
+    >>> print(tournament_odds_answer(Tournament(file, club, *asked)).sentences[0])
+    The favourite is Ann, who wins the tournament 72% of the time; next are Bo (22%) and Cy (4.9%).
+    An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
+    who have met before; a second final is needed 41% of the time.
+    """
+    found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
+    plug_in, odds = found
+    quantities = [
+        Quantity("exact", plug_in.exact and not found.averaged),
+        Quantity("ratings_averaged", found.averaged),
+    ]
+    words = _in_words(odds)
+    if isinstance(odds, TitleOdds):
+        rng = np.random.default_rng(seed)
+        rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng).mean
+        quantities = [
+            Quantity("p_second_final", odds.p_second_final),
+            Quantity("matches_mean", odds.matches_mean),
+            Quantity("rematches_mean", rematches),
+            *quantities,
+        ]
+        words += f" {_matches_words(odds, rematches)}"
+    handicapped = not isinstance(tournament.races.race, int)
+    if handicapped:
+        words += f"\n{favours_words(tournament.ratings, odds)}"
+        quantities += favours(tournament.ratings, odds)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes, shares=handicapped)
+    parts: list[Part] = [words, Quantities(quantities), table]
+    if fairest:
+        parts += fairer_races(tournament)
+    unrated = tournament.unrated_words(spread=not sure)
+    how = how_words(plug_in, odds, walkovers, tournament.to_draw)
+    parts += filter(None, [tournament.byes, unrated, how])
+    return Answer(
+        tournament.heading,
+        parts,
+        warnings=[*tournament.file.warnings, *warnings],
+        csv=table,
+    )
+
+
+def odds_table(
+    ratings: Floats,
+    plug_in: PlaceOdds,
+    odds: PlaceOdds,
+    prizes: Sequence[float] = (),
+    *,
+    shares: bool = False,
+) -> Table:
+    """Return each player's chance of each place, beside those that take the ratings as right.
+
+    Parameters
+    ----------
+    ratings
+        each player's rating, in the bracket's order.
+    plug_in, odds
+        the odds if the ratings are right, and averaged over how far off they may be; the same
+        if they are not averaged.
+    prizes
+        the money for each place.
+    shares
+        whether to say how many times an equal share the title odds are.
+    """
+    places = odds.bracket.places
+    columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
+    columns += [
+        Column(place_key(place), place_words(place), share, detail=k >= _SHOWN)
+        for k, place in enumerate(places)
+    ]
+    seats = range(len(odds.title))
+    rows: list[list[Any]] = [
+        [k + 1, odds.bracket.players[k], float(ratings[k]), *odds.p_place[k].tolist()]
+        for k in seats
+    ]
+    if odds is not plug_in:
+        columns.append(Column("p_title_if_sure", "title, if the\nratings are right", share))
+        for k in seats:
+            rows[k].append(float(plug_in.title[k]))
+    if not odds.exact:
+        first = places.index(Place(1, 1))
+        columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
+        for k in seats:
+            rows[k].append(float(odds.error[k, first]))
+    if shares:
+        wide = odds is not plug_in
+        columns.append(
+            Column("times_equal_share", "times an\nequal share", decimals(2), detail=wide)
+        )
+        for k in seats:
+            rows[k].append(float(len(seats) * odds.title[k]))
+    if prizes:
+        columns.append(Column("prize_mean", "prize,\naverage", decimals(2)))
+        for k, prize in enumerate(odds.expected_prize(prizes).tolist()):
+            rows[k].append(prize)
+    order = sorted(seats, key=lambda k: -odds.title[k])
+    return Table("players", columns, [rows[k] for k in order])
+
+
+def place_key(place: Place) -> str:
+    """Return the key of P(place) in files.
+
+    >>> [place_key(place) for place in (Place(1, 1), Place(5, 6), Place(1, 1, "consolation"))]
+    ['p_title', 'p_5_6', 'p_consolation_1']
+    """
+    if place.first == place.last and not place.event:
+        return f"p_{_NAMED.get(place.first, place.first)}"
+    return f"p_{place}".replace("-", "_").replace(" ", "_")
+
+
+def place_words(place: Place) -> str:
+    """Return a place as the heading of a column.
+
+    >>> place_words(Place(2, 2)), place_words(Place(5, 6))
+    ('second', '5-6')
+    """
+    if place.first == place.last and not place.event:
+        return _NAMED.get(place.first, str(place))
+    return str(place)
+
+
+def favourite_words(odds: PlaceOdds) -> str:
+    """Return who is likely to win."""
+    players, title = odds.bracket.players, odds.title
+    alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
+    best, *others = alive
+    if not others:
+        return f"{players[best]} wins the tournament."
+    text = (
+        f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
+        "time"
+    )
+    if others:
+        following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+        text += f"; next {'are' if len(others) > 1 else 'is'} {following}"
+    return f"{text}."
+
+
+def _in_words(odds: PlaceOdds) -> str:
+    equal = percent(1.0 / len(odds.bracket.players))
+    return f"{favourite_words(odds)}\nAn equal share would be {equal}."
+
+
+def _matches_words(odds: TitleOdds, rematches: float) -> str:
+    matches = odds.matches_mean
+    if abs(matches - round(matches)) < 1e-9:
+        text = f"{count_of(round(matches), 'match is', 'matches are')} played"
+    else:
+        text = f"On average {matches:.1f} matches are played"
+    if rematches > 0.0:
+        text += f", {rematches:.1f} of them between players who have met before"
+    if "F2" in odds.bracket.by_name:
+        text += f"; a second final is needed {percent(odds.p_second_final)} of the time"
+    return f"{text}."
+
+
+def how_words(
+    plug_in: PlaceOdds, odds: PlaceOdds, walkovers: float = 0.0, to_draw: str = ""
+) -> str:
+    """Return how exact the odds are, what they assume, and what is still to be drawn."""
+    averaged = odds is not plug_in
+    samples, off = f"{odds.samples:,}", points_off(odds)
+    title = points_off(odds, title=True)
+    lines = []
+    if to_draw == "lines":
+        lines.append("These are the odds before the draw; every draw is equally likely.")
+    elif to_draw == "qualifiers":
+        lines.append("The qualifiers of the losers' side are still to be drawn.")
+    if to_draw == "racks" and not odds.exact:
+        drawn = ", each time with other ratings" if averaged else ""
+        lines.append(
+            f"The rest of the evening was played out {samples} times{drawn}; other luck would "
+            f"move no title odds by more than about {title}."
+        )
+    elif to_draw == "rounds":
+        drawn = ", each time with other ratings" if averaged else ""
+        lines.append(
+            f"The rounds to come were paired and played {samples} times{drawn}; other luck would "
+            f"move no title odds by more than about {title}."
+        )
+    elif averaged:
+        lines.append(
+            f"The odds are averaged over {samples} draws of how far the ratings may be off, by "
+            f"their standard errors; other draws would move no figure by more than about {off}."
+        )
+    elif odds.exact:
+        lines.append("The odds are exact, if the ratings are right.")
+    elif to_draw == "lines":
+        lines.append(
+            f"{samples} draws were sampled and each of them calculated; other samples would move "
+            f"no title odds by more than about {title}."
+        )
+    else:
+        lines.append(
+            f"The first rounds were sampled {samples} times and the rest calculated exactly; "
+            f"other samples would move no figure by more than about {off}."
+        )
+    if walkovers:
+        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
+    return " ".join(lines)
+
+
+def points_off(odds: PlaceOdds, *, title: bool = False) -> str:
+    """Return by how much other luck would move sampled odds: of all places, or of the title."""
+    points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
+    if points < 0.05:
+        return "0.1 percentage points"
+    return f"{points:.1f} percentage {'point' if f'{points:.1f}' == '1.0' else 'points'}"
+
+
+_REDRAWS = 6
+_RATINGS = 400  # draws of the ratings, each with a draw of the lines or a Swiss of its own
+
+
+class Solved(NamedTuple):
+    """The odds if the ratings are right, and averaged over how far they may be off."""
+
+    plug_in: PlaceOdds
+    odds: PlaceOdds
+
+    @property
+    def averaged(self) -> bool:
+        """Whether there is anything to average over."""
+        return self.odds is not self.plug_in
+
+
+def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -> Solved:
+    """Return the odds of a tournament before its first match.
+
+    Parameters
+    ----------
+    tournament
+        who plays what.
+    sure
+        whether to take the ratings as right.
+    walkovers
+        the chance that a match is a walkover.
+    seed
+        of what has to be sampled.
+    """
+    bracket = tournament.bracket
+    errors = np.nan_to_num(tournament.roster.standard_error)
+    uncertain = bool(errors.any()) and not sure
+    win_of = chances_given(bracket, tournament.ratings, tournament.races, scale=tournament.scale)
+    asked: Any = {"walkovers": walkovers, "rng": np.random.default_rng(seed)}
+    if not tournament.to_draw:
+        if not uncertain:
+            odds = title_odds(bracket, tournament.laws, **asked)
+            return Solved(odds, odds)
+        both = over_ratings(bracket, win_of, tournament.ratings, errors, **asked)
+        return Solved(both.as_if_sure, both.averaged)
+    plug_in = _drawn_later(tournament, tournament.laws, asked)
+    if not uncertain:
+        return Solved(plug_in, plug_in)
+    if tournament.to_draw == "qualifiers":
+        return Solved(plug_in, _redrawn(tournament, win_of, errors, asked))
+    every = drawn_chances(bracket, win_of, tournament.ratings, errors, samples=_RATINGS, **asked)
+    return Solved(plug_in, _drawn_later(tournament, every, {**asked, "walkovers": 0.0}))
+
+
+def _drawn_later(tournament: Tournament, win: Wins, asked: Any) -> PlaceOdds:
+    bracket = tournament.bracket
+    if tournament.to_draw == "lines":
+        return blind_draw_odds(bracket, win, **asked)
+    if tournament.to_draw == "qualifiers":
+        return redraw_odds(bracket, win, **asked)
+    chances = chances_of(standing(bracket), win, walkovers=asked["walkovers"])
+    first = bracket.matches[0].name
+    rounds = max(match.round for match in bracket.matches)
+    table = chances.of(first)[:-1, :-1]
+    return swiss_odds(swiss(bracket.players, rounds), table, rng=asked["rng"])
+
+
+def _redrawn(tournament: Tournament, win_of: Any, errors: Floats, asked: Any) -> PlaceOdds:
+    """Return the odds averaged over the ratings and over some redraws."""
+    bracket = tournament.bracket
+    qualifiers = losers_qualifiers(bracket)
+    laws = []
+    for _ in range(_REDRAWS):
+        order = [qualifiers[k] for k in asked["rng"].permutation(len(qualifiers)).tolist()]
+        ratings = tournament.ratings
+        both = over_ratings(redrawn(bracket, order), win_of, ratings, errors, samples=100, **asked)
+        laws.append(both.averaged.p_place)
+    # How the redraws differ holds both kinds of luck: theirs, and that of the ratings within each.
+    error = np.std(laws, axis=0, ddof=1) / np.sqrt(_REDRAWS)
+    return PlaceOdds(bracket, np.mean(laws, axis=0), error, 100 * _REDRAWS)

@@ -1,0 +1,217 @@
+"""What has been written to be printed: the cards, and everybody's first match."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.wording import count_of
+from evenbreak.answers.tournament.tournament import pair_words
+from evenbreak.files.store.tournament import TITLES, event_rows
+from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.outlook import played_matches
+
+
+def printed_answer(state: Evening, what: str, place: str) -> Answer:
+    """Return what has been written, with the list of the draw: who plays first where.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    what
+        what has been written, such as '4 score cards' or 'The bracket'.
+    place
+        the file.
+    """
+    columns = [
+        Column("seed", "seed"),
+        Column("name", "player", left=True),
+        Column("match", "first match", left=True),
+        Column("between", "between", left=True),
+        Column("table", "table"),
+    ]
+    rows = [
+        [one.seed, one.name, one.match, " - ".join(one.pair), one.table]
+        for one in first_matches(state)
+    ]
+    verb = "are" if what[0].isdigit() and not what.startswith("1 ") else "is"
+    return Answer("The draw", [f"{what} {verb} in {place}.", Table("draw", columns, rows)])
+
+
+class First(NamedTuple):
+    """A player's first match: its name, who plays it, and the table if it has been called."""
+
+    seed: int
+    name: str
+    match: str | None
+    pair: tuple[str, ...]
+    table: int | None
+
+
+def first_matches(state: Evening) -> list[First]:
+    """Return the first match of each player, in seed order.
+
+    Parameters
+    ----------
+    state
+        the tournament, drawn.
+    """
+    now = state.standing
+    first: dict[str, str] = {}
+    for match in state.bracket.matches:
+        for seat in now.seats[match.name]:
+            if seat is not None and seat != NOBODY:
+                first.setdefault(state.order[seat], match.name)
+    found = []
+    for seed, name in enumerate(state.order, start=1):
+        where = first.get(name)
+        pair = () if where is None else pair_words(now, where)
+        called = None if where is None else state.on_tables.get(where)
+        found.append(First(seed, name, where, pair, called.call.table if called else None))
+    return found
+
+
+@dataclass(frozen=True)
+class Card:
+    """A score card.
+
+    Parameters
+    ----------
+    match
+        the match.
+    where
+        the part of the bracket, such as 'winners' side, round 2'.
+    names, needs
+        the players, and the games that each needs.
+    table
+        the table; None if it has not been called.
+    onward
+        where winner and loser go, a line each.
+    """
+
+    match: str
+    where: str
+    names: tuple[str, str]
+    needs: tuple[int, int]
+    table: int | None
+    onward: tuple[str, ...]
+
+
+def score_cards(state: Evening, match: str | None = None) -> list[Card]:
+    """Return the cards of all matches whose players are known and that are not over, or of one.
+
+    Raises
+    ------
+    InputError
+        if the draw has not been made, or there is no such match with known players.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> names = ("Ann", "Bo", "Cy")
+    >>> begun = Opened(Plan("single", 5), tuple(Entrant(name, 80.0) for name in names))
+    >>> happened = begun, Drawn(names, (0, None, 1, 2))
+    >>> (card,) = score_cards(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
+    >>> card.match, card.names, card.needs, card.onward
+    ('W1.2', ('Bo', 'Cy'), (5, 5), ('The winner plays F.',))
+    """
+    found = state.bracket.match(match).name if match is not None else None
+    if found is not None and found not in state.standing.to_play:
+        from evenbreak.errors import InputError
+
+        raise InputError(f"match {found} cannot be played now; its card can be printed when it can")
+    names = [found] if found is not None else list(state.standing.to_play)
+    return [_card(state, name) for name in names]
+
+
+def _card(state: Evening, name: str) -> Card:
+    match, pair = state.bracket.match(name), state.pair(name)
+    onward = []
+    for target, slots in state.bracket.graph.adj[name].items():
+        onward += [f"The {outcome} plays {target}." for outcome in slots if outcome != "ranks"]
+    side = {"winners": "winners' side", "losers": "losers' side"}.get(match.side, match.side)
+    where = side if match.side in ("final", "second final") else f"{side}, round {match.round}"
+    table = state.on_tables.get(name)
+    return Card(
+        name,
+        where,
+        pair,
+        state.needed(name, pair),
+        None if table is None else table.call.table,
+        tuple(sorted(onward, reverse=True)),
+    )
+
+
+def tournament_matches_answer(state: Evening, event: str) -> Answer:
+    """Return all matches that were played, those that no longer count in the bracket among them.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    event
+        its name.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> happened = begun, Drawn(("Ann", "Bo"), (0, 1)), Result("F", ("Ann", "Bo"), (5, 3), "Ann")
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> tournament_matches_answer(state, "tonight").to_frame().loc[0, ["player_a", "score_b"]]
+    player_a    Ann
+    score_b       3
+    Name: 0, dtype: object
+    """
+    columns = [
+        Column("date", "date", left=True),
+        Column("event"),
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column(("score_a", "score_b"), "score", lambda score: f"{score[0]}:{score[1]}"),
+        Column(("race_a", "race_b"), "race", lambda race: f"{race[0]}:{race[1]}"),
+        Column("winner", "winner", left=True),
+        Column("forfeit", "forfeit", lambda yes: "yes" if yes else "", left=True),
+    ]
+    rows = []
+    for result, at in sorted(played_matches(state), key=lambda one: one.at):
+        score = None if result.forfeit else result.score
+        needs = state.needed(result.match, result.players)
+        ended = score is None or (score[0] == needs[0]) != (score[1] == needs[1])
+        race = needs if ended else None  # a match that was imported may have had head starts
+        rows.append(
+            [
+                at[:10],
+                event,
+                result.match,
+                result.players,
+                score,
+                race,
+                result.loser if result.stands else result.winner,
+                result.forfeit,
+            ]
+        )
+    table = Table("matches", columns, rows)
+    forfeits = sum(bool(row[-1]) for row in rows)
+    said = f"{count_of(len(rows) - forfeits, 'match was', 'matches were')} played"
+    said += f", {forfeits:,} forfeited." if forfeits else "."
+    return Answer(event, [said, table], csv=table)
+
+
+def tournament_events_answer(events: Sequence[Event], name: str) -> Answer:
+    """Return all that happened, in its order; what was undone is there too.
+
+    Parameters
+    ----------
+    events
+        the events.
+    name
+        the tournament's name.
+    """
+    columns = [Column(title, title, left=True) for title in TITLES]
+    table = Table("events", columns, [list(row) for row in event_rows(events)])
+    return Answer(name, [f"{count_of(len(events), 'event')}.", table], csv=table)

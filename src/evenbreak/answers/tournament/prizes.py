@@ -1,0 +1,210 @@
+"""The money of a tournament: what each place gets, and what each player may expect."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import count_of, decimals, percent
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.money.calcutta import calcutta, fair_shares, lot_worth
+from evenbreak.tournaments.money.payouts import Payouts
+from evenbreak.tournaments.odds.title import PlaceOdds
+
+_MONEY = decimals(2)
+
+
+def tournament_prizes_answer(
+    state: Evening,
+    payouts: Payouts,
+    pot: float,
+    odds: PlaceOdds | None,
+    *,
+    source: str = "",
+) -> Answer:
+    """Return what each place is paid, and what each player may expect.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    payouts
+        the shares of the places.
+    pot
+        the prize money.
+    odds
+        of the places, from here on; None before the draw.
+    source
+        what the tournament is called.
+
+    >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> from evenbreak.tournaments.money.payouts import payout_table
+    >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> state = evening([Event("2025-03-01T19:30:00", begun)])
+    >>> print(tournament_prizes_answer(state, payout_table("70/30"), 200.0, None).sentences[0])
+    200.00 is paid to 2 places of 2 players: 140.00 for the winner.
+    """
+    entrants = len(state.entrants)
+    amounts = payouts.amounts(entrants, pot)
+    paid = sum(amounts)
+    if len(amounts) > entrants:
+        raise InputError(f"{len(amounts)} places are paid, but there are {entrants} players")
+    left = "" if pot - paid < 0.005 else f"; the other {pot - paid:.2f} of {pot:.2f} is the house's"
+    places = Table(
+        "places",
+        [
+            Column("place", "place"),
+            Column("share", "share", percent),
+            Column("money", "money", _MONEY),
+        ],
+        [[k, amount / pot if pot else 0.0, amount] for k, amount in enumerate(amounts, start=1)],
+    )
+    parts: list[Part] = [
+        f"{paid:.2f} is paid to {count_of(len(amounts), 'place')} of "
+        f"{count_of(entrants, 'player')}: {amounts[0]:.2f} for the winner{left}.",
+        Quantities([Quantity("pot", pot), Quantity("paid", paid)]),
+        places,
+    ]
+    csv = places
+    if odds is not None:
+        csv = _expected(odds, amounts)
+        parts.append(csv)
+    else:
+        parts.append("What each player may expect is known after the draw.")
+    how = f"Shares: {payouts.name}" + (f" ({payouts.source})." if payouts.source else ".")
+    return Answer(source or "Prizes", [*parts, how], csv=csv)
+
+
+def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:
+    prizes = odds.expected_prize(amounts)
+    in_money = odds.p_place[:, [place.first <= len(amounts) for place in odds.bracket.places]]
+    columns = [
+        Column("name", "player", left=True),
+        Column("p_paid", "in the\nmoney", percent),
+        Column("prize_mean", "may expect", _MONEY),
+    ]
+    rows: list[list[Any]] = [
+        [name, float(paid), float(prize)]
+        for name, paid, prize in zip(
+            odds.bracket.players, in_money.sum(axis=1), prizes, strict=True
+        )
+    ]
+    rows.sort(key=lambda row: -row[2])
+    return Table("players", columns, rows, title="What each player may expect")
+
+
+def calcutta_answer(
+    odds: PlaceOdds,
+    payouts: Payouts,
+    sold: Mapping[str, float],
+    *,
+    house: float = 0.0,
+    source: str = "",
+) -> Answer:
+    """Return what each player still to be sold in a Calcutta is worth now.
+
+    Parameters
+    ----------
+    odds
+        of the places.
+    payouts
+        the shares of the pot that the places get.
+    sold
+        the bids of those who have been sold.
+    house
+        the part of the pot that is not paid out.
+    source
+        what the tournament is called.
+    """
+    shares = payouts.shares(len(odds.bracket.players))
+    raw = fair_shares(odds, shares)
+    whole = sum(raw.values())
+    fair = {name: share / whole for name, share in raw.items()}
+    paid_out = min(1.0, (1.0 - house) * whole)
+    lots = calcutta(fair, sold, paid_out=paid_out)
+    rows: list[list[Any]] = []
+    for lot in sorted(lots, key=lambda one: -one.fair_share):
+        half = None
+        if lot.break_even is not None:
+            half = lot_worth(fair, sold, lot.player, lot.break_even, paid_out=paid_out) / 2.0
+        rows.append([lot.player, lot.fair_share, lot.break_even, half])
+    columns = [
+        Column("name", "player", left=True),
+        Column("fair_share", "share of\nthe payout", percent),
+        Column("break_even", "break-even\nbid now", _MONEY),
+        Column("half", "half of it\nis worth", _MONEY),
+    ]
+    table = Table("lots", columns, rows)
+    bids = sum(sold.values())
+    if not rows:
+        words = f"All players are sold, for {bids:.2f} together."
+    elif rows[0][2] is None:
+        words = (
+            "Nothing is sold yet, so nobody knows how large the pot will be: the shares say what "
+            "each player is worth of it."
+        )
+    else:
+        words = (
+            f"{count_of(len(sold), 'player')} sold for {bids:.2f}. {rows[0][0]} is worth a bid of "
+            f"up to {rows[0][2]:.2f} now."
+        )
+    parts: list[Part] = [
+        words,
+        table,
+        "A break-even bid wins back what it costs, on average, if the players still to be sold go "
+        "for their shares. A player who may buy half back should do so at any lower bid.",
+    ]
+    return Answer(source or "Calcutta", parts, csv=table)
+
+
+class Stake(NamedTuple):
+    """What a match decides.
+
+    Parameters
+    ----------
+    title
+        the title odds that its result moves from some players to others, on average.
+    prize
+        the prize money that it moves; None without prizes.
+    """
+
+    title: float
+    prize: float | None = None
+
+
+def stakes(outlook: Outlook, prizes: Sequence[float] = ()) -> dict[str, Stake]:
+    """Return what the matches that can be played decide, those that decide most first.
+
+    It is empty where that takes too long: in a very large bracket, a Swiss, and before a redraw.
+
+    Parameters
+    ----------
+    outlook
+        the tournament.
+    prizes
+        the money for each place.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
+    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> stakes(Outlook(state, "2025-03-01T19:30:00"), [100.0])
+    {'F': Stake(title=0.5, prize=50.0)}
+    """
+    ready = set(outlook.state.standing.to_play)
+    money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}
+    found = {
+        lever.match: Stake(
+            float(lever.swing.sum()) / 2.0,
+            float(money[lever.match].sum()) / 2.0 if lever.match in money else None,
+        )
+        for lever in outlook.leverages()
+        if lever.match in ready
+    }
+    return dict(sorted(found.items(), key=lambda one: -one[1].title))

@@ -1,0 +1,301 @@
+"""Times of day, such as 08:05, and the sentence that says when an evening ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from datetime import datetime
+from typing import Any
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.scales import form_used_words
+from evenbreak.answers.kit.wording import clock, count_of, percent
+from evenbreak.answers.tournament.tournament import Tournament, pair_words
+from evenbreak.arrays import Floats
+from evenbreak.matches.pace import Pace, Turnover
+from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.clock.finish import QUANTILES, Finish, bands_of, finish, minutes_later
+from evenbreak.tournaments.odds.races import Fairest, Race, Races
+
+_DAY = 24 * 60
+
+
+def time_of_day(minutes: float) -> str:
+    """Return minutes after midnight as a time of day.
+
+    >>> time_of_day(8 * 60 + 5), time_of_day(26 * 60 + 27.2)
+    ('08:05', '02:27')
+    """
+    moment = round(minutes) % _DAY
+    return f"{moment // 60:02d}:{moment % 60:02d}"
+
+
+def minute_of_day(moment: datetime) -> int:
+    """Return a time of day in minutes after midnight.
+
+    >>> minute_of_day(datetime(2025, 3, 1, 19, 30))
+    1170
+    """
+    return 60 * moment.hour + moment.minute
+
+
+def ends_words(early: float, middle: float, late: float) -> str:
+    """Return when something ends, all times in minutes after the midnight before it began.
+
+    >>> ends_words(23 * 60, 24 * 60 + 15, 26 * 60)
+    'It ends at about 00:15 the next day; 8 times out of 10 between 23:00 and 02:00.'
+    """
+    days = round(middle) // _DAY
+    day = {0: "", 1: " the next day"}.get(days, f" {days} days later")
+    return (
+        f"It ends at about {time_of_day(middle)}{day}; 8 times out of 10 between "
+        f"{time_of_day(early)} and {time_of_day(late)}."
+    )
+
+
+def finish_quantities(finishes: Floats, *more: Quantity) -> Quantities:
+    """Return the times of the finish and their largest standard error, and more figures.
+
+    >>> import numpy as np
+    >>> [(one.name, round(one.value)) for one in finish_quantities(np.arange(101.0)).of]
+    [('finish_p10', 10), ('finish_p50', 50), ('finish_p90', 90), ('finish_error', 5)]
+    """
+    bands, error = bands_of(finishes)
+    times = [Quantity(f"finish_p{100 * q:.0f}", at) for q, at in zip(QUANTILES, bands, strict=True)]
+    return Quantities([*times, Quantity("finish_error", error), *more])
+
+
+def finish_luck(finishes: Floats) -> str:
+    """Return by how much other luck would move the times of the finish.
+
+    >>> import numpy as np
+    >>> finish_luck(np.arange(101.0))
+    '101 evenings were played out; other luck would move the times of the finish by no more than
+    about 10 minutes.'
+    """
+    _, error = bands_of(finishes)
+    return (
+        f"{len(finishes):,} evenings were played out; other luck would move the times of the "
+        f"finish by no more than about {2.0 * error:.0f} minutes."
+    )
+
+
+def tournament_time_answer(
+    tournament: Tournament,
+    *,
+    tables: int,
+    pace: Pace | str,
+    turnover: Turnover | None = None,
+    start: int | None = None,
+    seed: int = 0,
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return when a tournament ends and when each of its matches starts.
+
+    Parameters
+    ----------
+    tournament
+        who plays what.
+    tables
+        how many tables there are.
+    pace
+        how long matches take: a discipline, at its usual pace, or a pace.
+    turnover
+        the time between two matches on a table; None: as in real events.
+    start
+        when it starts, in minutes after midnight; None: times are minutes from the start.
+    seed
+        of the evenings that are simulated.
+    warnings
+        about the question.
+
+    >>> import numpy as np
+    >>> from evenbreak.files.lists.roster import RosterFile
+    >>> from evenbreak.ratings import SCALES, Roster
+    >>> from evenbreak.tournaments import Races, double_elimination
+    >>> club = Roster(["Ann", "Bo", "Cy", "Di"], [640, 600, 560, 520])
+    >>> file = RosterFile(club, np.arange(2, 6), "club.csv", (), "")
+    >>> asked = double_elimination(club.players), Races(5), SCALES["fargo"], "as listed"
+    >>> tonight = Tournament(file, club, *asked)
+    >>> answer = tournament_time_answer(tonight, tables=2, pace="9-ball", start=19 * 60)
+    >>> print(answer.sentences[0].splitlines()[0])
+    It ends at about 22:05; 8 times out of 10 between 21:19 and 23:06.
+    """
+    asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
+    form = tournament.file.form
+    laws_now = tournament.laws_of(tournament.races, form=form)
+    found = finish(tournament.bracket, laws_now, tables=tables, **asked)
+    show = clock if start is None else (lambda minutes: time_of_day(start + minutes))
+
+    def ask(tables: int, races: Races) -> Finish:
+        laws = laws_now if races is tournament.races else tournament.laws_of(races, form=form)
+        return finish(tournament.bracket, laws, tables=tables, **asked)
+
+    changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
+    saved = (Quantity(f"minutes_saved_{what}", by) for what, by in savings(changes).items())
+    quantities = finish_quantities(found.finishes, *saved)
+    table = starts_table(found, show)
+    when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
+    words = "\n".join(filter(None, [when, savings_words(changes)]))
+    parts: list[Part] = [words, quantities, table, changes]
+    assumed = assumed_words(tables, pace, turnover)
+    unrated = tournament.unrated_words(spread=False)
+    form_words = form_used_words(form, tournament.scale)
+    lines = [tournament.byes, unrated, assumed, form_words, finish_luck(found.finishes)]
+    parts += filter(None, lines)
+    return Answer(
+        tournament.heading,
+        parts,
+        warnings=[*tournament.file.warnings, *warnings],
+        csv=table,
+    )
+
+
+def _takes(found: Finish) -> str:
+    early, middle, late = map(clock, found.bands)
+    return f"It takes about {middle}; 8 times out of 10 between {early} and {late}."
+
+
+def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
+    """Return when each match still to be played starts, soonest first."""
+    columns = [
+        Column("match", "match", left=True),
+        Column(("player_1", "player_2"), "between", " - ".join, left=True),
+        Column("start_p50", "starts\nabout", show),
+        Column(
+            ("start_p10", "start_p90"),
+            "8 times out of 10\nbetween",
+            lambda band: "" if band[0] == band[1] else f"{show(band[0])} and {show(band[1])}",
+        ),
+        Column("p_played", "is\nneeded", percent),
+    ]
+    rows: list[list[Any]] = []
+    for name in found.names:
+        players = pair_words(found.standing, name)
+        early, middle, late, played = found.start(name)
+        if played:  # some of a consolation event never are
+            rows.append([name, players, middle, (early, late), played])
+    rows.sort(key=lambda row: row[2])
+    return Table("matches", columns, rows)
+
+
+def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:
+    """Return what the times assume."""
+    of_games = (
+        f"Matches take as long as {pace} matches do in real tournaments"
+        if isinstance(pace, str)
+        else f"A game takes {pace.per_game:g} minutes on average"
+    )
+    between = "about 4 minutes" if turnover is None else f"{turnover.mean:g} minutes on average"
+    return (
+        f"{of_games}, on {count_of(tables, 'table')}, with {between} between two matches on a "
+        "table. As on most evenings, a round starts when the rounds that feed it are over; of the "
+        "matches that can start, the one with the longest way to the end goes first. Matches that "
+        "are called sooner, as soon as both players and a table are free, gain time on this."
+    )
+
+
+WORTH_SAYING = 10.0
+"""How many minutes sooner are worth a sentence."""
+
+_CHANGES = {
+    "one_more_table": "one more table",
+    "one_table_fewer": "one table fewer",
+    "races_one_shorter": "all races one game shorter",
+    "losers_races_one_shorter": "the losers' side one game shorter",
+}
+
+
+def what_if(
+    found: Finish,
+    ask: Callable[[int, Races], Finish],
+    bracket: Bracket,
+    tables: int,
+    races: Races,
+    *,
+    taken: int = 0,
+) -> Table:
+    """Return by how much changes move the end.
+
+    Parameters
+    ----------
+    found
+        when it ends as it is.
+    ask
+        when it ends with so many tables and such races.
+    bracket
+        the tournament.
+    tables, races
+        the tables and races as they are.
+    taken
+        the tables with matches under way, which cannot be taken away.
+    """
+    changes = {"one_more_table": (tables + 1, races)}
+    if tables > max(1, taken):
+        changes["one_table_fewer"] = tables - 1, races
+    if (fewer := shorter(races)) is not None:
+        changes["races_one_shorter"] = tables, fewer
+    losers = _one_less(races.race if races.losers is None else races.losers)
+    if losers is not None and any(match.side == "losers" for match in bracket.matches):
+        changes["losers_races_one_shorter"] = tables, replace(races, losers=losers)
+    rows = []
+    for key, change in changes.items():
+        later, error = minutes_later(ask(*change), found)
+        rows.append([key, f"With {_CHANGES[key]}", later, error])
+    columns = [
+        Column("change"),
+        Column("in_words", "change", left=True),
+        Column("minutes_later", "the finish\nmoves by", moves_words),
+        Column(
+            "minutes_later_error",
+            "standard\nerror",
+            lambda minutes: f"{minutes:.1f} min",
+            detail=True,
+        ),
+    ]
+    return Table("what_if", columns, rows, title="What if")
+
+
+def savings(changes: Table) -> dict[str, float]:
+    """Return by how many minutes one more table and shorter races bring the end forward."""
+    found = {row[0]: -row[2] for row in changes.rows}
+    return {key: found[key] for key in ("one_more_table", "races_one_shorter") if key in found}
+
+
+def savings_words(changes: Table) -> str:
+    """Return the changes that are worth it, in words; '' if none is."""
+    return " ".join(
+        f"With {_CHANGES[key]} it would end {clock(saved)} earlier."
+        for key, saved in savings(changes).items()
+        if saved >= WORTH_SAYING
+    )
+
+
+def moves_words(minutes: float) -> str:
+    """Return by how much the finish moves.
+
+    >>> moves_words(-72.0), moves_words(0.2)
+    ('1 h 12 earlier', '0 min')
+    """
+    if abs(minutes) < 0.5:
+        return "0 min"
+    return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"
+
+
+def shorter(races: Races) -> Races | None:
+    """Return all races one game shorter; None where they come from a chart, or one game is all."""
+    found = [_one_less(race) for race in (races.race, races.losers, races.final)]
+    given = [race for race in (races.race, races.losers, races.final) if race is not None]
+    if found.count(None) > 3 - len(given) or found[0] is None:
+        return None
+    return replace(races, race=found[0], losers=found[1], final=found[2])
+
+
+def _one_less(race: Race | None) -> Race | None:
+    match race:
+        case Fairest(race_to=games) if games > 1:
+            return Fairest(games - 1)
+        case int() if race > 1:
+            return race - 1
+    return None

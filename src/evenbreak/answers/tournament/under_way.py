@@ -1,0 +1,192 @@
+"""A tournament under way: everybody's odds from here on, and when it ends from here on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import decimals, percent
+from evenbreak.answers.tournament.chips import chip_time_answer
+from evenbreak.answers.tournament.night import begun_at, heading
+from evenbreak.answers.tournament.odds import favourite_words, how_words, odds_table
+from evenbreak.answers.tournament.prizes import stakes
+from evenbreak.answers.tournament.time import (
+    assumed_words,
+    ends_words,
+    finish_luck,
+    finish_quantities,
+    savings_words,
+    starts_table,
+    time_of_day,
+    what_if,
+)
+from evenbreak.answers.tournament.tournament import pair_words
+from evenbreak.errors import InputError
+from evenbreak.matches.pace import Turnover
+from evenbreak.tournaments.clock.event_pace import event_pace
+from evenbreak.tournaments.clock.finish import Finish
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import stage_to_draw
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.odds.races import Races
+from evenbreak.tournaments.odds.title import TitleOdds
+
+_WORTH_SAYING = 3.0  # minutes
+
+
+def odds_under_way(
+    outlook: Outlook, *, sure: bool = False, prizes: Sequence[float] = (), source: str = ""
+) -> Answer:
+    """Return each player's chance of each place, given the results and scores so far.
+
+    Parameters
+    ----------
+    outlook
+        the tournament.
+    sure
+        whether to take the ratings as right; otherwise the odds are averaged over how far those
+        with a standard error may be off.
+    prizes
+        the money for each place.
+    source
+        the name of its file, for the heading.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
+    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
+    >>> happened += (Scored("F", ("Ann", "Bo"), (4, 3)),)
+    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    >>> print(odds_under_way(Outlook(state, "2025-03-01T19:40:00")).sentences[0])
+    The favourite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
+    """
+    state, plug_in = outlook.state, outlook.as_if_sure
+    odds = plug_in if sure else outlook.odds
+    table = odds_table(state.ratings, plug_in, odds, prizes)
+    quantities = [
+        Quantity("exact", plug_in.exact and odds is plug_in),
+        Quantity("ratings_averaged", odds is not plug_in),
+    ]
+    if isinstance(odds, TitleOdds):
+        quantities = [
+            Quantity("p_second_final", odds.p_second_final),
+            Quantity("matches_mean", odds.matches_mean),
+            *quantities,
+        ]
+    parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
+    if state.standing.to_play:
+        if (at_stake := _at_stake(outlook, prizes)).rows:
+            parts.append(at_stake)
+        parts.append(how_words(plug_in, odds, outlook.walkovers, _to_draw(state)))
+    if odds is not plug_in and outlook.games:
+        parts.append(
+            "Tonight's games are taken into account: they move the ratings and narrow their errors."
+        )
+    return Answer(heading(outlook, source), parts, csv=table)
+
+
+def _to_draw(state: Evening) -> str:
+    """Return what the odds take as still to be drawn."""
+    if state.plan.form == "chips":
+        return "racks"
+    if stage_to_draw(state) is None:
+        return "rounds" if state.plan.form == "swiss" and state.standing.to_play else ""
+    return "rounds" if state.plan.form == "swiss" else "qualifiers"
+
+
+def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
+    """Return what the matches that can be played change for the title, prizes and the finish."""
+    decided = stakes(outlook, prizes)
+    found = outlook.as_things_are if decided else None
+    rows: list[list[Any]] = []
+    for name, stake in decided.items():
+        first, second = found.if_won(name) if found else (np.nan, np.nan)
+        later = None if np.isnan(first - second) else first - second
+        rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
+        if stake.prize is not None:
+            rows[-1].append(stake.prize)
+    columns = [
+        Column("match", "match", left=True),
+        Column(("player_a", "player_b"), "between", " - ".join, left=True),
+        Column("title_at_stake", "title odds\nthat move", percent),
+        Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
+    ]
+    if prizes:
+        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
+    return Table("at_stake", columns, rows, title="What the next matches decide")
+
+
+def _later(minutes: float) -> str:
+    if abs(minutes) < _WORTH_SAYING:
+        return ""
+    return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
+
+
+def time_under_way(
+    outlook: Outlook,
+    *,
+    tables: int | None = None,
+    turnover: Turnover | None = None,
+    source: str = "",
+) -> Answer:
+    """Return when the tournament ends, and when each match to come starts.
+
+    Parameters
+    ----------
+    outlook
+        the tournament.
+    tables
+        how many tables there are; None: as many as it has.
+    turnover
+        the time between two matches on a table; None: as in real events.
+    source
+        the name of its file, for the heading.
+
+    Raises
+    ------
+    InputError
+        if nothing is left to play.
+    """
+    state = outlook.state
+    if state.plan.form == "chips":
+        above = heading(outlook, source)
+        return chip_time_answer(outlook, above, tables=tables, turnover=turnover)
+    if not state.standing.to_play and stage_to_draw(state) is None:
+        raise InputError("all matches have been played")
+    usual = state.plan.tables if tables is None else tables
+
+    def ask(tables: int, races: Races) -> Finish:
+        laws = outlook.laws if races is state.races else outlook.laws_of(races)
+        return outlook.finish(laws=laws, tables=tables, turnover=turnover)
+
+    races = state.races
+    found = outlook.finish(tables=usual, turnover=turnover)
+    changes = what_if(found, ask, state.whole, usual, races, taken=len(state.on_tables))
+    if tables is None and turnover is None:
+        found = outlook.as_things_are
+    begun = begun_at(outlook)
+    quantities = finish_quantities(found.finishes)
+    table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
+    words = [ends_words(*(begun + at for at in found.bands)), savings_words(changes)]
+    parts: list[Part] = ["\n".join(filter(None, words)), quantities, table, changes]
+    parts.append(assumed_words(usual, state.plan.discipline, turnover))
+    if timed := outlook.timed:
+        parts.append(
+            f"Going by the matches called and played so far ({len(timed)}), tonight is "
+            f"{_pace_words(found, state.plan.discipline)}."
+        )
+    parts.append(finish_luck(found.finishes))
+    return Answer(
+        heading(outlook, source), parts, csv=table, data={"start": outlook.start.isoformat()}
+    )
+
+
+def _pace_words(found: Finish, discipline: str) -> str:
+    factor = found.pace.per_game / event_pace(discipline).per_game
+    if abs(factor - 1.0) < 0.005:
+        return "as fast as usual"
+    return f"{percent(abs(factor - 1.0))} {'slower' if factor > 1.0 else 'faster'} than usual"

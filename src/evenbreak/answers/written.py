@@ -1,0 +1,113 @@
+"""The demo's files: what was written, and what to try on them."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePath
+from subprocess import list2cmdline
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import listed
+
+
+def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> Answer:
+    """Return what the folder of the demo holds, and three commands to try.
+
+    Parameters
+    ----------
+    folder
+        where the files are.
+    files
+        what each of them holds.
+    new
+        those that were not there before.
+
+    >>> print(demo_answer("try", {"drill_log.csv": "a drill"}, ["drill_log.csv"]).sentences[0])
+    Wrote 1 file to try. The players are made up.
+    """
+    wrote = f"Wrote {len(new)} file{'' if len(new) == 1 else 's'} to {folder}"
+    if not new:
+        wrote = f"{folder} has all the files of the demo already"
+    league, log = (
+        list2cmdline([str(PurePath(folder, name))]) for name in ("demo_league.csv", "drill_log.csv")
+    )
+    commands = [
+        ("run a tournament", "evenbreak serve --demo"),
+        ("run a league", f"evenbreak report {league} --out sheet"),
+        ("practice", f"evenbreak drill --log {log}"),
+    ]
+    return Answer(
+        f"The demo, in {folder}",
+        [
+            f"{wrote}. The players are made up.",
+            Table(
+                "commands",
+                [
+                    Column("who", "if you", left=True),
+                    Column("command", "type", left=True, whole=True),
+                ],
+                commands,
+                "Three commands to try next:",
+            ),
+            Table(
+                "files",
+                [Column("file", "file", left=True), Column("holds", "what it holds", left=True)],
+                list(files.items()),
+            ),
+        ],
+    )
+
+
+MEANINGS = {
+    "agrees": "the computed number confirms the printed one",
+    "formula": "the printed formula gives the computed number",
+    "given": "a number that the text takes from elsewhere",
+    "derived": "the text prints nothing, or nothing that can be read",
+    "erratum": "the text is wrong, and the computed number is right",
+    "differs": "the computed number is not the one expected",
+}
+"""What a verdict on a number says."""
+
+
+def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterable[str]) -> Answer:
+    """Return how the numbers of the source text compare, and what was written.
+
+    Parameters
+    ----------
+    folder
+        where the files are.
+    verdicts
+        how many numbers have each verdict.
+    files
+        the names of the files.
+
+    >>> answer = reproduction_answer("text", {"agrees": 8, "erratum": 1}, ["index.md", "a.csv"])
+    >>> print(answer.sentences[0])
+    Of 9 numbers in the source text, 8 are confirmed and 1 is wrong in the text. Start with
+    text/index.md.
+    """
+    names = list(files)
+    total, wrong = sum(verdicts.values()), verdicts.get("erratum", 0)
+    confirmed = verdicts.get("agrees", 0) + verdicts.get("formula", 0)
+    pages = listed([f"{folder}/{name}" for name in names if name.endswith(".md")], "or")
+    tables, figures = (sum(name.endswith(kind) for name in names) for kind in (".csv", ".png"))
+    return Answer(
+        f"The source text computed anew, in {folder}",
+        [
+            f"Of {total:,} numbers in the source text, {confirmed:,} are confirmed and {wrong:,} "
+            f"{'is' if wrong == 1 else 'are'} wrong in the text. Start with {pages}.",
+            Table(
+                "verdicts",
+                [
+                    Column("verdict", "verdict", left=True),
+                    Column("numbers", "numbers"),
+                    Column("meaning", "meaning", left=True),
+                ],
+                [
+                    (verdict, verdicts[verdict], meaning)
+                    for verdict, meaning in MEANINGS.items()
+                    if verdicts.get(verdict)
+                ],
+            ),
+            Quantities([Quantity("tables", tables), Quantity("figures", figures)]),
+        ],
+    )

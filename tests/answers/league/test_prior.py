@@ -1,0 +1,51 @@
+"""What is said about the prior: newcomers, races, teams, and what each is worth."""
+
+import numpy as np
+import pytest
+
+from evenbreak.answers.league.prior import evidence_rows, group_rows, level_words, levels_data
+from evenbreak.ratings import Levels, Results, best_prior, fit
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.prior import Evidence, PriorChoice
+from simulated_levels import league
+
+SEASON = Results.from_names(
+    ["Ann", "Cy"], ["Bo", "Di"], [30, 20], [20, 30], team_a=["X", "Y"], team_b=["Y", "X"]
+)
+
+
+def test_nothing_is_said_where_nothing_is_known():
+    assert not list(level_words(fit(SEASON), None))
+    assert group_rows(fit(SEASON)) == []
+
+
+def test_teams_are_given_in_points():
+    ratings = fit(SEASON, levels=Levels(team_sd=0.4))
+    best, worst = group_rows(ratings)
+    assert (best["name"], worst["name"]) == ("X", "Y")
+    assert best["above"] == pytest.approx(-worst["above"])
+    assert f"{best['above']:.1f}" in " ".join(level_words(ratings, None))
+
+
+def test_the_error_of_an_estimate_is_given_with_it():
+    results, *_ = league(np.random.default_rng(5), below=1.0)
+    choice = best_prior(results)
+    ratings = fit(results, prior_sd=choice.prior_sd, levels=choice.levels)
+    data = levels_data(ratings, choice)
+    assert 0 < data["joined_below_standard_error"] < data["joined_below"]
+    assert f"{data['joined_below']:.1f} points below" in " ".join(level_words(ratings, choice))
+    used = {row["of"]: row["used"] for row in evidence_rows(choice)}
+    assert used["joined"]
+    assert not used["team_sd"]
+
+
+@pytest.mark.parametrize(("share", "largest"), [(1.0, False), (2.0, True)])
+def test_a_share_of_the_races_at_the_end_of_those_tried_is_called_so(share, largest):
+    season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[6])
+    sizes = (0.5, 1.0, 2.0)
+    gains = tuple(Estimate(size / 100, 0.001, 0.03) for size in sizes)
+    found = Evidence("race", sizes, gains, True, share, 0.1)
+    choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
+    (text,) = level_words(fit(season, levels=Levels(race=share)), choice)
+    assert f"differ by {share:.2f} times what their races take back, give or take 0.10" in text
+    assert ("No larger share was tried" in text) == largest

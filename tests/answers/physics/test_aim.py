@@ -1,0 +1,107 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from evenbreak.answers.physics.aim import aim_answer, aim_words, throw_answer
+from evenbreak.answers.physics.hit import IMPERIAL, METRIC, Hit
+from evenbreak.answers.physics.shot import shot_answer
+from evenbreak.errors import InputError
+from evenbreak.physics import SlipFriction, shot, strike_for_speed
+from evenbreak.physics.units import INCH
+
+INCHES = IMPERIAL.length
+MU = 4 / 72
+
+
+def hit(cut, topspin=1.0, side=0.0, mu=MU):
+    return Hit(cut, topspin, side, mu, "limited")
+
+
+def aim(cut, topspin=1.0, side=0.0, mu=MU, units=IMPERIAL, inches=36.0):
+    return aim_answer(hit(cut, topspin, side, mu), inches * INCH, units).to_dict()
+
+
+def test_the_example_of_the_text():
+    cut = math.degrees(math.asin(0.25))
+    found = aim(cut)
+    assert found["rule_offset_in"] == pytest.approx(0.5)
+    assert found["offset_in"] == pytest.approx(0.528, abs=5e-4)
+    assert found["aim_cut_deg"] - found["throw_deg"] == pytest.approx(cut)
+    left = aim(-cut)
+    for key in ("offset_in", "rule_offset_in", "aim_cut_deg"):
+        assert left[key] == pytest.approx(-found[key])
+
+
+@pytest.mark.parametrize(("topspin", "side"), [(0.0, 0.0), (1.0, 0.5), (-0.4, -0.8)])
+def test_a_ball_aimed_so_goes_where_it_should(topspin, side):
+    found = aim(20.0, topspin, side)
+    thrown = throw_answer(hit(found["aim_cut_deg"], topspin, side), IMPERIAL).to_dict()
+    assert thrown["object_cut_deg"] == pytest.approx(20.0)
+    assert found["offset_in"] == pytest.approx(
+        36 * math.tan(math.radians(found["aim_cut_deg"] - 20)), rel=1e-9
+    )
+
+
+def test_in_centimetres():
+    inches, metric = aim(20.0), aim(20.0, units=METRIC)
+    assert metric["offset_cm"] == pytest.approx(2.54 * inches["offset_in"])
+    assert metric["distance_cm"] == pytest.approx(36 * 2.54)
+    assert metric["aim_cut_deg"] == inches["aim_cut_deg"]
+    assert "offset_in" not in metric
+
+
+def test_a_cut_too_thin_for_throw_is_refused():
+    with pytest.raises(InputError, match="cut"):
+        aim(89.5)
+
+
+@pytest.mark.parametrize(
+    ("inches", "cut", "how", "words"),
+    [
+        (0.5, 0.2, hit(14.0), ("0.50 inches to the right", "thinner")),
+        (-0.5, 0.2, hit(-14.0), ("to the left", "thinner")),
+        (-0.5, 0.2, hit(14.0), ("to the left", "fuller")),
+        (-0.5, 0.2, hit(0.0), ("to the left of the middle of the pocket;",)),
+        (-2.0, -0.04, hit(1.0), ("a cut to the left",)),
+        (0.001, 0.2, hit(14.0), ("less than 0.01 inches",)),
+    ],
+)
+def test_the_advice_names_the_side(inches, cut, how, words):
+    advice = aim_words(inches * INCH, cut, how, INCHES)
+    assert all(word in advice for word in words)
+
+
+spins = st.floats(-100, 100)
+
+
+@given(st.floats(0, 85), spins, spins, st.floats(0, 0.05), st.floats(0.1, 1e5))
+def test_aims_of_all_kinds_go_where_they_should(cut, topspin, side, mu, inches):
+    found = aim(cut, topspin, side, mu, inches=inches)
+    assert found["aim_cut_deg"] - found["throw_deg"] == pytest.approx(cut, abs=1e-6)
+
+
+def test_a_hard_shot_needs_less_allowance():
+    soft, hard = (
+        aim_answer(
+            Hit(30.0, 0.0, 0.0, SlipFriction(), "limited", speed), 36 * INCH, METRIC
+        ).to_dict()
+        for speed in (1.0, 4.0)
+    )
+    assert soft["offset_cm"] > hard["offset_cm"] > 0.0
+    # The friction is that of the cut to aim for.
+    cut = math.radians(hard["aim_cut_deg"])
+    assert hard["mu"] == pytest.approx(SlipFriction().at(4.0 * math.sin(cut)))
+    assert (hard["mu_by_speed"], hard["hit_speed_m_s"]) == (True, 4.0)
+
+
+def test_english_brings_what_is_left_out_into_every_answer_about_a_line():
+    for side in (-0.3, 0.0, 0.3):
+        answers = [
+            aim_answer(hit(14.5, side=side), 0.9, METRIC),
+            shot_answer(shot(strike_for_speed(1.1, 0.0, side), 0.5, 0.5), METRIC),
+        ]
+        for answer in answers:
+            words = " ".join(answer.sentences)
+            assert ("Squirt and swerve are left out" in words) == bool(side)
