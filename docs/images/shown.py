@@ -132,15 +132,6 @@ axes.legend(fontsize=9)
             draws="chart_figure",
         ),
         Shown(
-            "front.svg",
-            "How fair a chart can be",
-            "The fairest charts for each length of match; diamonds can be beaten.",
-            "how-to/design-a-chart.md",
-            "chart design --games 5..9 --least 2:2 --pareto --beside npl_8 --beside npl_10 "
-            "--plot FILE",
-            draws="pareto_figure",
-        ),
-        Shown(
             "ladder.svg",
             "How far off ratings stay",
             "The long-run error of ratings, and how newcomers settle.",

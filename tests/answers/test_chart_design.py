@@ -1,20 +1,13 @@
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import pytest
 
 from evenbreak.answers.chart_design import MOST_LISTED, DesignTask, chart_design_answer
-from evenbreak.games import winner_breaks
-from evenbreak.handicaps import (
-    MatchRules,
-    RaceLimits,
-    chart,
-    design,
-    last_difference,
-    measure_chart,
-    nearest_chart,
-)
+from evenbreak.handicaps import RaceLimits, chart, design, last_difference, measure_chart
+from evenbreak.handicaps.charts.race_grid import games_quantiles, win_grid
+from evenbreak.ratings import SCALES
 
-NPL = MatchRules("npl")
+NPL = SCALES["npl"]
 LIMITS = RaceLimits((5, 7), weaker_least=2)
 
 
@@ -22,10 +15,8 @@ def tables(answer):
     return [part for part in answer.parts if not isinstance(part, str)]
 
 
-def test_the_rule_decides_which_chart_is_made():
-    assert DesignTask(NPL, LIMITS).design()[0] == design("npl", LIMITS)
-    nearest = DesignTask(NPL, LIMITS, rule="nearest").design()[0]
-    assert nearest.rows == nearest_chart("npl", LIMITS).rows
+def test_it_is_the_design_of_the_library():
+    assert DesignTask(NPL, LIMITS).design()[0] == design("npl", LIMITS, spread=2)
 
 
 def test_the_last_difference_comes_from_the_charts_beside():
@@ -70,30 +61,54 @@ def test_a_person_sees_the_first_of_many_other_races():
     assert str(len(every)) in tables(answer)[-1].title
 
 
-def test_games_are_those_of_the_rules():
-    rules = MatchRules("npl", win_by=2, breaks=winner_breaks, break_points=10)
-    task = DesignTask(rules, RaceLimits((5, 6)), up_to=20)
+def test_chances_and_lengths_are_those_of_the_range():
+    task = DesignTask(NPL, RaceLimits((5, 6)), up_to=20)
     made = task.design()
     rows = list(tables(chart_design_answer(task, made))[0].rows)
-    race = made[0].rows[0][2:]
-    ends = [made[0].rows[0].difference_from, made[0].rows[0].difference_to]
-    assert rows[0][1] == race
-    assert rows[0][3] == pytest.approx(rules.win([race[0]], [race[1]], ends)[0, 1])
-    assert rows[0][5] == rules.games_quantile(*race, ends, 0.9).max()
+    start, end, *race = made[0].rows[0]
+    assert rows[0][1] == tuple(race)
+    assert rows[0][3] == win_grid(NPL, [race[0]], [race[1]], [start, end])[0, 1]
+    assert rows[0][5] == games_quantiles(NPL, *race, [start, end], 0.9).max()
 
 
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
         ({}, ["5 to 7", "30 points", "0 to 52"]),
-        ({"rules": MatchRules("fargo", win_by=2)}, ["100 points", "won by 2"]),
+        ({"scale": SCALES["fargo"]}, ["100 points"]),
         ({"limits": RaceLimits((5, 7), games_p90=6)}, ["within 6"]),
         ({"rows": 1}, ["1 row"]),
-        ({"mean_games": 4.5}, ["4.5 games"]),
+        ({"limits": RaceLimits((5, 9))}, ["2 games apart"]),
         ({"target": 0.55, "tilt": 0.25}, ["55%", "tilt 0.25"]),
     ],
 )
 def test_the_heading_says_what_was_asked(changes, words):
-    heading = DesignTask(**{"rules": NPL, "limits": LIMITS, **changes}).heading(52)
+    heading = DesignTask(**{"scale": NPL, "limits": LIMITS, **changes}).heading(52)
     for word in words:
         assert word in heading
+
+
+WISHES = DesignTask(NPL, RaceLimits((5, 15), 2, 2), rows=11, up_to=90)
+
+
+def prices_of(task):
+    return chart_design_answer(task, task.design()).to_dict().get("prices", [])
+
+
+def test_each_wish_is_left_out_once():
+    this, free, *_ = prices_of(WISHES)
+    for shown, task in ((this, WISHES), (free, replace(WISHES, rows=None))):
+        made, _ = task.design()
+        measured = measure_chart(made, "npl", up_to=90)
+        assert shown["mean_unfairness"] == measured.mean_unfairness
+        assert shown["rows"] == len(made.rows)
+
+
+def test_shorter_matches_are_less_fair():
+    *_, shorter, shortest = prices_of(WISHES)
+    assert shorter["games_p90"] > shortest["games_p90"]
+    assert shorter["mean_unfairness"] < shortest["mean_unfairness"]
+
+
+def test_nothing_is_listed_where_no_wish_costs_anything():
+    assert prices_of(replace(WISHES, limits=RaceLimits((5, 7), 2, 2))) == []

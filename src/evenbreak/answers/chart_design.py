@@ -1,31 +1,31 @@
 """The fairest chart within limits, and other charts beside it."""
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
 from evenbreak.answers.chart.show import chart_rows
-from evenbreak.answers.design_prices import design_prices
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.wording import count_of, decimals, percent, race, range_words
-from evenbreak.handicaps.charts.candidates import Candidates
+from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try
-from evenbreak.handicaps.charts.match_rules import MatchRules
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
+from evenbreak.handicaps.charts.race_grid import games_quantiles, mean_games_grid, win_grid
 from evenbreak.handicaps.charts.race_limits import RaceLimits
-
-GOALS = {
-    "mean": "the smallest unfairness on average",
-    "worst": "the smallest unfairness at the worst difference",
-    "nearest": "the race nearest to even at each difference",
-}
-"""What a design aims at, by its rule."""
+from evenbreak.ratings.scale import Scale
 
 MOST_LISTED = 10
 """The most ranges with other races that a person is shown for one chart."""
+
+MOST_SHORTER = 4
+"""The most charts with shorter matches that are listed."""
+
+SPREAD = 2
+"""How much the longest matches of a printed chart's races differ, in games."""
 
 
 @dataclass(frozen=True)
@@ -34,87 +34,68 @@ class DesignTask:
 
     Parameters
     ----------
-    rules, limits, target, tilt, up_to, mean_games, rows, spread
+    scale, limits, target, tilt, up_to, rows
         as for `evenbreak.handicaps.design`.
-    rule
-        'mean' or 'worst', the criterion; or 'nearest', for `nearest_chart`.
     beside
         other charts to compare with. Unless `up_to` is given, the last difference that counts
         is the smallest `last_difference` of these.
 
-    >>> task = DesignTask(MatchRules("npl"), RaceLimits((5, 7), weaker_least=2))
+    >>> from evenbreak.ratings import SCALES
+    >>> task = DesignTask(SCALES["npl"], RaceLimits((5, 7), weaker_least=2))
     >>> task.design()[0].race(12)
     (4, 3)
     """
 
-    rules: MatchRules
+    scale: Scale
     limits: RaceLimits
-    rule: str = "mean"
     target: float = 0.5
     tilt: float = 0.5
     up_to: int | None = None
-    mean_games: float | None = None
     rows: int | None = None
-    spread: int | None = None
     beside: tuple[Chart, ...] = ()
 
     def design(self) -> tuple[Chart, int]:
-        """Return the chart that fulfils the task."""
+        """Return the chart that fulfils the task, and the last difference that counts."""
         up_to = self.up_to
         if up_to is None and self.beside:
-            up_to = min(last_difference(chart, self.rules) for chart in self.beside)
-        candidates = races_to_try(self.rules, self.limits, self.spread, up_to)
-        if isinstance(candidates, Candidates) and self.rule == "nearest":
-            made = candidates.nearest("design")
-        else:
-            made = candidates.fairest(
-                target=self.target,
-                tilt=self.tilt,
-                criterion=self.rule,
-                mean_games=self.mean_games,
-                rows=self.rows,
-            )
-        return made, int(candidates.points[-1])
+            up_to = min(last_difference(chart, self.scale) for chart in self.beside)
+        races = races_to_try(self.scale, self.limits, SPREAD, up_to)
+        made = races.fairest(target=self.target, tilt=self.tilt, rows=self.rows)
+        return made, int(races.points[-1])
 
     def heading(self, up_to: int) -> str:
         """Return what is asked for, in two lines."""
         low, high = self.limits.games
         words = [f"Races whose longest match has {low} to {high} games"]
-        if self.rules.win_by > 1:
-            words.append(f"won by {self.rules.win_by}")
-        if self.rules.break_points:
-            words.append(f"with a break worth {self.rules.break_points:g} points")
         if self.limits.games_p90 is not None:
             words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
         if self.rows is not None:
             words.append(f"at most {count_of(self.rows, 'row')}")
-        if self.spread is not None and high - low > self.spread:
-            apart = f"at most {count_of(self.spread, 'game')} apart" if self.spread else "the same"
-            words.append(f"longest matches {apart}")
-        if self.mean_games is not None:
-            words.append(f"at most {self.mean_games:g} games on average")
-        goal = GOALS[self.rule]
+        if high - low > SPREAD:
+            words.append(f"longest matches at most {SPREAD} games apart")
+        goal = "the smallest unfairness on average"
         if self.target != 0.5:
             goal += f", with a target of {percent(self.target)}"
         if self.tilt != 0.5:
             goal += f", with tilt {self.tilt:g}"
         return (
-            f"{', '.join(words)}; {self.rules.points:.4g} points double the odds of winning a "
-            f"game\nAim: {goal}, for differences from 0 to {up_to}"
+            f"{', '.join(words)}; {self.scale.points_per_doubling:.4g} points double the odds of "
+            f"winning a game\nAim: {goal}, for differences from 0 to {up_to}"
         )
 
 
 def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     """Return a designed chart beside other charts; as CSV it is a chart file.
 
-    >>> task = DesignTask(MatchRules("npl"), RaceLimits((7, 9), 5, 2), up_to=59)
+    >>> from evenbreak.ratings import SCALES
+    >>> task = DesignTask(SCALES["npl"], RaceLimits((7, 9), 5, 2), up_to=59)
     >>> print(chart_design_answer(task, task.design()).sentences[0])
     At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
     and 2.9 away on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
     """
     made, up_to = design
     ours, *theirs = (
-        measure_chart(chart, task.rules, up_to=up_to, target=task.target)
+        measure_chart(chart, task.scale, up_to=up_to, target=task.target)
         for chart in (made, *task.beside)
     )
     differing = [list(_differing(made, other, up_to)) for other in task.beside]
@@ -122,7 +103,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     for chart, one, spans in zip(task.beside, theirs, differing, strict=True):
         parts.append(_compared(chart, one, spans))
     parts.append(_rows(task, made, up_to))
-    prices = design_prices(task, made, up_to)
+    prices = _prices(task, made, up_to)
     if prices is not None:
         parts.append(prices)
     for chart, spans in zip(task.beside, differing, strict=True):
@@ -132,7 +113,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
         task.heading(up_to),
         parts,
         data={
-            "points_per_doubling": task.rules.points,
+            "points_per_doubling": task.scale.points_per_doubling,
             **asdict(ours),
             "beside": [
                 {
@@ -204,9 +185,9 @@ def _rows(task: DesignTask, made: Chart, up_to: int) -> Table:
         last = up_to if row.difference_to is None else row.difference_to
         m, n = row.stronger_needs, row.weaker_needs
         ends = [row.difference_from, last]
-        low, high = task.rules.win([m], [n], ends)[0]
-        mean = task.rules.mean_games([m], [n], ends)[0].mean()
-        p90 = task.rules.games_quantile(m, n, ends, 0.9).max()
+        low, high = win_grid(task.scale, [m], [n], ends)[0]
+        mean = mean_games_grid(task.scale, [m], [n], ends)[0].mean()
+        p90 = games_quantiles(task.scale, m, n, ends, 0.9).max()
         rows.append((row[:2], (m, n), low, high, mean, p90))
     columns = [
         Column(
@@ -234,3 +215,53 @@ def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
     ]
     rows = [(range_words(span.first, span.last), span.design, span.beside) for span in shown]
     return Table("", columns, rows, f"Where the races differ from those of {chart.name}{first}:")
+
+
+def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:
+    """Return the designed chart beside those without each wish; None if they are all the same.
+
+    Unfairness is measured from the target, whatever the tilt of the design.
+    """
+    rows = [("this chart", made)]
+    for what, other in _without_wishes(replace(task, up_to=up_to)):
+        if all(other.rows != chart.rows for _, chart in rows):
+            rows.append((what, other))
+    if len(rows) == 1:
+        return None
+    names = ("mean_unfairness", "worst_unfairness", "mean_games", "games_p90")
+    columns = [
+        Column("design", "chart", left=True),
+        Column("mean_unfairness", "unfair, on\naverage", decimals(3)),
+        Column("worst_unfairness", "at worst", decimals(3)),
+        Column("mean_games", "games, on\naverage", decimals(1)),
+        Column("games_p90", "9 of 10\nwithin"),
+        Column("rows", "rows"),
+    ]
+    measured = [
+        (what, chart, measure_chart(chart, task.scale, up_to=up_to, target=task.target))
+        for what, chart in rows
+    ]
+    return Table(
+        "prices",
+        columns,
+        [
+            (what, *(getattr(measure, name) for name in names), len(chart.rows))
+            for what, chart, measure in measured
+        ],
+        "What each wish costs. 'Unfair' is how far the stronger player's chance is from the "
+        "target:",
+    )
+
+
+def _without_wishes(task: DesignTask) -> Iterator[tuple[str, Chart]]:
+    """Yield the charts of any number of rows, and of shorter and shorter matches."""
+    if task.rows is not None:
+        yield "any number of rows", replace(task, rows=None).design()[0]
+    low, high = task.limits.games
+    limits = list(range(high - 2, low + SPREAD - 1, -2))
+    step = -(-len(limits) // MOST_SHORTER) or 1
+    for most in limits[step - 1 :: step]:
+        with suppress(InputError):  # no even race, or no chart, is that short
+            shorter = replace(task.limits, games=(low, most))
+            chart, _ = replace(task, limits=shorter).design()
+            yield f"matches of at most {count_of(most, 'game')}", chart

@@ -28,12 +28,9 @@ from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import level_chart as level_chart
 from .charts.level_scale import LevelScale as LevelScale
 from .charts.level_scale import level_scale as level_scale
-from .charts.match_rules import MatchRules as MatchRules
 from .charts.measure import ChartMeasure as ChartMeasure
 from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
-from .charts.pareto import ParetoChart as ParetoChart
-from .charts.pareto import pareto as pareto
 from .charts.played_chart import PlayedCell as PlayedCell
 from .charts.played_chart import PlayedChart as PlayedChart
 from .charts.points_audit import PointsAudit as PointsAudit

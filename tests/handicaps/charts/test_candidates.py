@@ -2,11 +2,13 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import MatchRules, RaceLimits
+from evenbreak.handicaps import RaceLimits
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
+from evenbreak.handicaps.charts.race_grid import even_differences, win_grid
+from evenbreak.ratings import SCALES
 
-NPL = MatchRules("npl")
+NPL = SCALES["npl"]
 
 
 @pytest.fixture(scope="module")
@@ -21,24 +23,23 @@ def races_of(some):
 def test_even_races_come_first_and_then_harder_and_harder_ones(candidates):
     races = races_of(candidates)
     assert races[: candidates.evens] == [(3, 3), (4, 4), (5, 5)]
-    even_at = NPL.even_differences(*np.array(races[candidates.evens :]).T)
+    even_at = even_differences(NPL, *np.array(races[candidates.evens :]).T)
     assert (np.diff(even_at) > 0).all()
     assert set(races) == set(candidates.limits.races)
 
 
 def test_the_last_difference_is_the_one_asked_for_or_where_the_hardest_race_is_even(candidates):
     assert candidates.points[-1] == 40
-    hardest = NPL.even_differences([8], [2])[0]
+    hardest = even_differences(NPL, [8], [2])[0]
     whole = Candidates(NPL, RaceLimits((5, 9), weaker_least=2))
     assert races_of(whole)[-1] == (8, 2)
     assert whole.points[-1] == np.floor(hardest)
 
 
-def test_chances_and_lengths_have_a_row_a_race_and_a_column_a_difference(candidates):
+def test_chances_have_a_row_a_race_and_a_column_a_difference(candidates):
     place = races_of(candidates).index((5, 3))
-    assert candidates.wins.shape == candidates.mean_games.shape == (len(candidates.m), 41)
-    assert candidates.wins[place, 24] == NPL.win([5], [3], [24])[0, 0]
-    assert candidates.mean_games[place, 24] == NPL.mean_games([5], [3], [24])[0, 0]
+    assert candidates.wins.shape == (len(candidates.m), 41)
+    assert candidates.wins[place, 24] == win_grid(NPL, [5], [3], [24])[0, 0]
 
 
 def test_equal_players_always_play_an_even_race(candidates):
@@ -53,22 +54,16 @@ def test_a_row_limit_that_no_chart_reaches_changes_nothing(candidates):
     assert len(candidates.fairest(rows=2).rows) == 2
 
 
-def test_the_stricter_of_two_limits_on_the_length_holds():
-    limited = Candidates(NPL, RaceLimits((5, 9), weaker_least=2, games_p90=8), up_to=40)
-    free = Candidates(NPL, RaceLimits((5, 9), weaker_least=2), up_to=40)
-    assert limited.fairest() == limited.fairest(games_p90=9) == free.fairest(games_p90=8)
+def test_a_limit_on_the_length_that_no_race_keeps_is_refused():
+    limited = Candidates(NPL, RaceLimits((5, 9), weaker_least=2, games_p90=3), up_to=40)
     with pytest.raises(NoChartError, match="games_p90 is 3"):
-        limited.fairest(games_p90=3)
+        limited.fairest()
 
 
 @pytest.mark.parametrize(
-    ("rules", "games", "up_to", "wrong"),
-    [
-        (NPL, (1, 999), None, "250000 races"),
-        (MatchRules("npl", win_by=2), (1, 99), None, "2500 races"),
-        (NPL, (5, 7), 0, "up_to is 0"),
-    ],
+    ("games", "up_to", "wrong"),
+    [((1, 999), None, "250000 races"), ((5, 7), 0, "up_to is 0")],
 )
-def test_too_much_to_try_is_refused(rules, games, up_to, wrong):
+def test_too_much_to_try_is_refused(games, up_to, wrong):
     with pytest.raises(InputError, match=wrong):
-        Candidates(rules, RaceLimits(games), up_to)
+        Candidates(NPL, RaceLimits(games), up_to)

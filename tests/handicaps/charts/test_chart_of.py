@@ -5,7 +5,6 @@ import evenbreak as eb
 from evenbreak.errors import InputError
 from evenbreak.handicaps import (
     Ladder,
-    RaceLimits,
     audit,
     audit_levels,
     chart,
@@ -15,14 +14,11 @@ from evenbreak.handicaps import (
     level_chart_of,
     match_table,
     measure_chart,
-    pareto,
     points_chart,
     system_of,
 )
 from evenbreak.handicaps.ladders.closed_league import ClosedPair
 from evenbreak.league import LeaguePlayers, Season, reestimate
-
-SHORT = RaceLimits((5, 7), weaker_least=2)
 
 
 @pytest.mark.parametrize("name", ["npl_10", "NPL-10", " npl 10 ", chart("npl_10")])
@@ -39,9 +35,6 @@ CALLS = {
     "eb.audit": lambda given: eb.audit(given),
     "measure_chart": lambda given: measure_chart(given, "npl"),
     "last_difference": lambda given: last_difference(given, "npl"),
-    "pareto": lambda given: [
-        (one.chart, one.measure) for one in pareto("npl", SHORT, beside=[given])
-    ],
     "Ladder": lambda given: Ladder("npl", given),
     "match_table": lambda given: match_table(system_of("npl"), given).chart,
     "ClosedPair": lambda given: ClosedPair("npl", given).table.chart,

@@ -6,16 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
-from evenbreak.games import winner_breaks
-from evenbreak.handicaps import (
-    MatchRules,
-    RaceLimits,
-    audit,
-    chart,
-    design,
-    measure_chart,
-    nearest_chart,
-)
+from evenbreak.handicaps import RaceLimits, audit, chart, design, measure_chart, nearest_chart
+from evenbreak.handicaps.charts.race_grid import even_differences, win_grid
+from evenbreak.ratings import SCALES, scale_of
 
 NPL = {8: (5, 7), 10: (7, 9), 12: (9, 11), 20: (17, 19)}
 """The longest matches of the races that each printed chart draws on."""
@@ -30,85 +23,53 @@ def races_of(made, differences):
     return list(zip(m.tolist(), n.tolist(), strict=True))
 
 
-def all_charts(limits, rules, up_to):
+def all_charts(limits, scale, up_to):
     """Yield every way to give differences 0, 1, ... races that get harder and harder."""
     races = limits.races
-    even = dict(
-        zip(races, rules.even_differences(*np.array(races).T).round(9).tolist(), strict=True)
-    )
+    at = even_differences(scale, *np.array(races).T).round(9).tolist()
+    even = dict(zip(races, at, strict=True))
     for path in product(races, repeat=up_to + 1):
         steps = pairwise(path)
         if path[0][0] == path[0][1] and all(a == b or even[a] < even[b] for a, b in steps):
             yield path
 
 
-def losses(path, rules, target=0.5, tilt=0.5):
+def losses(path, scale, target=0.5, tilt=0.5):
     """Return what each difference costs, by the definition."""
     cost = [0.0]
     for points, (m, n) in enumerate(path[1:], 1):
-        above = rules.win([m], [n], [points])[0, 0] - target
+        above = win_grid(scale, [m], [n], [points])[0, 0] - target
         weight = 1.0 - tilt if above > 0 else tilt
         cost.append(0.5 * abs(above) / weight)
     return cost
 
 
-def lengths(path, rules):
-    return [rules.mean_games([m], [n], [d])[0, 0] for d, (m, n) in enumerate(path)]
-
-
 SMALL = [
-    (RaceLimits((3, 5), weaker_least=2), MatchRules(2), 4),
-    (RaceLimits((3, 4)), MatchRules(1.5), 5),
-    (RaceLimits((2, 4)), MatchRules(2, breaks=winner_breaks, break_points=1), 4),
-    (RaceLimits((3, 4)), MatchRules(2, win_by=2), 4),
+    (RaceLimits((3, 5), weaker_least=2), scale_of(2), 4),
+    (RaceLimits((3, 4)), scale_of(1.5), 5),
 ]
 
 
-@pytest.mark.parametrize(("limits", "rules", "up_to"), SMALL)
+@pytest.mark.parametrize(("limits", "scale", "up_to"), SMALL)
 @pytest.mark.parametrize(("target", "tilt"), [(0.5, 0.5), (0.6, 0.5), (0.5, 0.2)])
-def test_no_chart_of_all_is_fairer(limits, rules, up_to, target, tilt):
-    every = [losses(path, rules, target, tilt) for path in all_charts(limits, rules, up_to)]
+def test_no_chart_of_all_is_fairer(limits, scale, up_to, target, tilt):
+    every = [losses(path, scale, target, tilt) for path in all_charts(limits, scale, up_to)]
     assert len(every) > 10
-    for criterion, total in (("mean", sum), ("worst", max)):
-        made = design(rules, limits, target=target, tilt=tilt, criterion=criterion, up_to=up_to)
-        ours = losses(races_of(made, range(up_to + 1)), rules, target, tilt)
-        assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
-        if criterion == "worst":
-            least = min(map(max, every)) + 1e-9
-            assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
+    made = design(scale, limits, target=target, tilt=tilt, up_to=up_to)
+    ours = losses(races_of(made, range(up_to + 1)), scale, target, tilt)
+    assert sum(ours) == pytest.approx(min(map(sum, every)), abs=1e-9)
 
 
-@pytest.mark.parametrize(("limits", "rules", "up_to"), SMALL)
+@pytest.mark.parametrize(("limits", "scale", "up_to"), SMALL)
 @pytest.mark.parametrize("rows", [1, 2, 3, 9])
-def test_no_chart_of_so_few_rows_is_fairer(limits, rules, up_to, rows):
+def test_no_chart_of_so_few_rows_is_fairer(limits, scale, up_to, rows):
     every = [
-        losses(path, rules) for path in all_charts(limits, rules, up_to) if len(set(path)) <= rows
+        losses(path, scale) for path in all_charts(limits, scale, up_to) if len(set(path)) <= rows
     ]
-    for criterion, total in (("mean", sum), ("worst", max)):
-        made = design(rules, limits, criterion=criterion, up_to=up_to, rows=rows)
-        assert len(made.rows) <= rows
-        ours = losses(races_of(made, range(up_to + 1)), rules)
-        assert total(ours) == pytest.approx(min(map(total, every)), abs=1e-9)
-        if criterion == "worst":
-            least = min(map(max, every)) + 1e-9
-            assert sum(ours) == pytest.approx(min(sum(c) for c in every if max(c) <= least))
-
-
-def test_few_rows_and_a_budget():
-    limits, rules, up_to = SMALL[1]
-    every = [
-        (np.mean(lengths(path, rules)), sum(losses(path, rules)))
-        for path in all_charts(limits, rules, up_to)
-        if len(set(path)) <= 2
-    ]
-    made = design(rules, limits, up_to=up_to, mean_games=2.7, rows=2)
-    ours = races_of(made, range(up_to + 1))
-    length = np.mean(lengths(ours, rules))
-    assert len(made.rows) <= 2
-    assert length <= 2.7
-    assert sum(losses(ours, rules)) == pytest.approx(
-        min(cost for games, cost in every if games <= length + 1e-12)
-    )
+    made = design(scale, limits, up_to=up_to, rows=rows)
+    assert len(made.rows) <= rows
+    ours = losses(races_of(made, range(up_to + 1)), scale)
+    assert sum(ours) == pytest.approx(min(map(sum, every)), abs=1e-9)
 
 
 def test_more_rows_are_never_less_fair():
@@ -123,45 +84,16 @@ def test_more_rows_are_never_less_fair():
     assert design("npl", limits, up_to=60, rows=10**9) == free
 
 
-@pytest.mark.parametrize("budget", [2.4, 2.7, 3.0])
-def test_no_chart_that_is_as_short_is_fairer(budget):
-    limits, rules, up_to = SMALL[1]
-    every = [
-        (np.mean(lengths(path, rules)), sum(losses(path, rules)))
-        for path in all_charts(limits, rules, up_to)
-    ]
-    made = races_of(design(rules, limits, up_to=up_to, mean_games=budget), range(up_to + 1))
-    length = np.mean(lengths(made, rules))
-    assert length <= budget
-    assert sum(losses(made, rules)) == pytest.approx(
-        min(cost for games, cost in every if games <= length + 1e-12)
-    )
-
-
-def test_a_budget_and_the_worst_difference():
-    limits, rules, up_to = SMALL[1]
-    every = [
-        (np.mean(lengths(path, rules)), max(losses(path, rules)))
-        for path in all_charts(limits, rules, up_to)
-    ]
-    made = design(rules, limits, up_to=up_to, mean_games=2.7, criterion="worst")
-    ours = races_of(made, range(up_to + 1))
-    assert np.mean(lengths(ours, rules)) <= 2.7
-    assert max(losses(ours, rules)) == pytest.approx(
-        min(cost for games, cost in every if games <= 2.7)
-    )
-
-
 @pytest.mark.parametrize("number", NPL)
 def test_designed_charts_are_fairer_than_the_printed_ones_of_the_same_races(number):
     printed = chart(f"npl_{number}")
     theirs = measure_chart(printed, "npl")
-    for criterion in ("mean", "worst"):
-        made = design("npl", npl_limits(number), criterion=criterion, up_to=theirs.up_to)
-        ours = measure_chart(made, "npl", up_to=theirs.up_to)
-        assert ours.worst_unfairness <= theirs.worst_unfairness
-        assert ours.mean_unfairness < theirs.mean_unfairness
-        assert ours.games_p90 <= theirs.games_p90
+    ours = measure_chart(
+        design("npl", npl_limits(number), up_to=theirs.up_to), "npl", up_to=theirs.up_to
+    )
+    assert ours.worst_unfairness <= theirs.worst_unfairness
+    assert ours.mean_unfairness < theirs.mean_unfairness
+    assert ours.games_p90 <= theirs.games_p90
 
 
 @pytest.mark.parametrize(
@@ -189,41 +121,40 @@ def test_the_nearest_races_make_the_printed_charts_but_for_these_differences(num
 def test_the_nearest_race_is_nearest_at_each_difference():
     limits = npl_limits(12)
     made = nearest_chart("npl", limits, up_to=60)
-    rules = MatchRules("npl")
     assert made.race(0) == made.race(1) == (6, 6)
     for points in range(1, 61):
         others = [race for race in limits.races if race[0] != race[1] or race == (6, 6)]
-        missed = {race: abs(rules.win(*zip(race), [points])[0, 0] - 0.5) for race in others}
+        missed = {
+            race: abs(win_grid(SCALES["npl"], *zip(race), [points])[0, 0] - 0.5) for race in others
+        }
         assert missed[made.race(points)] == pytest.approx(min(missed.values()), abs=1e-12)
 
 
 @pytest.mark.parametrize("scale", ["npl", "fargo", 400.0])
 @pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
 def test_the_audit_of_a_designed_chart_tells_its_scale_and_tilt(scale, tilt):
-    rules = MatchRules(scale)
-    made = design(rules, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
+    made = design(scale, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
     fit = audit(made).best_fit
-    assert fit.points_per_doubling == pytest.approx(rules.points, rel=0.02)
+    assert fit.points_per_doubling == pytest.approx(scale_of(scale).points_per_doubling, rel=0.02)
     assert fit.tilt == pytest.approx(tilt, abs=0.12)
 
 
 def test_at_tilt_0_the_stronger_is_never_the_underdog_and_at_1_never_the_favourite():
-    rules, points = MatchRules("npl"), np.arange(1, 40)
+    scale, points = SCALES["npl"], np.arange(1, 40)
     for tilt, sign in ((0.0, 1.0), (1.0, -1.0)):
-        made = design(rules, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)
+        made = design(scale, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)
         races = races_of(made, points)
         for d, (m, n) in zip(points.tolist(), races, strict=True):
-            others = (rules.win(*zip(race), [d])[0, 0] for race in ((5, 4), (6, 2), (8, 2)))
+            others = (win_grid(scale, *zip(race), [d])[0, 0] for race in ((5, 4), (6, 2), (8, 2)))
             if any(sign * (other - 0.5) >= 0 for other in others):
-                assert sign * (rules.win([m], [n], [d])[0, 0] - 0.5) >= -1e-9
+                assert sign * (win_grid(scale, [m], [n], [d])[0, 0] - 0.5) >= -1e-9
 
 
 def test_a_target_is_what_the_stronger_gets():
-    rules = MatchRules("fargo")
-    made = design(rules, RaceLimits((7, 15), weaker_least=2), target=0.6)
+    made = design("fargo", RaceLimits((7, 15), weaker_least=2), target=0.6)
     m, n = made.races(np.arange(40, 200))
     wins = [
-        rules.win([a], [b], [d])[0, 0]
+        win_grid(SCALES["fargo"], [a], [b], [d])[0, 0]
         for a, b, d in zip(m.tolist(), n.tolist(), range(40, 200), strict=True)
     ]
     assert np.mean(wins) == pytest.approx(0.6, abs=0.01)
@@ -237,18 +168,15 @@ def test_a_target_is_what_the_stronger_gets():
     st.floats(3, 120),
     st.floats(0.3, 0.8),
     st.floats(0, 1),
-    st.sampled_from(["mean", "worst"]),
 )
-def test_every_design_is_a_chart_within_its_limits(
-    low, more, least, scale, target, tilt, criterion
-):
+def test_every_design_is_a_chart_within_its_limits(low, more, least, scale, target, tilt):
     try:
         limits = RaceLimits((low, low + more), weaker_least=least)
     except InputError:
         return
-    made = design(scale, limits, target=target, tilt=tilt, criterion=criterion)
+    made = design(scale, limits, target=target, tilt=tilt)
     assert {row[2:] for row in made.rows} <= set(limits.races)
-    even = [MatchRules(scale).even_differences([row[2]], [row[3]])[0] for row in made.rows]
+    even = [float(even_differences(scale_of(scale), row[2], row[3])) for row in made.rows]
     assert even == sorted(even)
     assert len(set(even)) == len(even)
 
@@ -265,28 +193,22 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
 @pytest.mark.parametrize(
     ("wrong", "remedy"),
     [
+        ({"scale": "nlp"}, "give npl, fargo, elo"),
         ({"target": 2}, "target is 2"),
         ({"tilt": -1}, "tilt is -1"),
-        ({"criterion": "best"}, "criterion is 'best'"),
         ({"up_to": 0}, "up_to is 0"),
         ({"rows": 0}, "rows is 0"),
         (
             {"limits": RaceLimits((1, 99)), "rows": 60, "up_to": 400},
             "rows is 60",
         ),
-        ({"mean_games": 0}, "mean_games is 0"),
-        ({"mean_games": 2}, "mean_games is 2"),
         ({"limits": RaceLimits((5, 7), games_p90=3)}, "at a difference of 0 no allowed race"),
         ({"limits": RaceLimits((1, 999))}, "250000 races at 315 differences"),
-        (
-            {"limits": RaceLimits((1, 99)), "rules": MatchRules("npl", win_by=2)},
-            "2500 races",
-        ),
     ],
 )
 def test_wrong_wishes_are_refused(wrong, remedy):
     with pytest.raises(InputError, match=remedy):
-        design(**{"rules": "npl", "limits": RaceLimits((5, 7)), **wrong})
+        design(**{"scale": "npl", "limits": RaceLimits((5, 7)), **wrong})
 
 
 @pytest.mark.parametrize("spread", [-1, 2.5, "wide"])

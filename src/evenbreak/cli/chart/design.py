@@ -1,87 +1,129 @@
-"""`evenbreak chart design`: the fairest chart for given ratings, and what fairness costs."""
+"""`evenbreak chart design`: the fairest chart for given ratings, within limits on its races."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
 
 import click
 
+from evenbreak import handicaps
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.chart.design_options import design_options, options_named, task_of
 from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.plot import plot_option, write_plot
-from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.options import scale_option
+from evenbreak.cli.kit.systems import chart_by_difference
+from evenbreak.cli.kit.values import CHANCE, PAIR, SPAN, Number, Whole
+from evenbreak.errors import InputError
+from evenbreak.ratings.scale import Scale
 
-if TYPE_CHECKING:
-    from evenbreak.answers.chart_design import DesignTask
-    from evenbreak.handicaps.charts.chart import Chart
-
+MOST = 1_000_000
+"""The largest number of rows, games or points that an option can have."""
 
 EXAMPLES = """\b
 Examples:
   evenbreak chart design --games 7..9 --least 5:2 --beside npl_10
   evenbreak chart design --games 5..15 --scale fargo --tilt 0 > ours.csv
-  evenbreak chart design --games 17..41 --rows 10 --rule worst
-  evenbreak chart design --games 5..19 --pareto --beside npl_10
+  evenbreak chart design --games 17..41 --rows 10 --games-p90 21
 """
+
+_PARAMETER = re.compile(
+    r"\b(games_p90|up_to|rows|games|scale|target|tilt)\b(?= (?:is|are)\b)"
+    r"|(?<=\bnarrow )games\b|(?<=\blower )(?:rows|up_to)\b|(?<=\bor )up_to\b"
+)
+"""Where a message of the library names a parameter."""
 
 
 @click.command("design", epilog=EXAMPLES)
-@design_options
 @click.option(
-    "--pareto", is_flag=True, help="List what fairness costs in length, instead of one chart."
+    "--games",
+    metavar="LO..HI",
+    type=SPAN,
+    required=True,
+    help="Races whose longest possible match has LO to HI games.",
 )
-@plot_option
+@click.option(
+    "--least",
+    metavar="M:N",
+    type=PAIR,
+    default="2:2",
+    help="The fewest games that the stronger and the weaker player may need.",
+)
+@click.option(
+    "--games-p90",
+    type=Whole(1, MOST),
+    metavar="K",
+    help="9 out of 10 matches must end within K games, at every difference.",
+)
+@click.option(
+    "--rows",
+    type=Whole(1, MOST),
+    metavar="N",
+    default=12,
+    help="The chart may have at most N rows.",
+)
+@scale_option()
+@click.option(
+    "--target",
+    metavar="P",
+    type=CHANCE,
+    default=0.5,
+    help="The chance that the stronger player should have.",
+)
+@click.option(
+    "--tilt",
+    metavar="T",
+    type=Number(0.0, 1.0, "; give a number from 0 (the start of a band) to 1 (its end)"),
+    default=0.5,
+    help="Where in its band a race should be on target: 0 at the start (the stronger player is "
+    "never the underdog), 1 at the end.",
+)
+@click.option(
+    "--up-to",
+    type=Whole(1, MOST),
+    metavar="D",
+    help="The last difference that counts.  [default: where the last race of each --beside chart "
+    "is even, or else the hardest race allowed]",
+)
+@click.option(
+    "--beside",
+    metavar="NAME_OR_FILE",
+    multiple=True,
+    help="A chart to compare with; can be repeated.",
+)
 @faces()
-def command(pareto: bool, plot: str | None, **wishes: Any) -> Answer:
+def command(
+    *,
+    games: tuple[int, int],
+    least: tuple[int, int],
+    games_p90: int | None,
+    scale: Scale,
+    beside: tuple[str, ...],
+    **wishes: Any,
+) -> Answer:
     """Design the fairest chart for given ratings, within limits on its races.
 
     Unfairness is how far the stronger player's chance is from the target. Into a pipe or
     a file the chart is written as a CSV file that the other commands read.
     """
-    from evenbreak.answers.chart_design import chart_design_answer
+    from evenbreak.answers.chart_design import DesignTask, chart_design_answer
 
-    with options_named(in_minutes=wishes["minutes"] is not None):
-        task = task_of(**wishes)
-        if pareto:
-            return _pareto(task, plot)
+    charts = tuple(chart_by_difference("--beside", name) for name in beside)
+    with _options_named():
+        limits = handicaps.RaceLimits(games, *least, games_p90)
+        task = DesignTask(scale, limits, beside=charts, **wishes)
         design = task.design()
-    if plot is not None:
-        _draw(task, design[0], plot)
     return chart_design_answer(task, design)
 
 
-def _draw(task: DesignTask, made: Chart, plot: str) -> None:
-    from evenbreak.handicaps.charts.audit import audit
-    from evenbreak.plots.charts import chart_figure
-
-    if not task.rules.is_plain:
-        refuse("--plot draws plain races; leave it out, or --win-by and --breaks")
-    reports = [audit(one, scale=task.rules.scale) for one in (made, *task.beside[:1])]
-    write_plot(chart_figure(*reports), plot)
-
-
-def _pareto(task: DesignTask, plot: str | None) -> Answer:
-    from evenbreak.answers.chart_pareto import chart_pareto_answer
-    from evenbreak.handicaps.charts.pareto import pareto
-
-    if task.rule == "nearest" or task.mean_games is not None or task.tilt != 0.5:
-        refuse("--pareto tries all lengths; leave --mean-games, --tilt and --rule nearest out")
-    with Progress("charts designed") as progress:
-        charts = pareto(
-            task.rules,
-            task.limits,
-            beside=task.beside,
-            criterion=task.rule,
-            target=task.target,
-            up_to=task.up_to,
-            rows=task.rows,
-            spread=task.spread,
-            watch=progress,
-        )
-    if plot is not None:
-        from evenbreak.plots.pareto_front import pareto_figure
-
-        write_plot(pareto_figure(charts, criterion=task.rule), plot)
-    return chart_pareto_answer(task, charts)
+@contextmanager
+def _options_named() -> Iterator[None]:
+    """Name the options in errors of the design, in place of the library's parameters."""
+    try:
+        yield
+    except InputError as error:
+        text = re.sub(r"\bgames is \((\d+), (\d+)\)", r"games is \1..\2", str(error))
+        text = text.replace("raise the fewest games of the weaker player", "raise --least")
+        named = _PARAMETER.sub(lambda name: "--" + name[0].replace("_", "-"), text)
+        raise InputError(named) from error

@@ -9,31 +9,27 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.checks import number_probability, one_of, positive, whole
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.cheapest_path import (
-    NoChartError,
-    cheapest_within,
-    without_the_worst,
-)
-from evenbreak.handicaps.charts.match_rules import MatchRules
+from evenbreak.handicaps.charts.cheapest_path import NoChartError, cheapest_path
+from evenbreak.handicaps.charts.race_grid import ends_within_grid, even_differences, win_grid
 from evenbreak.handicaps.charts.race_limits import RaceLimits
 from evenbreak.handicaps.charts.rows import ChartRow
+from evenbreak.ratings.scale import Scale
 
 _TIE = 1e-12
 _MOST_CELLS = 5_000_000
 _MOST_CELLS_IN_ROWS = 20_000_000
-_MOST_ONE_BY_ONE = 400
 _HEAVIEST = 1e6
 """The weight that means 'never, unless no allowed race does better'."""
 
 
 class CostedChart(NamedTuple):
-    """A chart with what its design made as small as possible: the largest cost, then the mean."""
+    """A chart with what its design made as small as possible: the mean cost."""
 
-    cost: tuple[float, float]
+    cost: float
     chart: Chart
 
 
@@ -45,7 +41,7 @@ class Candidates:
 
     Parameters
     ----------
-    rules, limits, up_to
+    scale, limits, up_to
         as for `design`.
 
     Raises
@@ -53,20 +49,16 @@ class Candidates:
     InputError
         if `up_to` is not a whole number from 1 up, or there are too many races to try.
 
-    >>> candidates = Candidates(MatchRules("npl"), RaceLimits((3, 5), weaker_least=2), 30)
+    >>> from evenbreak.ratings import SCALES
+    >>> candidates = Candidates(SCALES["npl"], RaceLimits((3, 5), weaker_least=2), 30)
     >>> list(zip(candidates.m.tolist(), candidates.n.tolist())), candidates.evens
     ([(2, 2), (3, 3), (3, 2), (4, 2)], 2)
     """
 
-    def __init__(self, rules: MatchRules, limits: RaceLimits, up_to: int | None = None) -> None:
-        self.rules, self.limits = rules, limits
+    def __init__(self, scale: Scale, limits: RaceLimits, up_to: int | None = None) -> None:
+        self.scale, self.limits = scale, limits
         m, n = np.array(limits.races).T
-        if not rules.is_plain and m.size > _MOST_ONE_BY_ONE:
-            raise InputError(
-                f"games is {limits.games!r}, which makes {m.size} races; if they are won by more "
-                f"than 1, or the break matters, the most is {_MOST_ONE_BY_ONE}: narrow games"
-            )
-        even = rules.even_differences(m, n)
+        even = even_differences(scale, m, n)
         last = (
             max(math.floor(even.max() + _TIE), 1)
             if up_to is None
@@ -84,12 +76,7 @@ class Candidates:
     @cached_property
     def wins(self) -> Floats:
         """P(the stronger player wins), shape (races, differences)."""
-        return self.rules.win(self.m, self.n, self.points)
-
-    @cached_property
-    def mean_games(self) -> Floats:
-        """The mean length in games, shape (races, differences)."""
-        return self.rules.mean_games(self.m, self.n, self.points)
+        return win_grid(self.scale, self.m, self.n, self.points)
 
     def fairest(self, **wishes: Any) -> Chart:
         """Return the fairest chart of these races, as `design` does; parameters as for `best`."""
@@ -100,44 +87,21 @@ class Candidates:
         *,
         target: float = 0.5,
         tilt: float = 0.5,
-        criterion: str = "mean",
-        mean_games: float | None = None,
-        games_p90: int | None = None,
         rows: int | None = None,
         name: str = "design",
     ) -> CostedChart:
-        """Return the fairest chart of these races, and its cost.
-
-        Parameters
-        ----------
-        games_p90
-            a limit on the 90% length, in addition to that of the limits.
-
-        The others are those of `design`.
-        """
-        target, tilt = number_probability(target, "target"), number_probability(tilt, "tilt")
-        criterion = one_of(criterion, "criterion", ("mean", "worst"))
-        budget = math.inf if mean_games is None else positive(mean_games, "mean_games")
-        rows = self._row_limit(rows)
-        cost = self._cost(target, tilt)
-        for most in {self.limits.games_p90, games_p90} - {None}:
-            cost = np.where(self._short_enough(most), cost, np.inf)
-        length = self.mean_games if budget < math.inf else np.zeros_like(cost)
-        length = np.where(np.isfinite(cost), length, np.inf)
-        if criterion == "worst":
-            cost = without_the_worst(cost, length, self.evens, budget, rows)
-        path = cheapest_within(cost, length, self.evens, budget, rows)
-        paid = cost[path, np.arange(path.size)]
-        worst = float(paid.max()) if criterion == "worst" else 0.0
-        return CostedChart((worst, float(paid.mean())), self._chart(path, name))
+        """Return the fairest chart of these races, and its cost; parameters as for `design`."""
+        cost = self._within_limits(
+            self._cost(number_probability(target, "target"), number_probability(tilt, "tilt"))
+        )
+        path = cheapest_path(cost, self.evens, self._row_limit(rows))
+        return CostedChart(float(cost[path, np.arange(path.size)].mean()), self._chart(path, name))
 
     def nearest(self, name: str) -> Chart:
         """Return the chart with the race nearest 1/2 at each difference (`nearest_chart`)."""
         cost = self._cost(0.5, 0.5)
         cost[: self.evens - 1] = np.inf
-        if self.limits.games_p90 is not None:
-            cost = np.where(self._short_enough(self.limits.games_p90), cost, np.inf)
-        return self._chart(cost.argmin(axis=0), name)
+        return self._chart(self._within_limits(cost).argmin(axis=0), name)
 
     def _row_limit(self, rows: Any) -> int | None:
         """Return the limit on the rows; None where no chart of these races could exceed it."""
@@ -163,16 +127,20 @@ class Candidates:
         cost[:, 0] = np.where(np.arange(self.m.size) < self.evens, 0.0, np.inf)
         return cost
 
-    def _short_enough(self, games: Any) -> Bools:
-        """Return at which differences each race ends within `games` in 9 of 10 matches."""
-        short = self.rules.ends_within(self.m, self.n, self.points, games) >= 0.9 - _TIE
+    def _within_limits(self, cost: Floats) -> Floats:
+        """Return the costs, infinite where a match ends too late in more than 1 of 10 cases."""
+        games = self.limits.games_p90
+        if games is None:
+            return cost
+        ended = ends_within_grid(self.scale, self.m, self.n, self.points, games)
+        short = ended >= 0.9 - _TIE
         if not short.any(axis=0).all() or not short[: self.evens, 0].any():
             nowhere = int(self.points[~short.any(axis=0)][0]) if short[: self.evens, 0].any() else 0
             raise NoChartError(
                 f"games_p90 is {games}, but at a difference of {nowhere} no allowed race ends "
                 "within that in 9 of 10 matches; give more, or allow shorter races"
             )
-        return np.asarray(short)
+        return np.where(short, cost, np.inf)
 
     def _chart(self, path: Ints, name: str) -> Chart:
         """Return the chart with, at each difference, the race at that place of the list."""

@@ -8,8 +8,6 @@ total is then kept for each number of rows used so far.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
@@ -20,10 +18,15 @@ class NoChartError(InputError):
     """No chart keeps the limits."""
 
 
-def _cheapest(cost: Floats, evens: int, rows: int | None) -> Ints:
+def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
     """Return the path of least total cost, as the place of a race for each difference.
 
     It has at most `rows` different races; any number of them if that is None.
+
+    Raises
+    ------
+    NoChartError
+        if every path has an infinite cost.
     """
     races, differences = cost.shape
     best = np.empty((differences, rows or 1, races))  # in that many rows, or fewer
@@ -52,61 +55,3 @@ def _cheapest(cost: Floats, evens: int, rows: int | None) -> Ints:
                 here, left = easiest, fewer
         path[d - 1] = here
     return path
-
-
-def _mean(values: Floats, path: Ints) -> float:
-    return float(values[path, np.arange(path.size)].mean())
-
-
-def cheapest_within(
-    cost: Floats, length: Floats, evens: int, budget: float, rows: int | None = None
-) -> Ints:
-    """Return a path within a budget for the mean length, the cheapest of all no longer than it.
-
-    Each game is given a price, the lowest at which the cheapest path keeps the budget. `rows`
-    limits the number of different races; None: no limit.
-    """
-    path = _cheapest(cost, evens, rows)
-    if _mean(length, path) <= budget:
-        return path
-    price, path = math.inf, _cheapest(length, evens, rows)
-    shortest = _mean(length, path)
-    if shortest > budget:
-        raise NoChartError(
-            f"mean_games is {budget:g}, but the shortest chart within the limits has a mean of "
-            f"{shortest:.2f} games; give that or more, or allow shorter races"
-        )
-    low, high = 0.0, 1.0
-    for _ in range(50):
-        middle = high if price == math.inf else (low + high) / 2.0
-        tried = _cheapest(np.where(np.isfinite(cost), cost + middle * length, np.inf), evens, rows)
-        if _mean(length, tried) <= budget:
-            price = high = middle
-            path = tried
-        elif price == math.inf:
-            low, high = high, 4.0 * high
-        else:
-            low = middle
-    return path
-
-
-def without_the_worst(
-    cost: Floats, length: Floats, evens: int, budget: float, rows: int | None = None
-) -> Floats:
-    """Return the costs, made infinite where they exceed the smallest possible largest cost."""
-    levels = np.unique(cost[np.isfinite(cost)])
-    low, high = 0, len(levels) - 1
-    while low < high:
-        middle = (low + high) // 2
-        if _keeps(np.where(cost <= levels[middle], length, np.inf), evens, budget, rows):
-            high = middle
-        else:
-            low = middle + 1
-    return np.where(cost <= levels[low], cost, np.inf)
-
-
-def _keeps(length: Floats, evens: int, budget: float, rows: int | None) -> bool:
-    try:
-        return _mean(length, _cheapest(length, evens, rows)) <= budget
-    except NoChartError:
-        return False

@@ -17,20 +17,18 @@ from typing import Any
 from evenbreak.checks import whole
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.match_rules import match_rules
 from evenbreak.handicaps.charts.race_limits import RaceLimits
 from evenbreak.handicaps.charts.similar_lengths import SimilarLengths
+from evenbreak.ratings.scale import scale_of
 
 
 def design(
-    rules: Any,
+    scale: Any,
     limits: RaceLimits,
     *,
     target: float = 0.5,
     tilt: float = 0.5,
-    criterion: str = "mean",
     up_to: int | None = None,
-    mean_games: float | None = None,
     rows: int | None = None,
     spread: int | None = None,
     name: str = "design",
@@ -39,9 +37,8 @@ def design(
 
     Parameters
     ----------
-    rules
-        what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
-        odds; or a `MatchRules`, which also says how a match is won and who breaks.
+    scale
+        what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the odds.
     limits
         which races the chart may hold.
     target
@@ -51,15 +48,10 @@ def design(
         (the stronger player never has a smaller chance, if an allowed race makes that
         possible), 1 at the end (never a larger one). Each point of chance above the target
         costs 1 / (2 - 2 tilt), each point below it 1 / (2 tilt); both are 1 at tilt 1/2.
-    criterion
-        'mean' makes the mean cost over the whole-point differences from 0 to `up_to` as
-        small as possible; 'worst' the largest cost, then the mean.
     up_to
         the last difference that counts; None for the one at which the hardest allowed race
-        is even (W = 1/2).
-    mean_games
-        the largest mean length over those differences, in games. The chart is then the
-        fairest of all charts no longer than itself; it may be shorter than this limit.
+        is even (W = 1/2). The mean cost over the whole-point differences from 0 to this one is
+        as small as possible.
     rows
         the most rows it may have; None for any number.
     spread
@@ -89,28 +81,23 @@ def design(
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 3, 3), (8, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2)]
     """
-    return races_to_try(rules, limits, spread, up_to).fairest(
-        target=target,
-        tilt=tilt,
-        criterion=criterion,
-        mean_games=mean_games,
-        rows=rows,
-        name=name,
+    return races_to_try(scale, limits, spread, up_to).fairest(
+        target=target, tilt=tilt, rows=rows, name=name
     )
 
 
 def races_to_try(
-    rules: Any, limits: RaceLimits, spread: int | None, up_to: int | None
+    scale: Any, limits: RaceLimits, spread: int | None, up_to: int | None
 ) -> Candidates | SimilarLengths:
     """Return the races that a design tries, all together or in groups of similar length."""
     low, high = limits.games
     if spread is None or high - low <= whole(spread, "spread"):
-        return Candidates(match_rules(rules), limits, up_to)
-    return SimilarLengths(match_rules(rules), limits, spread, up_to)
+        return Candidates(scale_of(scale), limits, up_to)
+    return SimilarLengths(scale_of(scale), limits, spread, up_to)
 
 
 def nearest_chart(
-    rules: Any, limits: RaceLimits, *, up_to: int | None = None, name: str = "nearest"
+    scale: Any, limits: RaceLimits, *, up_to: int | None = None, name: str = "nearest"
 ) -> Chart:
     """Return the chart that has at each difference the race with W nearest 1/2.
 
@@ -120,7 +107,7 @@ def nearest_chart(
 
     Parameters
     ----------
-    rules, limits, up_to, name
+    scale, limits, up_to, name
         as for `design`.
 
     Notes
@@ -132,4 +119,4 @@ def nearest_chart(
     >>> [(row.difference_from, *row[2:]) for row in chart.rows]
     [(0, 4, 4), (7, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2), (49, 6, 2)]
     """
-    return Candidates(match_rules(rules), limits, up_to).nearest(name)
+    return Candidates(scale_of(scale), limits, up_to).nearest(name)

@@ -11,7 +11,13 @@ import numpy as np
 from evenbreak.checks import number_probability, whole
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.charts.match_rules import match_rules
+from evenbreak.handicaps.charts.race_grid import (
+    even_differences,
+    games_quantiles,
+    mean_games_grid,
+    win_grid,
+)
+from evenbreak.ratings.scale import scale_of
 
 _TIE = 1e-9
 
@@ -45,7 +51,7 @@ class ChartMeasure:
     games_p90: int
 
 
-def last_difference(chart: Chart | str, rules: Any) -> int:
+def last_difference(chart: Chart | str, scale: Any) -> int:
     """Return the last whole-point difference at which the chart's last race is not too easy.
 
     There the race of the open-ended last row is even; beyond it the stronger player is the
@@ -55,12 +61,12 @@ def last_difference(chart: Chart | str, rules: Any) -> int:
     52
     """
     row = chart_of(chart).rows[-1]
-    even = float(match_rules(rules).even_differences([row.stronger_needs], [row.weaker_needs])[0])
-    return max(math.floor(even + _TIE), 1)
+    even = even_differences(scale_of(scale), row.stronger_needs, row.weaker_needs)
+    return max(math.floor(float(even) + _TIE), 1)
 
 
 def measure_chart(
-    chart: Chart | str, rules: Any, *, up_to: int | None = None, target: float = 0.5
+    chart: Chart | str, scale: Any, *, up_to: int | None = None, target: float = 0.5
 ) -> ChartMeasure:
     """Return how fair and how long a chart's matches are.
 
@@ -68,10 +74,10 @@ def measure_chart(
     ----------
     chart
         a chart by rating difference, or its name in `CHARTS`.
-    rules
-        what ratings mean and how matches are played, as for `design`.
+    scale
+        what ratings mean, as for `design`.
     up_to
-        the last difference that counts; None for `last_difference(chart, rules)`.
+        the last difference that counts; None for `last_difference(chart, scale)`.
     target
         the chance that the stronger player should have.
 
@@ -86,9 +92,9 @@ def measure_chart(
     >>> round(measured.mean_games, 2), measured.games_p90
     (6.68, 9)
     """
-    rules, chart = match_rules(rules), chart_of(chart)
+    scale, chart = scale_of(scale), chart_of(chart)
     target = number_probability(target, "target")
-    last = last_difference(chart, rules) if up_to is None else whole(up_to, "up_to", at_least=1)
+    last = last_difference(chart, scale) if up_to is None else whole(up_to, "up_to", at_least=1)
     unfair, mean_games, games_p90 = [], [], 0
     for row in chart.rows:
         end = last if row.difference_to is None else min(last, row.difference_to)
@@ -96,9 +102,9 @@ def measure_chart(
             break
         points = np.arange(row.difference_from, end + 1)
         race = [row.stronger_needs], [row.weaker_needs]
-        unfair.append(np.abs(rules.win(*race, points)[0] - target))
-        mean_games.append(rules.mean_games(*race, points)[0])
-        games_p90 = max(games_p90, int(rules.games_quantile(*row[2:], points, 0.9).max()))
+        unfair.append(np.abs(win_grid(scale, *race, points)[0] - target))
+        mean_games.append(mean_games_grid(scale, *race, points)[0])
+        games_p90 = max(games_p90, int(games_quantiles(scale, *row[2:], points, 0.9).max()))
     missed = np.concatenate(unfair)
     missed[0] = 0.0
     return ChartMeasure(

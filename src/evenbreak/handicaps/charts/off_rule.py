@@ -13,8 +13,9 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.match_rules import match_rules
+from evenbreak.handicaps.charts.race_grid import win_grid
 from evenbreak.handicaps.charts.rows import ChartRow
+from evenbreak.ratings.scale import scale_of
 
 
 class OffRule(NamedTuple):
@@ -38,14 +39,14 @@ class OffRule(NamedTuple):
     nearest_win: float
 
 
-def off_rule(chart: Chart, rules: Any) -> tuple[OffRule, ...]:
+def off_rule(chart: Chart, scale: Any) -> tuple[OffRule, ...]:
     """Return the differences at which another race of the chart has W nearer to 1/2.
 
     Parameters
     ----------
     chart
         the chart; past the start of its last row nothing is looked at, as its hardest race stays.
-    rules
+    scale
         what ratings mean, as for `design`.
 
     Notes
@@ -60,7 +61,7 @@ def off_rule(chart: Chart, rules: Any) -> tuple[OffRule, ...]:
     (0.582, 0.428)
     """
     races = [(row.stronger_needs, row.weaker_needs) for row in chart.rows]
-    wins = _wins(chart, rules)
+    wins = _wins(chart, scale)
     nearest = np.abs(wins - 0.5).argmin(axis=0).tolist()
     return tuple(
         OffRule(
@@ -75,14 +76,14 @@ def off_rule(chart: Chart, rules: Any) -> tuple[OffRule, ...]:
     )
 
 
-def nearest_rows(chart: Chart, rules: Any) -> tuple[ChartRow, ...]:
+def nearest_rows(chart: Chart, scale: Any) -> tuple[ChartRow, ...]:
     """Return the chart with each race where the rule has it: the race with W nearest 1/2.
 
     >>> from evenbreak.handicaps import chart
     >>> [(row.difference_from, *row[2:]) for row in nearest_rows(chart("npl_8"), "npl")]
     [(0, 4, 4), (7, 4, 3), (20, 5, 3), (29, 4, 2), (40, 5, 2), (49, 6, 2)]
     """
-    nearest = np.abs(_wins(chart, rules) - 0.5).argmin(axis=0).tolist()
+    nearest = np.abs(_wins(chart, scale) - 0.5).argmin(axis=0).tolist()
     rows: list[ChartRow] = []
     for place, run in groupby(enumerate(nearest), key=lambda pair: pair[1]):
         differences = [difference for difference, _ in run]
@@ -95,11 +96,11 @@ def nearest_rows(chart: Chart, rules: Any) -> tuple[ChartRow, ...]:
     return tuple(rows)
 
 
-def _wins(chart: Chart, rules: Any) -> Floats:
+def _wins(chart: Chart, scale: Any) -> Floats:
     """Return P(the stronger player wins) by race and difference, up to past the last row's start.
 
     The last race is even further out than the one before it, so it is the nearest from there on.
     """
     last = chart.rows[-1].difference_from + 10
     m, n = np.array([(row.stronger_needs, row.weaker_needs) for row in chart.rows]).T
-    return match_rules(rules).win(m, n, np.arange(last + 1))
+    return win_grid(scale_of(scale), m, n, np.arange(last + 1))

@@ -30,7 +30,7 @@ class RaceLimits:
     Parameters
     ----------
     games
-        (lo, hi): the races m:n whose longest match, m + n - 1 games if won by 1, has lo to
+        (lo, hi): the races m:n whose longest match, m + n - 1 games, has lo to
         hi games.
     stronger_least, weaker_least
         the fewest games that the stronger and the weaker player may need. The stronger

@@ -16,14 +16,14 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.candidates import Candidates
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.cheapest_path import NoChartError
-from evenbreak.handicaps.charts.match_rules import MatchRules
 from evenbreak.handicaps.charts.race_limits import RaceLimits
+from evenbreak.ratings.scale import Scale
 
 
 def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
     """Return limits for each group of races whose longest matches differ by `spread` at most.
 
-    >>> [one.games for one in similar_limits(RaceLimits((5, 9)), 2)]
+    >>> [alike.games for alike in similar_limits(RaceLimits((5, 9)), 2)]
     [(5, 7), (6, 8), (7, 9)]
     """
     spread, (low, high) = whole(spread, "spread"), limits.games
@@ -43,32 +43,33 @@ class SimilarLengths:
 
     Parameters
     ----------
-    rules, limits, up_to
+    scale, limits, up_to
         as for `Candidates`; without `up_to` all groups go to where the hardest race of any of
         them is even.
     spread
         how much the longest matches of a chart's races may differ, in games.
 
-    >>> groups = SimilarLengths(MatchRules("npl"), RaceLimits((5, 9), weaker_least=2), 2)
+    >>> from evenbreak.ratings import SCALES
+    >>> groups = SimilarLengths(SCALES["npl"], RaceLimits((5, 9), weaker_least=2), 2)
     >>> [row[2:] for row in groups.fairest(rows=4).rows]
     [(3, 3), (4, 3), (4, 2), (6, 2)]
     """
 
     def __init__(
-        self, rules: MatchRules, limits: RaceLimits, spread: Any, up_to: int | None = None
+        self, scale: Scale, limits: RaceLimits, spread: Any, up_to: int | None = None
     ) -> None:
-        self.points: Ints = Candidates(rules, limits, up_to).points
+        self.points: Ints = Candidates(scale, limits, up_to).points
         last = int(self.points[-1])
-        self.groups = [Candidates(rules, one, last) for one in similar_limits(limits, spread)]
+        self.groups = [Candidates(scale, alike, last) for alike in similar_limits(limits, spread)]
 
     def fairest(self, *, name: str = "design", **wishes: Any) -> Chart:
         """Return the fairest chart that any of the groups makes, as `Candidates.fairest` does."""
-        found, refused = [], []
+        charts, refused = [], []
         for group in self.groups:
             try:
-                found.append(group.best(name=name, **wishes))
+                charts.append(group.best(name=name, **wishes))
             except NoChartError as error:
                 refused.append(error)
-        if not found:
+        if not charts:
             raise refused[0]  # that of the shortest races, whose remedy goes furthest
-        return min(found, key=lambda one: one.cost).chart
+        return min(charts, key=lambda costed: costed.cost).chart
