@@ -107,7 +107,7 @@ def command(
     Unfairness is how far the stronger player's chance is from the target. Into a pipe or
     a file the chart is written as a CSV file that the other commands read.
     """
-    from evenbreak.answers.chart_design import DesignTask, chart_design_answer
+    from evenbreak.answers.chart.design import DesignTask, chart_design_answer
 
     charts = tuple(chart_by_difference("--beside", name) for name in beside)
     with _options_named():

@@ -2,7 +2,7 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from evenbreak.answers.chart_design import MOST_LISTED, DesignTask, chart_design_answer
+from evenbreak.answers.chart.design import MOST_LISTED, DesignTask, chart_design_answer
 from evenbreak.handicaps import RaceLimits, chart, design, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_grid import games_quantiles, win_grid
 from evenbreak.ratings import SCALES
