@@ -7,13 +7,13 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-drift lint types test tries lowest layers docs reports drift bench browse browser \
+.PHONY: check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: docs lowest browse types lint check-drift   ## what CI checks after the tests, side by side
+check-rest: slow docs lowest doctests types lint check-drift   ## what CI checks after the tests, side by side
 
 check-drift: docs   ## what the pages are made of is made again once they are done
 	$(MAKE) drift
@@ -25,12 +25,17 @@ lint:
 types:
 	$(PYTHON) -m mypy
 
-test:             ## tests and every docstring's, README's and page's example
-	$(PYTHON) -m pytest -q -n logical
+test:             ## the tests that are not slow
+	$(PYTHON) -m pytest -q -n logical -m "not slow"
 
-tries:            ## 200 or more of each attack in tests/tries.md; takes an hour
-	EVENBREAK_TRIES=200 $(PYTHON) -m pytest -q -n logical \
-		$$(grep -rlE '\btries\("|who_may' tests --include='test_*.py')
+slow:             ## what else CI runs: kills, other processes, whole evenings, large studies, a real browser
+	EVENBREAK_TIER=ci PYTHON=$(PYTHON) .ci/browse -n logical -m "slow and not thorough"
+
+thorough:         ## before a release: 200 or more of each attack in tests/tries.md, evenings in a browser; takes hours
+	EVENBREAK_TIER=thorough EVENBREAK_TRIES=200 PYTHON=$(PYTHON) .ci/browse -n logical -m "thorough or drawn"
+
+doctests:         ## the examples in the docstrings of the sources
+	$(PYTHON) -m pytest -q -n logical src
 
 lowest:           ## tests that lean on other libraries, at the lowest versions declared
 	$(PYTHON) -m venv .venv-lowest
@@ -63,12 +68,6 @@ DRAWN = docs/images docs/gallery.md docs/_static/essentials.html
 drift: reports    ## fail if what is committed is not what the scripts make
 	git diff --exit-code -- reports data $(DRAWN)
 	test -z "$$(git status --porcelain -- reports data $(DRAWN))"
-
-browse:           ## the page in a real browser, where there is one or it may be installed
-	PYTHON=$(PYTHON) .ci/browse tests/web/test_browser.py
-
-browser:          ## the same with whole evenings, by phones with and without JavaScript
-	PYTHON=$(PYTHON) .ci/browse tests/web/test_browser*.py
 
 page-pictures:    ## the README's and the tutorial's pictures of the page, in a real browser
 	$(PYTHON) docs/images/page_pictures.py

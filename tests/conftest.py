@@ -3,15 +3,30 @@
 import os
 import signal
 
-from hypothesis import settings
+import pytest
+from hypothesis import is_hypothesis_test, settings
+
+from tiers import examples
 
 # Tests run beside each other; threads of one would wait for those of another.
 for library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 # A slow machine is no failure, and a failure must come again on the next machine.
-settings.register_profile("evenbreak", deadline=None, derandomize=True, max_examples=20)
+settings.register_profile("evenbreak", deadline=None, derandomize=True, max_examples=examples(20))
 settings.load_profile("evenbreak")
 
 # A shell's background jobs ignore Ctrl-C, and so would every program that a test starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(tryfirst=True)  # before marks select
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what is thorough as slow, and what is drawn at random as such."""
+    for item in items:
+        if item.get_closest_marker("thorough"):
+            item.add_marker("slow")
+        if not isinstance(item, pytest.Function):
+            continue
+        if hasattr(item.module, "tries") or is_hypothesis_test(item.obj):
+            item.add_marker("drawn")

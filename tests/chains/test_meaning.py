@@ -16,6 +16,7 @@ from evenbreak.chains import (
     stochastic_limit,
 )
 from evenbreak.games import Ahead, Drill, OneBall, Rack, Series, alternate_breaks, winner_breaks
+from tiers import examples
 
 
 def ring(n: int) -> list[tuple[int, int, float]]:
@@ -110,7 +111,7 @@ def chains(draw: st.DrawFn) -> list[tuple[int, int, float]]:
     return triples or [(0, 0, 1.0)]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(chains())
 def test_limits_of_any_small_chain(triples: list[tuple[int, int, float]]) -> None:
     chain = chain_of(triples)
@@ -127,7 +128,7 @@ def test_limits_of_any_small_chain(triples: list[tuple[int, int, float]]) -> Non
         assert absorption(chain, state).sum() == pytest.approx(1.0, abs=1e-14)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(chains())
 def test_the_limit_is_the_average_of_one_period_of_powers(
     triples: list[tuple[int, int, float]],

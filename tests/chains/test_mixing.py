@@ -14,6 +14,7 @@ from evenbreak.chains.mixing import (
 )
 from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import Ahead, OneBall, Race, Rack
+from tiers import examples
 
 
 def walk(n, stay=0.0):
@@ -140,7 +141,7 @@ class TestGap:
 
 
 class TestMixingTime:
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=examples(40), deadline=None)
     @given(st.integers(0, 2**32 - 1), st.sampled_from([0.4, 0.1, 1e-3]))
     def test_by_brute_force(self, seed, eps):
         rng = np.random.default_rng(seed)

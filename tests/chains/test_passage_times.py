@@ -11,6 +11,7 @@ from evenbreak.chains import chain_from_arrays, chain_of
 from evenbreak.chains.passage_times import first_passage, steps_to_absorption
 from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import Ahead, OneBall, Race, Rack, alternate_breaks, winner_breaks
+from tiers import examples
 
 
 @st.composite
@@ -176,7 +177,7 @@ class TestFirstPassage:
         assert won.p_reached == pytest.approx(exact, rel=1e-12, abs=0)
         assert won.mean_if_reached == pytest.approx((n - 1) * (r + 1) / (r - 1), rel=1e-2)
 
-    @settings(max_examples=40)
+    @settings(max_examples=examples(40))
     @given(chains(), st.integers(0, 5), st.integers(0, 5))
     def test_against_fractions(self, chain, start, target):
         start, target = start % len(chain), target % len(chain)
@@ -189,7 +190,7 @@ class TestFirstPassage:
         )
         assert chances.sum() + tail + passage.p_never == pytest.approx(1.0, abs=1e-13)
 
-    @settings(max_examples=40)
+    @settings(max_examples=examples(40))
     @given(chains(), st.integers(0, 5), st.integers(0, 5))
     def test_moments_are_those_of_the_distribution(self, chain, start, target):
         passage = first_passage(chain, start % len(chain), target % len(chain))

@@ -12,6 +12,7 @@ from evenbreak.chains import chain_from_arrays, chain_of, stochastic_limit
 from evenbreak.chains.powers import propagate
 from evenbreak.errors import InputError
 from evenbreak.games import OneBall
+from tiers import examples
 
 
 @st.composite
@@ -27,7 +28,7 @@ def chains(draw):
 class TestManySteps:
     """Beyond what can be followed step by step: squares of M, or a refusal."""
 
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=examples(40), deadline=None)
     @given(chains())
     def test_squares_are_as_good_as_steps(self, chain):
         """1000 steps of so few states are squared; a path never is."""
@@ -95,7 +96,7 @@ class TestPropagate:
             exact = M @ exact
         assert np.array_equal(path[-1], propagate(chain, 0, steps))
 
-    @settings(max_examples=25)
+    @settings(max_examples=examples(25))
     @given(chains())
     def test_the_average_over_a_period_tends_to_the_limit(self, chain):
         limit = stochastic_limit(chain, 0)

@@ -12,6 +12,7 @@ from evenbreak.chains.sensitivity import sensitivity
 from evenbreak.chains.symbolic import symbolic_limit
 from evenbreak.errors import ChainError
 from evenbreak.games import OneBall, Race, Rack, Series, alternate_breaks, winner_breaks
+from tiers import examples
 
 
 def exact_derivatives(arcs, start, weights):
@@ -141,7 +142,7 @@ def value(n, j, i, p, c):
     return stochastic_limit(chain_from_arrays(list(range(n)), j, i, p), 0).probability @ c
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(problems())
 def test_central_differences(problem):
     n, j, i, p, c = problem
@@ -164,7 +165,7 @@ def test_central_differences(problem):
         assert along == pytest.approx(found[int(j[k]), int(i[k])], rel=1e-9, abs=1e-9)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(problems())
 def test_the_changes_of_a_state_cancel(problem):
     """Raising every arc of a state in proportion changes nothing: sum p (1 - p) dF/dp = 0."""

@@ -20,6 +20,7 @@ from evenbreak.games import (
     loser_breaks,
     winner_breaks,
 )
+from tiers import examples
 
 
 def ladder(n, pull=10.0, stay=0.0):
@@ -129,7 +130,7 @@ class TestKnown:
 
 
 class TestLaws:
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=examples(60), deadline=None)
     @given(chains())
     def test_biorthogonal_eigenvectors(self, chain):
         try:
@@ -144,7 +145,7 @@ class TestLaws:
             (found.right * found.values) @ found.left, M, atol=1e-7 * np.abs(found.left).max()
         )
 
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=examples(60), deadline=None)
     @given(chains())
     def test_the_two_routes_agree(self, chain):
         found = spectrum(chain, k=int(chain.structure.closed.sum()))
@@ -154,7 +155,7 @@ class TestLaws:
                 found.limit(state), direct[:, chain.index(state)], rtol=0, atol=found.limit_error
             )
 
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=examples(40), deadline=None)
     @given(chains())
     def test_unit_vectors_are_laws_and_chances(self, chain):
         found = spectrum(chain, k=int(chain.structure.closed.sum()))
@@ -350,7 +351,7 @@ class TestPeriods:
         np.testing.assert_array_equal(found.left[1], parity)
         assert error_of(found) <= found.limit_error
 
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=examples(40), deadline=None)
     @given(st.lists(st.integers(1, 5), min_size=1, max_size=3), st.integers(0, 2**32 - 1))
     def test_rings_that_are_entered_from_outside(self, sizes, seed):
         rng = np.random.default_rng(seed)

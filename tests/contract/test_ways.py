@@ -21,6 +21,7 @@ from evenbreak.practice import (
     long_run_share,
     one_ball_win,
 )
+from tiers import examples
 
 ROADS = ("elimination", "eigen")
 """The ways that lead over the chain."""
@@ -71,7 +72,7 @@ def test_a_match_of_the_catalogue(match, via) -> None:
 @given(
     p=CHANCES, q=CHANCES, breaks=st.sampled_from([*BREAK_FORMATS]), first=st.sampled_from([1, 2])
 )
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_matches_of_any_players(via, p, q, breaks, first) -> None:
     rack, order = Rack(p, q), {"breaks": BREAK_FORMATS[breaks], "first_breaker": first}
     for match in (
@@ -88,7 +89,7 @@ def test_matches_of_any_players(via, p, q, breaks, first) -> None:
 
 @pytest.mark.parametrize("via", ROADS)
 @given(p=CHANCES, q=CHANCES)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_one_ball_games_of_any_players(via, p, q) -> None:
     for look_ahead in ("infinite", "two shots"):
         expected = one_ball_win(p, q, look_ahead=look_ahead)

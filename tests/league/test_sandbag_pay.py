@@ -18,6 +18,7 @@ from evenbreak.league.sandbag_pay import (
     sandbagging,
 )
 from evenbreak.matches import race_win_probability
+from tiers import examples
 
 NPL = [name for name in CHARTS if name.startswith("npl")]
 
@@ -47,7 +48,7 @@ def test_extra_wins_are_those_of_the_tree(dumped, start):
     assert row.given_away == pytest.approx(wins_to_come(start, dumped), abs=1e-12)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.sampled_from(NPL), st.integers(1, 25), st.integers(1, 60), st.integers(-6, 6))
 def test_at_equal_stakes_it_never_pays(name, dumped, earnest, start):
     found = sandbagging(

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from evenbreak import InputError
 from evenbreak.games import Rack, winner_breaks
 from evenbreak.matches import crossings, even_probability, match_format, win_probability
+from tiers import examples
 
 BREAK_TEXTS = ["winner", "loser", "alternate", "player 1", "player 2"]
 SMALL = st.tuples(st.integers(1, 6), st.integers(1, 6)).map(lambda mn: f"{mn[0]}:{mn[1]}")
@@ -35,14 +36,14 @@ def test_choice_of_p5_8_turns_where_the_player_is_weak():
     assert found.points[0].p1 < 2 / 3
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(FORMATS)
 def test_where_the_break_does_not_matter_one_chance_is_even(text):
     (point,) = even_probability(text)
     assert point.p_win_1 == pytest.approx(0.5, abs=1e-9)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(FORMATS, FORMATS)
 def test_the_better_one_is_better(text_1, text_2):
     found = crossings(text_1, text_2)
@@ -57,7 +58,7 @@ def test_the_better_one_is_better(text_1, text_2):
         assert other == pytest.approx(point.p_win_1, abs=1e-12)
 
 
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(FORMATS, FORMATS)
 def test_the_grid_finds_what_the_polynomials_find(text_1, text_2):
     exact = crossings(text_1, text_2)

@@ -14,6 +14,7 @@ from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import PACES, Pace, Turnover
 from evenbreak.matches.races import race_odds
 from evenings import played_evening
+from tiers import examples
 
 EVEN = Length([1, 2], [0.5, 0.5])
 SKEW = Length([2, 3, 5], [0.25, 0.5, 0.25])
@@ -122,7 +123,7 @@ laws = st.lists(st.sampled_from([EVEN, SKEW, FIXED]), min_size=1, max_size=6)
 
 
 @given(laws, st.integers(1, 4))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 def test_each_table_more_ends_the_evening_no_later(laws, tables):
     # Of matches that all begin in the order of the list; of other orders it need not be so.
     fewer = evening(laws, **BY_GAMES, tables=tables, runs=200)

@@ -19,6 +19,7 @@ from evenbreak.games import (
 )
 from evenbreak.matches import live_odds, match_length, match_odds, win_probability
 from evenbreak.matches.rack_graph import rack_moves
+from tiers import examples
 
 SETS = Race(3, 1, Race(3, 3, Rack(2 / 3)))
 MATCHES = [
@@ -87,7 +88,7 @@ def test_every_moment_of_the_table_against_the_graph(match):
         assert values.standing(state).p_win_1 == pytest.approx(won, rel=1e-9)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(st.sampled_from(MATCHES), st.lists(st.sampled_from([1, 2]), max_size=12))
 def test_chances_are_what_the_next_rack_makes_of_them(match, winners):
     try:

@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.matches import StraightPool, even_points, even_spot, straight_pool_odds
+from tiers import examples
 
 
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(
     st.integers(1, 30),
     st.fractions(Fraction(1, 2), Fraction(14, 15), max_denominator=15),

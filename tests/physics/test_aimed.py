@@ -12,12 +12,13 @@ from evenbreak.physics.pockets import pockets
 from evenbreak.physics.shot import shot, spin_ratios
 from evenbreak.physics.strike import strike, strike_for_speed
 from evenbreak.physics.throw import aim
+from tiers import examples
 
 HUGE = PoolTable(length=400.0, width=400.0)
 START = np.array([200.0, 200.0])
 RADIUS = Ball().radius
 
-few = settings(max_examples=8)
+few = settings(max_examples=examples(8))
 
 
 def aimed(tip, angle, *, gap=0.5, far=1.0, **how):

@@ -15,11 +15,12 @@ from evenbreak.physics.rolling import spin_stop
 from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import strike
+from tiers import examples
 
 BALL, CLOTH, TABLE = Ball(), Cloth(), PoolTable()
 HUGE = PoolTable(length=400.0, width=400.0)
 
-few = settings(max_examples=30)
+few = settings(max_examples=examples(30))
 
 
 def sliding(velocity, rim, place=(200.0, 200.0)):

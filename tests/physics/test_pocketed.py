@@ -11,6 +11,7 @@ from evenbreak.physics.pocketed import pocketed_shot
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.strike import strike_for_speed
 from evenbreak.physics.units import INCH
+from tiers import examples
 
 POCKETS = {pocket.name: pocket for pocket in pockets(PoolTable())}
 FROZEN = Ball().radius / INCH
@@ -67,7 +68,7 @@ def test_a_mouth_that_is_too_flat_is_played_at_in_its_middle():
     )
 
 
-@settings(max_examples=5)
+@settings(max_examples=examples(5))
 @given(st.floats(20.0, 60.0), st.floats(0.0, 1.0), st.floats(2.0, 10.0))
 def test_left_and_right_are_mirror_images(x, off, gap):
     right = at((x, FROZEN + gap), (x + 20.0, FROZEN + off), "foot-right")

@@ -16,6 +16,7 @@ from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import strike, strike_for_speed
 from evenbreak.physics.units import INCH
+from tiers import examples
 
 RADIUS = 1.125 * INCH
 HUGE = PoolTable(length=400.0, width=400.0)
@@ -23,7 +24,7 @@ MIDDLE = (200.0, 200.0)
 SPEEDS = st.floats(0.8, 8.0)
 CUTS = st.floats(-1.5, 1.5)
 TIPS = st.tuples(st.floats(-0.35, 0.35), st.floats(-0.35, 0.35))
-few = settings(max_examples=20)
+few = settings(max_examples=examples(20))
 DISTANCES = st.floats(2.25 * INCH, 40.0 * INCH)
 
 

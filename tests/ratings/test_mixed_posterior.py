@@ -15,6 +15,7 @@ from evenbreak.ratings.fit import BREAK_SD
 from evenbreak.ratings.likelihood_terms import likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
 from evenbreak.ratings.result_words import FORMATS
+from tiers import examples
 
 LOG_ODDS = {"scale": math.log(2), "anchor": 0}  # a point is a log-odd
 
@@ -273,7 +274,7 @@ def won_races(rows):
     )
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(races, st.lists(st.floats(-6, 6), min_size=4, max_size=4))
 def test_there_is_one_mode_wherever_the_search_begins(rows, start):
     results = won_races(rows)
@@ -284,7 +285,7 @@ def test_there_is_one_mode_wherever_the_search_begins(rows, start):
     np.testing.assert_allclose(again.point[:-1], ratings.rating, atol=1e-5)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(races)
 def test_needing_more_games_for_the_same_win_raises_a_rating(rows):
     a, step, m, n, winner = rows[0]
@@ -295,7 +296,7 @@ def test_needing_more_games_for_the_same_win_raises_a_rating(rows):
     assert after[best] > before[best]
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(races)
 def test_it_does_not_matter_who_is_called_a(rows):
     turned = [((a + step) % 4, 4 - step, n, m, 3 - w) for a, step, m, n, w in rows]

@@ -11,6 +11,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.walk_forward import even_races, walk_forward
+from tiers import examples
 
 
 def season(seed: int = 1, *, players: int = 8, matches: int = 60, days: int = 10) -> Results:
@@ -164,7 +165,7 @@ def test_settings_out_of_range_are_refused(name, value):
 
 
 @given(st.integers(0, 10_000))
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 def test_which_player_is_called_a_does_not_matter(seed):
     results = season(seed, matches=20, days=4)
     turned = Results(

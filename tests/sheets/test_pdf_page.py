@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.sheets.pdf_page import Paper, drawable, pdf_bytes, shortened, width_of
+from tiers import examples
 
 
 def page_with(text):
@@ -41,7 +42,7 @@ def test_the_same_page_gives_the_same_bytes_whatever_a_matplotlibrc_wishes():
 
 
 @given(st.text(max_size=20))
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 def test_any_text_can_be_written_without_a_warning(text):
     written = drawable(text)
     assert written.isprintable()

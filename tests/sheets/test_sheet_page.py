@@ -14,6 +14,7 @@ from evenbreak.ratings.results import Results
 from evenbreak.sheets.html_page import shown_name
 from evenbreak.sheets.sheet_page import sheet_html
 from leagues import HOSTILE, SHA, league, sheet_of, two_groups
+from tiers import examples
 
 VOID = {"meta", "line", "circle", "polyline", "input"}
 
@@ -181,7 +182,7 @@ def test_names_are_text_whatever_they_look_like():
 
 
 @given(st.text(min_size=1, max_size=30).filter(lambda name: name.strip() == name and name != "Bo"))
-@settings(max_examples=15)
+@settings(max_examples=examples(15))
 def test_any_name_stays_one_name(name):
     page, _ = page_of(league((name, "Bo")))
     assert {element["text"] for element in page.all("bdi")} == {shown_name(name), "Bo"}

@@ -16,6 +16,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 from evenbreak.sheets.workbook import check_workbook, race_table, report_tables, workbook_bytes
 from leagues import league, sheet_of
+from tiers import examples
 
 pytest.importorskip("xlsxwriter", reason="writes workbooks")
 
@@ -96,7 +97,7 @@ def test_the_same_tables_give_the_same_bytes():
 
 
 @given(st.lists(st.text(st.characters(exclude_categories=["Cs"]), max_size=20), max_size=5))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_any_text_makes_a_workbook_that_can_be_read(names):
     content = workbook_bytes({"A": pd.DataFrame({"player": pd.Series(names, dtype="object")})})
     assert len(read_back(content)["A"]) >= 1

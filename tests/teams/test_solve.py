@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.teams import Cap, Point, Squad, TeamNight, advice, sealed, solved
+from tiers import examples
 
 ORDERS = ["ABABA", "BAABB", "AAAAA", "=====", "A=B=A", "AWWWW", "BLLLL", "AWL=B"]
 
@@ -103,7 +104,7 @@ def test_naming_unseen_lies_between_naming_first_and_answering_in_one_set() -> N
     assert values == sorted(values)
 
 
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(st.integers(0, 10_000), st.sampled_from(ORDERS))
 def test_the_advice_at_each_point_has_the_value_of_the_point(seed: int, order: str) -> None:
     """After the best pick and the best answer, the mean over the set's result is the value."""

@@ -28,6 +28,7 @@ from evenbreak.tournaments import (
 )
 from evenbreak.tournaments.clock.matches_of import waiting
 from evenbreak.tournaments.clock.table_schedule import longest_paths, schedule
+from tiers import examples
 
 EXACT = Pace(10.0, 5.0, 0.0, 0.0)
 AT_ONCE = Turnover(0.0, 0.0)
@@ -101,7 +102,7 @@ def obvious_schedule(waits, minutes, turnover, tables, priority):
     return np.array([start[k] for k in range(count)])
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.integers(0, 3))
 def test_schedule_against_the_obvious_one(seed, tables, for_rounds, kind) -> None:
     bracket = (

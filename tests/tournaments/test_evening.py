@@ -32,6 +32,7 @@ from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
 from evenbreak.tournaments.evening.undoing import undo
 from evenbreak.tournaments.odds.races import Fairest
+from tiers import examples
 
 AT = "2025-03-01T19:30:00"
 
@@ -218,7 +219,7 @@ class Night(RuleBasedStateMachine):
                 assert max(taken, default=0) <= self.state.plan.tables
 
 
-Night.TestCase.settings = settings(max_examples=25, stateful_step_count=25, deadline=None)
+Night.TestCase.settings = settings(max_examples=examples(25), stateful_step_count=25, deadline=None)
 TestNight = Night.TestCase
 
 
@@ -257,7 +258,9 @@ class ChipNight(Night):
             assert len(night.order) == 2 * len(night.tables) + len(night.line)
 
 
-ChipNight.TestCase.settings = settings(max_examples=15, stateful_step_count=40, deadline=None)
+ChipNight.TestCase.settings = settings(
+    max_examples=examples(15), stateful_step_count=40, deadline=None
+)
 TestChipNight = ChipNight.TestCase
 
 

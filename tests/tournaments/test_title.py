@@ -23,6 +23,7 @@ from evenbreak.tournaments import (
     single_elimination,
     title_odds,
 )
+from tiers import examples
 from tournaments import enumerated
 from tournaments.fields import by_fargo, by_seed, by_strength, one_favourite
 
@@ -354,7 +355,7 @@ def field(bracket, drawn: list[float]) -> np.ndarray:
     return by_strength((drawn * 3)[:count])
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(strengths, formats)
 def test_chances_add_up(drawn: list[float], form) -> None:
     bracket = form(len(drawn))
@@ -366,7 +367,7 @@ def test_chances_add_up(drawn: list[float], form) -> None:
             assert odds.p_place[:, k].sum() == pytest.approx(spot.last - spot.first + 1)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(st.permutations(range(7)), st.sampled_from([single_elimination, double_elimination]))
 def test_players_can_be_renamed(order: list[int], form) -> None:
     """Who sits on a line decides, not where the name is in the list."""
@@ -378,7 +379,7 @@ def test_players_can_be_renamed(order: list[int], form) -> None:
     assert again == pytest.approx(odds[order], rel=1e-12)
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(strengths, formats, st.floats(1.01, 5.0), st.data())
 def test_a_stronger_player_never_loses_by_it(drawn, form, factor: float, data) -> None:
     bracket = form(len(drawn))
@@ -390,7 +391,7 @@ def test_a_stronger_player_never_loses_by_it(drawn, form, factor: float, data) -
     assert after >= before - 1e-12
 
 
-@settings(max_examples=10)
+@settings(max_examples=examples(10))
 @given(st.lists(st.floats(0.1, 10.0), min_size=5, max_size=8), st.data())
 def test_odds_move_fairly_through_a_tournament(drawn, data) -> None:
     """At every point the odds are the mean of those after the next result."""

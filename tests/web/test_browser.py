@@ -15,6 +15,8 @@ from web.chromium import opened
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
+pytestmark = pytest.mark.slow
+
 axe_api = pytest.importorskip(
     "axe_playwright_python.sync_playwright",
     reason="no axe-playwright-python; pip install -e '.[browser]'",

@@ -13,6 +13,8 @@ from web.chromium import opened
 from web.conftest import Hall
 from web.phones import Phone
 
+pytestmark = pytest.mark.thorough
+
 AT = "2025-03-01T20:00:00"
 PROPOSED = "section.proposed"
 

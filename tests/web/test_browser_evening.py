@@ -21,6 +21,8 @@ from terminal import on_a_terminal
 from web.chromium import opened
 from web.phones import running
 
+pytestmark = pytest.mark.thorough
+
 PLAYERS = "\n".join(["player,rating", *(f"Player {k},{710 - 10 * k}" for k in range(1, 16))])
 BY_PHONES, DIFFERING, WRONG = range(3, 6), 4, 9
 """Which matches players score themselves, in which they differ, and which is entered wrongly."""

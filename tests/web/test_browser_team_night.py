@@ -10,6 +10,8 @@ import pytest
 from web.phones import Phone
 from web.test_team_night import Night, night_of
 
+pytestmark = pytest.mark.thorough
+
 axe_api = pytest.importorskip(
     "axe_playwright_python.sync_playwright",
     reason="no axe-playwright-python; pip install -e '.[browser]'",

@@ -7,8 +7,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from places import ROOT
 from web.chromium import browser as browser
+
+pytestmark = pytest.mark.thorough
 
 sys.path.insert(0, str(ROOT / "docs" / "images"))
 

@@ -8,6 +8,7 @@ from evenbreak.answers.physics.hit import IMPERIAL, METRIC
 from evenbreak.answers.physics.shot import shot_answer
 from evenbreak.physics import PoolTable, pocketed_shot, pockets, shot, strike_for_speed
 from evenbreak.physics.units import INCH
+from tiers import examples
 
 POCKETS = {pocket.name: pocket for pocket in pockets(PoolTable())}
 
@@ -95,7 +96,7 @@ def test_a_straight_shot_has_no_angles_that_rounding_made():
     assert (answer["target_y_in"], answer["object_pocket"]) == (pytest.approx(1.125), "foot-right")
 
 
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(
     st.floats(-89.0, 89.0),
     st.floats(2.3, 20.0),

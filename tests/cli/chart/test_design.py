@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from evenbreak.files.charts import read_chart
 from evenbreak.handicaps import RaceLimits, chart, design, measure_chart
+from tiers import examples
 
 NPL_10 = "--games 7..9 --least 1:2 --beside npl_10"
 
@@ -114,7 +115,7 @@ WORDS = "--games 5..7 9..5 --least 2:2 --tilt 0 1 --target 0.6 --up-to 30"
 words = st.sampled_from(WORDS.split()) | st.text(max_size=4)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(st.lists(words, max_size=8))
 def test_no_words_make_a_traceback(run, line):
     result = run("chart", "design", *line)

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from places import ROOT
+from tiers import examples
 
 DEMO = ROOT / "data" / "demo_league.csv"
 SEASON = ROOT.parent / "shared" / "data" / "snooker_2016_17_results.csv"
@@ -362,7 +363,7 @@ def test_bad_data_ends_with_3_and_leaves_the_old_sheet(run, tmp_path, season, be
 
 
 @given(st.binary(max_size=100), st.booleans())
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 def test_any_bytes_end_with_0_or_3(run, tmp_path_factory, junk, below_a_header):
     season = SMALL.encode() + junk if below_a_header else junk
     folder = tmp_path_factory.getbasetemp() / "any_report"

@@ -20,6 +20,7 @@ from evenbreak.handicaps import (
 )
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings.scale import scale_of
+from tiers import examples
 
 
 def win(p, m, n):
@@ -115,7 +116,7 @@ def test_the_audit_of_the_fairest_chart_recovers_its_scale_and_tilt(scale, tilt,
     assert fit.misfit < 1.0
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 @given(st.floats(2_000, 200_000), st.floats(0.0, 0.9), st.integers(3, 8))
 def test_where_rounding_is_small_they_are_recovered_closely(points, tilt, races):
     fit = audit(made(NPL_LIKE[:races], points, tilt)).best_fit

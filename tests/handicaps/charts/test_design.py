@@ -9,6 +9,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps import RaceLimits, audit, chart, design, measure_chart, nearest_chart
 from evenbreak.handicaps.charts.race_grid import even_differences, win_grid
 from evenbreak.ratings import SCALES, scale_of
+from tiers import examples
 
 NPL = {8: (5, 7), 10: (7, 9), 12: (9, 11), 20: (17, 19)}
 """The longest matches of the races that each printed chart draws on."""
@@ -160,7 +161,7 @@ def test_a_target_is_what_the_stronger_gets():
     assert np.mean(wins) == pytest.approx(0.6, abs=0.01)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(
     st.integers(1, 9),
     st.integers(0, 6),

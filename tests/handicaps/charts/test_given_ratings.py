@@ -19,6 +19,7 @@ from evenbreak.handicaps.charts.given_ratings import (
 from evenbreak.matches.odds import match_odds
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import SCALES
+from tiers import examples
 
 
 def averaged(f, difference, error, scale="npl"):
@@ -46,7 +47,7 @@ def test_without_error_it_is_the_plug_in_value():
 
 
 @given(st.floats(-200, 200), st.floats(0, 100), st.integers(1, 30), st.integers(1, 30))
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 def test_the_two_players_share_one_match(difference, error, m, n):
     one = win_given_ratings(difference, error, m, n)
     other = win_given_ratings(-difference, error, n, m)

@@ -23,6 +23,7 @@ from evenbreak.handicaps.ladders.error_law import long_run
 from evenbreak.ratings import SCALES
 from evenbreak.stats import Distribution
 from slow_ladders import chances, exact_law, exact_win, rounded_normal
+from tiers import examples
 
 MODELS = (NATURAL, AUTOCORRELATED, EQUAL_SKILL)
 CHARTS = ("npl_8", "npl_10", "npl_12", "npl_20")
@@ -118,7 +119,7 @@ def test_a_rising_skill_meets_steady_opponents():
     matches=st.integers(1, 3),
     name=st.sampled_from(CHARTS),
 )
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=examples(6), deadline=None)
 def test_errors_are_symmetric(model, day_sd, match_sd, matches, name):
     ladder = Ladder(
         chart(name),
