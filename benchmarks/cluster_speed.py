@@ -18,8 +18,8 @@ import numpy as np
 from distributed import Client, LocalCluster
 
 from evenbreak.league import LeaguePlayers, RandomPairing, Season, simulate
+from evenbreak.league.season import Tally
 from evenbreak.league.simulate import _Work, batching_of
-from evenbreak.league.tally import Tally
 
 WORKERS = (1, 2)
 

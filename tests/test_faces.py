@@ -33,7 +33,7 @@ from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
 from evenbreak.files.store.tournament import new_tournament
-from evenbreak.sheets.answer_page import answer_page
+from evenbreak.sheets.html_page import answer_page
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, What
 from evenbreak.tournaments.evening.fold import Evening, evening

@@ -76,7 +76,7 @@ sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10), choice)
             "explanation/exact-brackets.md",
             python="""\
 import numpy as np
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.picture import LINES, new_axes
 from evenbreak.tournaments import double_elimination, single_elimination, title_odds
 
 picture, axes = new_axes(

@@ -12,7 +12,7 @@ from evenbreak.cli.program import program
 from evenbreak.handicaps import league_chart
 from evenbreak.ratings import scale_of, validate
 from evenbreak.ratings.calibration import wilson
-from evenbreak.ratings.handicap_fairness import HandicapFairness
+from evenbreak.ratings.race_fairness import HandicapFairness
 from handicapped import by_chart, by_class
 
 NPL = scale_of("npl")

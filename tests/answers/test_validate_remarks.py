@@ -9,8 +9,8 @@ from evenbreak.answers.validate_remarks import remarks
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, scale_of, validate
 from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.half_life import HalfLifeGain
-from evenbreak.ratings.race_lengths import RaceLengths
+from evenbreak.ratings.prior import HalfLifeGain
+from evenbreak.ratings.race_fairness import RaceLengths
 from evenbreak.ratings.within_matches import Dispersion
 from places import SHARED
 

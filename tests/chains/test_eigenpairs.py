@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.chains import chain_of, spectrum
-from evenbreak.chains.eigenpairs import leading_pairs, roots_of_one
-from evenbreak.chains.unit_pairs import UnitPairs
+from evenbreak.chains.eigenpairs import UnitPairs, leading_pairs, roots_of_one
 from evenbreak.errors import AccuracyError
 
 # From S play goes to the absorbing state W, or to a ring of three with a uniform law.

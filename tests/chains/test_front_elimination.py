@@ -9,9 +9,8 @@ from scipy.sparse.linalg import splu
 
 import oracle
 from evenbreak.chains import dense_elimination, dissection
-from evenbreak.chains.dissection import dissect, neighbours
+from evenbreak.chains.dissection import FrontElimination, dissect, neighbours
 from evenbreak.chains.elimination import Elimination
-from evenbreak.chains.front_elimination import FrontElimination
 
 
 def grid(side, rng, decades=1.0):

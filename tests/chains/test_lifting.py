@@ -5,9 +5,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from evenbreak.chains import chain_of, exact, lifting, steps_to_absorption, stochastic_limit
+from evenbreak.chains import chain_of, exact, steps_to_absorption, stochastic_limit
+from evenbreak.chains import exact as lifting
 from evenbreak.chains.elimination import Elimination
-from evenbreak.chains.lifting import Lifting
+from evenbreak.chains.exact import Lifting
 from evenbreak.errors import AccuracyError
 from tries import tries
 

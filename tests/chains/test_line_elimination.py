@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csc_array, diags_array
 
 import oracle
-from evenbreak.chains.line_elimination import LineElimination, line_order
+from evenbreak.chains.birth_death import LineElimination, line_order
 
 
 def line(n, shuffle):

@@ -18,8 +18,8 @@ from evenbreak.chains import (
     transient,
 )
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
+from evenbreak.chains.dissection import FrontElimination
 from evenbreak.chains.elimination import DecimalElimination, PlainElimination, decimal_law
-from evenbreak.chains.front_elimination import FrontElimination
 from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError
 

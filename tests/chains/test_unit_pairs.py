@@ -8,7 +8,7 @@ import pytest
 
 import oracle
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, spectrum, stochastic_limit
-from evenbreak.chains.unit_pairs import UnitPairs, limit_by
+from evenbreak.chains.eigenpairs import UnitPairs, limit_by
 from evenbreak.errors import AccuracyError
 from evenbreak.games import BREAK_FORMATS, CATALOGUE, Ahead, Drill, OneBall, Race, Rack
 from tries import tries

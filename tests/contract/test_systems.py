@@ -14,7 +14,7 @@ from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import NATURAL
 from evenbreak.handicaps.systems.catalogue import FAMILIES, SYSTEMS, system_of
 from evenbreak.handicaps.systems.match_table import match_table
-from evenbreak.handicaps.systems.newcomers import step_after
+from evenbreak.handicaps.systems.npl import step_after
 from evenbreak.handicaps.systems.system import PlayedMatch
 from evenbreak.matches import final_scores, race_win_probability
 

@@ -10,7 +10,7 @@ from evenbreak.errors import DataError
 from evenbreak.files.charts import chart_table, find_chart, read_chart, read_chart_file
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, Chart, LevelChart, chart, level_chart
-from evenbreak.handicaps.charts.rows import ChartRow
+from evenbreak.handicaps.charts.chart import ChartRow
 
 ROWS = "difference_from,difference_to,stronger_needs,weaker_needs\n"
 LEVELS = "level,opponent_level,needs,opponent_needs\n"

@@ -6,8 +6,7 @@ from scipy.special import chdtrc
 
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.systems.match_table import match_table
-from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
-from evenbreak.league.lookup import lookup_of
+from evenbreak.league.lookup import draw_scores, draw_winners, lookup_of, play_racks, random_bits
 
 MATCHES = 40_000
 LOOK = lookup_of(match_table(system_of("npl"), chart("npl_8"), widest=20), 30)

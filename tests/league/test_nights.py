@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import chart, system_of
-from evenbreak.league.nights import played_nights
+from evenbreak.league.sandbag_watch import played_nights
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.league.result_likelihood import Likelihood, units
+from evenbreak.league.sandbag_evidence import Likelihood, units
 from evenbreak.ratings.scale import SCALES
 from slow_results import LAW, NPL, chance, ends
 

@@ -5,8 +5,14 @@ from itertools import product
 import numpy as np
 import pytest
 
-from evenbreak.league.result_likelihood import Likelihood, Result
-from evenbreak.league.sandbag_evidence import DEPTHS, FARTHEST, SHARES, SHARES_MARKED
+from evenbreak.league.sandbag_evidence import (
+    DEPTHS,
+    FARTHEST,
+    SHARES,
+    SHARES_MARKED,
+    Likelihood,
+    Result,
+)
 from evenbreak.league.sandbag_watch import watch_player
 from slow_results import LAW, NPL, chance, ends
 

@@ -7,8 +7,7 @@ import pytest
 
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps import Ladder, chart, system_of
-from evenbreak.league.nights import played_nights
-from evenbreak.league.sandbag_watch import Watched, watch
+from evenbreak.league.sandbag_watch import Watched, played_nights, watch
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 

@@ -9,7 +9,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.league import LeaguePlayers, RandomPairing, Season, Tally, run_chunk
-from evenbreak.league.tally import fifths_of
+from evenbreak.league.season import fifths_of
 
 SEASON = Season(LeaguePlayers.of([50, 60, 70, 80, 90]), "npl", schedule=RandomPairing(), weeks=6)
 

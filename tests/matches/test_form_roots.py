@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.matches.form_roots import form_roots, sign_at
-from evenbreak.matches.win_forms import product
+from evenbreak.matches.crossings import form_roots, sign_at
+from evenbreak.matches.win_formula import product
 
 PLACES = st.lists(st.integers(1, 1023), max_size=7, unique=True)
 

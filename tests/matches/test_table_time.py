@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from evenbreak.matches import table_time
+from evenbreak.matches import minutes as table_time
+from evenbreak.matches.minutes import all_at_once, one_after_another
 from evenbreak.matches.pace import PACES, Pace, Turnover
 from evenbreak.matches.races import race_odds
-from evenbreak.matches.table_time import all_at_once, one_after_another
 
 
 def lengths(count):

@@ -5,7 +5,7 @@ import pytest
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.games import Rack
 from evenbreak.matches import match_format, win_probability
-from evenbreak.matches.win_forms import degree_of, value_at, win_forms
+from evenbreak.matches.win_formula import degree_of, value_at, win_forms
 
 TEXTS = [
     "1:1",

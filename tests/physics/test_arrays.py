@@ -43,7 +43,7 @@ from evenbreak.physics import (
     table_speed,
     throw_angle,
 )
-from evenbreak.physics.arrays import LARGEST, LEAST, numbers, positive
+from evenbreak.physics.units import LARGEST, LEAST, numbers, positive
 
 
 @pytest.mark.parametrize(

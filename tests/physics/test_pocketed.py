@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak import InputError
+from evenbreak.physics.aimed import pocketed_shot
 from evenbreak.physics.objects import Ball, PoolTable
-from evenbreak.physics.pocketed import pocketed_shot
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.strike import strike_for_speed
 from evenbreak.physics.units import INCH

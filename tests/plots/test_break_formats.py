@@ -2,7 +2,7 @@ import pytest
 
 from evenbreak import InputError
 from evenbreak.games import Rack
-from evenbreak.plots.break_formats import breaks_figure
+from evenbreak.plots.contours import breaks_figure
 
 
 def titles(figure):

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.axes import Axes
 
 from evenbreak.plots.contours import TENTHS, contour_axes
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.picture import new_axes
 
 
 def drawn(function: Any, **options: Any) -> tuple[Axes, Any]:

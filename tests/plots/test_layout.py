@@ -8,7 +8,7 @@ import pytest
 
 from evenbreak.game import Game, graph_of
 from evenbreak.games import CATALOGUE, Ahead, Drill, OneBall, Race, Rack
-from evenbreak.plots.layout import positions_of
+from evenbreak.plots.strokes import positions_of
 
 READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 150}
 

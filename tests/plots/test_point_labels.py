@@ -2,8 +2,7 @@
 
 import pytest
 
-from evenbreak.plots.point_labels import mark_points
-from evenbreak.plots.style import new_axes, unit_axis
+from evenbreak.plots.picture import mark_points, new_axes, unit_axis
 
 
 @pytest.mark.parametrize("x", [0.0, 0.5, 1.0])

@@ -1,8 +1,8 @@
 import pytest
 
 from evenbreak import InputError
+from evenbreak.plots.contours import shots_figure
 from evenbreak.plots.picture import image_bytes
-from evenbreak.plots.shot_choice import shots_figure
 from evenbreak.practice import ShotChoice
 
 SHOTS = [ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)]

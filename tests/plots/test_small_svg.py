@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 from evenbreak.games import OneBall
 from evenbreak.plots import draw, image_bytes
-from evenbreak.plots.small_svg import small_svg
+from evenbreak.plots.picture import small_svg
 
 PLACE = re.compile(r'translate\(([-\d.]+) ([-\d.]+)\)|[" ]x="([-\d.]+)"')
 

@@ -2,8 +2,8 @@ import networkx as nx
 import pytest
 from matplotlib.patches import Circle, FancyArrowPatch
 
+from evenbreak.plots.picture import new_axes
 from evenbreak.plots.strokes import Pen, is_terminal, is_words, longest_line
-from evenbreak.plots.style import new_axes
 
 PLACES = {"a": (0.0, 0.0), "b": (1.0, 0.0), "c": (2.0, 0.0)}
 

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from evenbreak import plots
-from evenbreak.plots.style import (
+from evenbreak.plots.picture import (
     LINES,
     label_beside,
     label_on,

@@ -4,7 +4,7 @@ from matplotlib.patches import Circle, Rectangle
 
 from evenbreak.physics import PoolTable, pockets
 from evenbreak.physics.units import INCH
-from evenbreak.plots.table_from_above import bare_axes, draw_ball, draw_table
+from evenbreak.plots.traced_shot import bare_axes, draw_ball, draw_table
 
 
 @pytest.fixture(scope="module")

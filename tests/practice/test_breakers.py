@@ -6,7 +6,7 @@ import pytest
 from evenbreak.chains import chain_of, long_run_reward
 from evenbreak.errors import InputError
 from evenbreak.games import BREAK_FORMATS, Rack, Series, loser_breaks, winner_breaks
-from evenbreak.practice.breakers import Breakers
+from evenbreak.practice.breaks import Breakers
 
 
 @pytest.mark.parametrize("breaks", BREAK_FORMATS.values(), ids=list(BREAK_FORMATS))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from evenbreak.chains import chain_of, sensitivity, stochastic_limit
 from evenbreak.games import Drill
 from evenbreak.practice import drill_statistics
-from evenbreak.practice.levels import level_laws
+from evenbreak.practice.drills import level_laws
 from places import SHARED
 
 NUMBERS = SHARED / "seed" / "section5_numbers.csv"

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from evenbreak.games import Drill
 from evenbreak.practice import drill_statistics
-from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
+from evenbreak.practice.drills import chances_seen, level_gains, level_laws, level_lifts
 
 drills = st.lists(st.floats(0.01, 0.99), min_size=1, max_size=9)
 

@@ -3,8 +3,7 @@ import pytest
 
 from evenbreak.practice import DrillLog, fit_progressive
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_SUCCESS
-from evenbreak.practice.log_tests import difference_test, memory_test, model_test
-from evenbreak.practice.progressive_fit import deviance
+from evenbreak.practice.log_tests import deviance, difference_test, memory_test, model_test
 
 
 def outcomes(*logs: DrillLog) -> np.ndarray:

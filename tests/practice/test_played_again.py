@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.practice import DrillLog
 from evenbreak.practice.drill_log import AFTER_START
-from evenbreak.practice.played_again import play_again
+from evenbreak.practice.log_tests import play_again
 
 
 def test_sure_chances_leave_nothing_to_chance() -> None:
@@ -48,7 +48,7 @@ def test_expected_attempts_are_those_of_the_chain() -> None:
 
 def test_many_sessions_are_played_a_part_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     log = DrillLog([1, 2] * 10, [1, 0] * 10, np.repeat(range(10), 2))
-    monkeypatch.setattr("evenbreak.practice.played_again._AT_ONCE", 25)
+    monkeypatch.setattr("evenbreak.practice.log_tests._AT_ONCE", 25)
     played = play_again(log, np.array([0.5, 0.5]), replicas=7, rng=np.random.default_rng(5))
     assert played.shape == (7, 2, 3, 2)
     assert (played.sum((1, 2, 3)) == 20).all()

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 
 from evenbreak.errors import InputError
 from evenbreak.practice import DrillLog, fit_progressive
-from evenbreak.practice.progressive_fit import deviance, likeliest_p
+from evenbreak.practice.log_tests import deviance, likeliest_p
 
 counts = st.lists(st.tuples(st.integers(0, 50), st.integers(0, 50)), min_size=2, max_size=9)
 

@@ -5,8 +5,8 @@ import pytest
 from scipy import sparse
 
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings import approximate_diagonal as module
-from evenbreak.ratings.approximate_diagonal import approximate_diagonal
+from evenbreak.ratings import inverse_diagonal as module
+from evenbreak.ratings.inverse_diagonal import approximate_diagonal
 
 
 @pytest.fixture(autouse=True)

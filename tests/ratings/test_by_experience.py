@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import walk_forward
-from evenbreak.ratings.by_experience import by_experience
+from evenbreak.ratings.advantages import by_experience
 from simulated_levels import league
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from evenbreak.ratings.covariance import count_pairs
 from evenbreak.ratings.daily_refit import DailyRefit
-from evenbreak.ratings.pairs import count_pairs
 from evenbreak.ratings.posterior import find_mode
 
 RNG = np.random.default_rng(4)

@@ -8,8 +8,7 @@ import pytest
 from evenbreak.ratings import Results, fit, walk_forward
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.doubtful_scores import doubtful_scores
-from evenbreak.ratings.match_form import match_form
-from evenbreak.ratings.within_matches import dispersion, play_races
+from evenbreak.ratings.within_matches import dispersion, match_form, play_races
 
 POINTS = 9
 """Matches written down in points, 30-19: the sum of many a long match."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 
-from evenbreak.ratings.elimination_fronts import fronts_of
+from evenbreak.ratings.inverse_diagonal import fronts_of
 
 
 def league(players, neighbours):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from evenbreak.ratings.gains import FEWEST_STRETCHES, gains_over, is_clear
+from evenbreak.ratings.prior import FEWEST_STRETCHES, gains_over, is_clear
 from evenbreak.ratings.stretches import StretchLosses
 
 MANY = 25

@@ -3,7 +3,7 @@
 import numpy as np
 
 from evenbreak.ratings import Results
-from evenbreak.ratings.half_life import HALF_LIVES, half_life_gains
+from evenbreak.ratings.prior import HALF_LIVES, half_life_gains
 
 PLAYERS, MATCHES = 12, 1500
 

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from scipy import sparse
 
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings.elimination_fronts import fronts_of
-from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+from evenbreak.ratings.inverse_diagonal import fronts_of, inverse_diagonal
 
 
 def laplacian(players, low, high, weight, row_sum):

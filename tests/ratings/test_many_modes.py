@@ -6,11 +6,10 @@ import pytest
 from evenbreak.ratings import Levels, Results
 from evenbreak.ratings.fit import weights_of
 from evenbreak.ratings.likelihood_terms import likelihood_terms
-from evenbreak.ratings.many_modes import WayToRate, find_modes
-from evenbreak.ratings.mixed_posterior import find_mixed_mode
+from evenbreak.ratings.mixed_posterior import WayToRate, find_mixed_mode, find_modes
 from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.result_words import FORMATS
-from evenbreak.ratings.season_so_far import SeasonSoFar
+from evenbreak.ratings.stretches import SeasonSoFar
 
 
 def season(matches=60, players=9, seed=5):
@@ -80,6 +79,6 @@ def test_both_routes_rate_alike(monkeypatch):
         for sd, days in ((0.1, None), (0.4, 30.0))
     ]
     together, _ = SeasonSoFar(results).skills(ways)
-    monkeypatch.setattr("evenbreak.ratings.season_so_far.SOLVED_AT_ONCE", 0)
+    monkeypatch.setattr("evenbreak.ratings.stretches.SOLVED_AT_ONCE", 0)
     alone, _ = SeasonSoFar(results).skills(ways)
     assert together == pytest.approx(alone, abs=1e-7)

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from evenbreak.ratings.own_break_wins import BreakWinsTerms, break_wins
+from evenbreak.ratings.who_broke import BreakWinsTerms, break_wins
 
 
 def written_out(form, first, games, last):

@@ -1,7 +1,6 @@
 import numpy as np
 
-from evenbreak.ratings.covariance import sums_by_player
-from evenbreak.ratings.pairs import count_pairs
+from evenbreak.ratings.covariance import count_pairs, sums_by_player
 
 A, B = np.array([0, 2, 1, 0]), np.array([1, 0, 0, 2])
 WON, LOST = np.array([7, 5, 3, 0]), np.array([4, 7, 7, 2])

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import expit
 
-from evenbreak.ratings.pairs import count_pairs
+from evenbreak.ratings.covariance import count_pairs
 from evenbreak.ratings.posterior import find_mode
 
 

@@ -82,7 +82,7 @@ def test_hopeless_races_keep_finite_logarithms(difference):
 def test_the_two_ways_to_a_tiny_chance_agree(monkeypatch):
     d = np.linspace(-12.0, -4.0, 30)
     plain = race_slopes(d, 20, 13)
-    monkeypatch.setattr("evenbreak.ratings.race_likelihood._FAR", 1e-5)
+    monkeypatch.setattr("evenbreak.ratings.likelihood_terms._FAR", 1e-5)
     far = race_slopes(d, 20, 13)
     for one, other in zip(plain, far, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-10)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import walk_forward
-from evenbreak.ratings.scored import Predictions
+from evenbreak.ratings.calibration import Predictions
 
 
 @pytest.fixture(scope="module")

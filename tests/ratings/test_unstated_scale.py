@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE, USUAL, unstated_scale
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, USUAL, unstated_scale
 
 NOBODY = float("nan")
 

@@ -1,7 +1,7 @@
 import re
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.sheets.answer_page import answer_page
+from evenbreak.sheets.html_page import answer_page
 
 
 def test_a_page_has_the_answer_and_its_first_line_for_a_title():

@@ -5,7 +5,7 @@ import zlib
 
 import pytest
 
-from evenbreak.sheets.draw_list_pages import FirstMatch, draw_list_pdf
+from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf
 
 
 @pytest.mark.parametrize(("players", "pages"), [(1, 1), (16, 1), (36, 1), (37, 2), (64, 2)])

@@ -1,6 +1,7 @@
 import pytest
 
-from evenbreak.sheets.pdf_layout import (
+from evenbreak.sheets.pdf_page import MARGIN, WIDTH, width_of
+from evenbreak.sheets.pdf_sheet import (
     GAP,
     LARGEST,
     LONGEST_NAME,
@@ -10,7 +11,6 @@ from evenbreak.sheets.pdf_layout import (
     rating_text,
     slanted_name,
 )
-from evenbreak.sheets.pdf_page import MARGIN, WIDTH, width_of
 from evenbreak.sheets.rating_bars import PlayerLine
 
 ROOM = 7.0

@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 from evenbreak.answers.league.report import report_answer
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.ratings.results import Results
-from evenbreak.sheets.pdf_layout import MOST_ON_A_PAGE
 from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH
-from evenbreak.sheets.pdf_sheet import sheet_pages, sheet_pdf
+from evenbreak.sheets.pdf_sheet import MOST_ON_A_PAGE, sheet_pages, sheet_pdf
 from leagues import league, sheet_of, two_groups
 
 

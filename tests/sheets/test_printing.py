@@ -8,8 +8,7 @@ import zlib
 import pytest
 
 from evenbreak.matches.pace import own_pace
-from evenbreak.sheets.round_page import round_html
-from evenbreak.sheets.sheet_page import sheet_html
+from evenbreak.sheets.sheet_page import round_html, sheet_html
 from leagues import league, round_of, sheet_of
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -13,7 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import own_pace
 from evenbreak.ratings.roster import Roster
 from evenbreak.sheets.html_page import shown_name
-from evenbreak.sheets.round_page import MOST_ACROSS, MOST_MATCHES, round_html
+from evenbreak.sheets.sheet_page import MOST_ACROSS, MOST_MATCHES, round_html
 from leagues import CLUB, HOSTILE, SHA, round_of
 
 LIST = ((1, 0), (2, 3))

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from drawings import figure
 from evenbreak.plots.picture import image_bytes
-from evenbreak.source_text.figures import figures
+from evenbreak.source_text.answers import figures
 from places import SHARED
 
 PLOTS = [

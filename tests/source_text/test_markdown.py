@@ -1,6 +1,6 @@
 from decimal import Decimal
 
-from evenbreak.source_text.markdown import beside, markdown_table, rounded
+from evenbreak.source_text.cells import beside, markdown_table, rounded
 
 
 def test_bars_in_cells_do_not_end_them():

@@ -8,7 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from evenbreak.sheets import bracket_drawing, score_card_pages
+from evenbreak.sheets import bracket_drawing
+from evenbreak.sheets import paper_pages as score_card_pages
 from evenbreak.web.beside import Made
 from web.conftest import Hall
 from web.phones import Phone

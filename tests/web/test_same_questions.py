@@ -18,7 +18,7 @@ from evenbreak.cli.program import program
 from evenbreak.cli.team.lineup import command as lineup
 from evenbreak.cli.tournament.new import command as new
 from evenbreak.files.store.tournament import read_tournament
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.opening import LONGEST_RACE
 from web.phones import Phone, running
 

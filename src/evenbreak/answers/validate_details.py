@@ -10,13 +10,13 @@ from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.wording import count_of, decimals, percent, range_words
 from evenbreak.answers.validate_handicaps import starts_table
 from evenbreak.answers.validate_judgement import points_text
-from evenbreak.ratings.by_experience import ByExperience
+from evenbreak.ratings.advantages import ByExperience
 from evenbreak.ratings.calibration import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.match_form import MatchForm
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.within_matches import MatchForm
 
 NEARLY_EVEN = 0.56
 """Favourites with less than this chance, on average, are hardly any."""

@@ -18,7 +18,7 @@ from evenbreak.answers.validate_judgement import (
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.handicap_fairness import HandicapFairness
+from evenbreak.ratings.race_fairness import HandicapFairness
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.ratings.starts import StartGroup, Starts, even_start
 from evenbreak.ratings.validate import Validation

@@ -6,11 +6,10 @@ import numpy as np
 from scipy.special import ndtri
 
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
-from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.handicap_fairness import HandicapFairness
+from evenbreak.ratings.calibration import Estimate, Of, Scored
+from evenbreak.ratings.race_fairness import HandicapFairness
 from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.scored import Of, Scored
 from evenbreak.ratings.validate import Validation
 
 UNLIKELY = 0.01

@@ -13,9 +13,9 @@ from evenbreak.answers.validate_judgement import (
     clearly_off,
 )
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.advantages import FEWEST_ON_A_DATE
 from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.first_column import FEWEST_ON_A_DATE
-from evenbreak.ratings.race_lengths import RaceLengths
+from evenbreak.ratings.race_fairness import RaceLengths
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 

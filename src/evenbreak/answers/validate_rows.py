@@ -8,7 +8,7 @@ from evenbreak.answers.kit.parts import Column, Table
 from evenbreak.answers.validate_handicaps import handicap_rows
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.advantages import known_breaks
-from evenbreak.ratings.scored import Scored
+from evenbreak.ratings.calibration import Scored
 from evenbreak.ratings.validate import Validation
 
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")

@@ -24,12 +24,11 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from evenbreak.chains.arcs import arcs_of, put_back, sums
+from evenbreak.chains.birth_death import LineElimination, line_order
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, is_dense
-from evenbreak.chains.dissection import bandwidth, dissect, neighbours
+from evenbreak.chains.dissection import FrontElimination, bandwidth, dissect, neighbours
 from evenbreak.chains.elimination import DecimalElimination
-from evenbreak.chains.front_elimination import FrontElimination
-from evenbreak.chains.line_elimination import LineElimination, line_order
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.chains.triangular_solve import TriangularSolve
 from evenbreak.errors import AccuracyError

@@ -360,7 +360,7 @@ def _limit_in_line(chain: Chain, at: int | None) -> Limit:
 
 def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
     """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
-    from evenbreak.chains.unit_pairs import UnitPairs
+    from evenbreak.chains.eigenpairs import UnitPairs
 
     limit, error = UnitPairs(chain).limit(chain.density(start))
     if not error <= _ERROR_BY_EIGENVECTORS:

@@ -24,11 +24,10 @@ from scipy.sparse.linalg import ArpackNoConvergence, eigs
 
 from evenbreak.chains.birth_death import line_of
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.eigenpairs import DENSE
+from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
 from evenbreak.chains.powers import evened
 from evenbreak.chains.stationary import laws_of
-from evenbreak.chains.unit_pairs import EPS
 from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 

@@ -35,10 +35,10 @@ import scipy.linalg
 import scipy.sparse.linalg
 from scipy.sparse import csc_array, csgraph, diags_array
 
+from evenbreak.chains.birth_death import line_order
 from evenbreak.chains.double_double import two_product, two_sum
 from evenbreak.chains.eigenpairs import DENSE as ALL_FOUND
 from evenbreak.chains.eigenpairs import SHIFT, Eigenpairs
-from evenbreak.chains.line_elimination import line_order
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
-    from evenbreak.chains.unit_pairs import UnitPairs
+    from evenbreak.chains.eigenpairs import UnitPairs
 
 DENSE = 2000
 """Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""

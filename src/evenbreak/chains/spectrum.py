@@ -24,11 +24,18 @@ import numpy as np
 
 from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.chain import check_chain
-from evenbreak.chains.eigenpairs import DENSE, TOLERANCE, leading_pairs, no_basis, within_unit_disc
+from evenbreak.chains.eigenpairs import (
+    DENSE,
+    TOLERANCE,
+    UnitPairs,
+    leading_pairs,
+    limit_by,
+    no_basis,
+    within_unit_disc,
+)
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
 from evenbreak.chains.reversible import reversible_classes, reversible_pairs
-from evenbreak.chains.unit_pairs import UnitPairs, limit_by
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 

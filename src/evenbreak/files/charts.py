@@ -15,11 +15,16 @@ from evenbreak.files.lists.roster import LARGEST
 from evenbreak.files.tables.cells import numbers, whole_numbers
 from evenbreak.files.tables.problems import Problems, printable, quoted
 from evenbreak.files.tables.table import TextTable, read_table
-from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
+from evenbreak.handicaps.charts.chart import CHARTS, Chart, ChartDraft, ChartRow, chart, row_faults
 from evenbreak.handicaps.charts.chart_of import catalogue_name
-from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
-from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
-from evenbreak.handicaps.charts.rows import ChartDraft, ChartRow, row_faults
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    LevelChart,
+    PointsChart,
+    level_chart,
+    points_chart,
+)
 from evenbreak.ratings.result_words import LARGEST_WHOLE
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS, ChipChart, ChipRow
 

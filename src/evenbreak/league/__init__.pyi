@@ -2,8 +2,6 @@ from .dump_cycle import DumpCycle as DumpCycle
 from .dump_cycle import best_cycle as best_cycle
 from .dump_cycle import dump_cycle as dump_cycle
 from .many_seasons import run_chunk as run_chunk
-from .nights import PlayedNight as PlayedNight
-from .nights import played_nights as played_nights
 from .one_season import PlayedSeason as PlayedSeason
 from .one_season import season_matches as season_matches
 from .players import ESTABLISHED as ESTABLISHED
@@ -14,12 +12,14 @@ from .sandbag_pay import DumpRow as DumpRow
 from .sandbag_pay import Sandbagging as Sandbagging
 from .sandbag_pay import entering_low as entering_low
 from .sandbag_pay import sandbagging as sandbagging
+from .sandbag_watch import PlayedNight as PlayedNight
 from .sandbag_watch import Watched as Watched
+from .sandbag_watch import played_nights as played_nights
 from .sandbag_watch import watch as watch
 from .schedule import FixedSchedule as FixedSchedule
 from .schedule import RandomPairing as RandomPairing
 from .schedule import RoundRobin as RoundRobin
 from .schedule import Schedule as Schedule
 from .season import Season as Season
+from .season import Tally as Tally
 from .simulate import simulate as simulate
-from .tally import Tally as Tally

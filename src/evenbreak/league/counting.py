@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Floats, Ints, Places
 from evenbreak.handicaps.ladders.comparison import near
-from evenbreak.league.season import Season
-from evenbreak.league.tally import FIFTHS, WEEK_COLUMNS, Tally, fifths_of
+from evenbreak.league.season import FIFTHS, WEEK_COLUMNS, Season, Tally, fifths_of
 
 _DOUBLINGS = 4.0
 """How far rating errors and moves are counted one by one: to odds of 16 to 1."""

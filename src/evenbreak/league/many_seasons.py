@@ -23,14 +23,12 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Places
 from evenbreak.errors import AccuracyError
-from evenbreak.handicaps.systems.newcomers import step_after
+from evenbreak.handicaps.systems.npl import step_after
 from evenbreak.league.counting import Counting, Ended
-from evenbreak.league.drawing import draw_scores, draw_winners, play_racks, random_bits
-from evenbreak.league.lookup import Lookup
+from evenbreak.league.lookup import Lookup, draw_scores, draw_winners, play_racks, random_bits
 from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, Round, RoundRobin
-from evenbreak.league.season import Season
-from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season, Tally
 
 _BLOCK = 1 << 15
 """Matches played at a time."""

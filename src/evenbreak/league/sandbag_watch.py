@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import number, one_of
-from evenbreak.errors import AccuracyError
+from evenbreak.errors import AccuracyError, InputError
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
 from evenbreak.handicaps.systems.system import System
-from evenbreak.league.nights import PlayedNight
-from evenbreak.league.result_likelihood import Likelihood, Result, units
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
@@ -22,8 +23,13 @@ from evenbreak.league.sandbag_evidence import (
     SHARES,
     SHARES_MARKED,
     WIDEST,
+    Likelihood,
+    Result,
     SandbagEvidence,
+    units,
 )
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import Roster
 from evenbreak.stats.summary import Distribution
 
 
@@ -320,3 +326,67 @@ def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floa
 def _e(log_e: float) -> float:
     """Return e, limited to what a float can hold."""
     return math.exp(min(log_e, 700.0))
+
+
+# A season night by night, as its results changed the ratings.
+
+
+class PlayedNight(NamedTuple):
+    """A night of a season: the rows of its matches in the results, and what they changed."""
+
+    rows: Ints
+    changes: RatingChanges
+
+
+def played_nights(
+    system: System,
+    roster: Roster,
+    results: Results,
+    *,
+    chart: Chart | str | None = None,
+    apply: Callable[[Roster, Ints], RatingChanges] | None = None,
+) -> list[PlayedNight]:
+    """Return a season night by night, with the ratings after each night.
+
+    Without dates each match is a night of its own, in the order of the rows; matches without a
+    date come last.
+
+    Parameters
+    ----------
+    system
+        the league's system.
+    roster
+        the ratings before the first night.
+    results
+        the season.
+    chart
+        which sets the races where the results state none.
+    apply
+        how the matches of a night change a list of ratings; None: as `apply_results` does.
+
+    Raises
+    ------
+    InputError
+        if results cannot be used.
+    """
+
+    def by_results(list_: Roster, rows: Ints) -> RatingChanges:
+        night = results.select(rows)
+        for problem in night_problems(system, list_, night, chart=chart):
+            raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")
+        return apply_results(system, list_, night, chart=chart)
+
+    nights, now = [], roster
+    for rows in _nights(results):
+        changes = (apply or by_results)(now, rows)
+        nights.append(PlayedNight(rows, changes))
+        now = changes.after
+    return nights
+
+
+def _nights(results: Results) -> list[Ints]:
+    """Return the rows of each night's matches by date; without dates each match is a night."""
+    if results.date is None:
+        return [np.array([row]) for row in range(len(results))]
+    _, night = np.unique(results.date, return_inverse=True)
+    return [np.flatnonzero(night == day) for day in range(night.max(initial=-1) + 1)]

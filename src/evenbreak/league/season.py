@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from evenbreak.arrays import Ints
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart_of import chart_of
@@ -18,7 +19,6 @@ from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
-from evenbreak.league.tally import fifths_of
 
 _DOUBLINGS = 3.0
 """The narrowest table of races and moves: to where the odds of a game are 8 to 1."""
@@ -139,3 +139,213 @@ def _check_schedule(schedule: Any, players: int) -> None:
         raise InputError(
             f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
         )
+
+
+# What is kept of simulated seasons: counts, which can be added up across workers.
+
+
+GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
+"""What is summed for each gap between the two skills."""
+
+WEEK_COLUMNS = ("players", "error", "error_squared", "near")
+"""What is summed for each week."""
+
+PRODUCTS = (
+    *("wins_wins", "wins_matches", "matches_matches", "moved_moved"),
+    *("wins_replicas", "moved_replicas"),
+)
+"""The products of sums over a batch, for each player, that are summed over the batches."""
+
+FIFTHS = 5
+"""Groups of players by true skill, the weakest first."""
+
+
+@array_values
+@dataclass(frozen=True, eq=False)
+class Tally:
+    """What replicas of a season came to; two tallies of one season are added with `+`.
+
+    All counts are whole numbers, so sums of tallies do not depend on how they are bracketed;
+    what is kept batch by batch keeps the order in which tallies are added.
+
+    The replicas of a batch share the random pairings, and each batch draws its own. So batches
+    are independent, replicas of one batch are not, and standard errors come from how sums vary
+    from batch to batch.
+
+    Parameters
+    ----------
+    replicas
+        seasons counted in each batch, shape (batches,).
+    matches, wins, wins_squared
+        of each player, summed over the replicas: matches played, matches won, and the square
+        of those won in a season; shape (players,).
+    rating, rating_squared
+        of each player, summed over the replicas: the change of the rating in the season, in
+        points, and the square of that.
+    games
+        games that each player won, summed over the replicas; None if matches are not played
+        rack by rack.
+    products
+        of each player, summed over the batches: the products of `PRODUCTS`, each of two sums
+        over the replicas of a batch (`moved` is `rating` of a batch); shape (players, 6). None
+        in a league so large that a batch is one replica.
+    wins_counts
+        in how many replicas each player won 0, 1, 2, ... matches: shape (players, most + 1).
+        None if it would be large.
+    rating_counts
+        in how many replicas each player's rating moved by -most, ..., most points: shape
+        (players, 2 * most + 1); larger moves are counted at the ends. None if it would be large.
+    errors
+        how many players had each rating error (rating less true skill, rounded to whole points)
+        at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1),
+        from -widest to widest; larger errors are counted at the ends.
+    gap_width
+        points of a bin of `gaps`.
+    gaps
+        shape (batches, bins, 5), the columns of `GAP_COLUMNS` for matches in which the skills of
+        the day lie [k * gap_width, (k + 1) * gap_width) points apart, k the bin: matches, those
+        that the stronger player won (half of them if the two are equal), hill-hill, shutouts (the
+        loser won no game), and games in all. If matches are not played rack by rack, the last
+        three are means given the two ratings and skills of each match, not drawn.
+    weeks
+        shape (batches, weeks + 1, 4), the columns of `WEEK_COLUMNS`: players in the league, the
+        sums of their rating errors (as in `errors`) and of the squares of these, and how many of
+        them are `near` their skill.
+    fifths
+        shape (batches, 5, 2): matches and wins by fifth of true skill at the start.
+
+    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
+    >>> season = Season(LeaguePlayers.of([60, 50], skill=[50, 50]), "npl", weeks=100)
+    >>> one, two = (run_chunk(season, 50, seed) for seed in np.random.SeedSequence(1).spawn(2))
+    >>> both = one + two
+    >>> both.replicas, both.matches, both.weeks.shape
+    (array([50, 50]), array([10000, 10000]), (2, 101, 4))
+    """
+
+    replicas: Ints
+    matches: Ints
+    wins: Ints
+    wins_squared: Ints
+    rating: Ints
+    rating_squared: Ints
+    games: Ints | None
+    products: Ints | None
+    wins_counts: Ints | None
+    rating_counts: Ints | None
+    errors: Ints
+    gap_width: int
+    gaps: Floats
+    weeks: Floats
+    fifths: Ints
+
+    def __add__(self, other: Tally) -> Tally:
+        if not isinstance(other, Tally):
+            return NotImplemented
+        if len(self.matches) != len(other.matches) or self.errors.shape != other.errors.shape:
+            raise InputError("the two tallies are of different seasons; add those of one season")
+        return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
+
+    @property
+    def error_values(self) -> Ints:
+        """The rating errors of the columns of `errors`, in points."""
+        most = self.errors.shape[1] // 2
+        return np.arange(-most, most + 1)
+
+    def mean_and_error(self, above: Any, below: Any) -> tuple[Any, Any]:
+        """Return sum(above) / sum(below) and its Monte Carlo standard error.
+
+        Parameters
+        ----------
+        above, below
+            sums for each batch, of shape (batches, ...), such as wins and matches.
+
+        Returns
+        -------
+        mean, standard error
+            arrays of the shape of one batch; NaN where nothing was counted, and for the error
+            if there are fewer than two batches.
+
+        Notes
+        -----
+        The standard error of a ratio of means, to first order, for k batches:
+        sqrt(k / (k - 1) sum (above - mean * below)^2) / sum(below).
+        """
+        above, below = np.asarray(above, dtype=float), np.asarray(below, dtype=float)
+        batches = len(above)
+        total = below.sum(axis=0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean = above.sum(axis=0) / total
+            if batches < 2:
+                return mean, np.full_like(mean, np.nan)
+            off = ((above - mean * below) ** 2).sum(axis=0)
+            return mean, np.sqrt(batches / (batches - 1) * off) / total
+
+    def player_errors(self) -> tuple[Floats, Floats, Floats]:
+        """Return the Monte Carlo standard errors of what each player can expect.
+
+        Returns
+        -------
+        matches won in a season, P(win | the player plays a match), change of the rating
+            arrays of shape (players,); NaN if there are fewer than two batches, or for a player
+            without a match. As in `mean_and_error`; in a league so large that `products` is None
+            the error of the chance treats the number of matches as given.
+        """
+        n = self.replicas.astype(float)
+        batches, seasons = len(n), n.sum()
+        if batches < 2:
+            missing = np.full(len(self.wins), np.nan)
+            return missing, missing, missing
+        with np.errstate(invalid="ignore", divide="ignore"):
+            won, moved, rate = self.wins / seasons, self.rating / seasons, self.wins / self.matches
+            if self.products is None:
+                squares = self.wins_squared - won * self.wins
+                squares_moved = self.rating_squared - moved * self.rating
+                squares_rate = squares
+            else:
+                ww, wm, mm, rr, wn, rn = self.products.T.astype(float)
+                squares = ww - 2 * won * wn + won**2 * (n @ n)
+                squares_moved = rr - 2 * moved * rn + moved**2 * (n @ n)
+                squares_rate = ww - 2 * rate * wm + rate**2 * mm
+            found = (squares, seasons), (squares_rate, self.matches), (squares_moved, seasons)
+            one, two, three = (
+                np.sqrt(batches / (batches - 1) * np.maximum(off, 0.0)) / total
+                for off, total in found
+            )
+        return one, two, three
+
+
+def fifths_of(skill: NDArray[Any]) -> Ints:
+    """Return each player's fifth by skill, 0 the weakest; equals go by their position.
+
+    Parameters
+    ----------
+    skill
+        players down, replicas across.
+
+    >>> fifths_of(np.array([[50.0], [90.0], [70.0], [60.0], [80.0]])).ravel()
+    array([0, 4, 2, 1, 3])
+    """
+    many = len(skill)
+    order = np.argsort(skill, axis=0, kind="stable")
+    fifth: Ints = np.empty(skill.shape, dtype=np.int64)
+    ranks = (np.arange(many) * FIFTHS // many)[:, None]
+    np.put_along_axis(fifth, order, np.broadcast_to(ranks, skill.shape), axis=0)
+    return fifth
+
+
+_IN_BATCHES = ("replicas", "gaps", "weeks", "fifths")
+_WIDENED = ("wins_counts",)
+
+
+def _added(one: Tally, other: Tally, name: str) -> Any:
+    mine, theirs = getattr(one, name), getattr(other, name)
+    if name == "gap_width":
+        return mine
+    if mine is None or theirs is None:
+        return None
+    if name in _IN_BATCHES:
+        return np.concatenate([mine, theirs])
+    if name in _WIDENED and mine.shape != theirs.shape:
+        most = max(mine.shape[1], theirs.shape[1])
+        mine, theirs = (np.pad(x, ((0, 0), (0, most - x.shape[1]))) for x in (mine, theirs))
+    return mine + theirs

@@ -28,8 +28,7 @@ import numpy as np
 from evenbreak.checks import seed_of, whole
 from evenbreak.league.counting import ALONE
 from evenbreak.league.many_seasons import run_chunk
-from evenbreak.league.season import Season
-from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season, Tally
 from evenbreak.league.workers import in_order
 
 if TYPE_CHECKING:

@@ -22,10 +22,9 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import generator_of, kind_of, kind_or_usual, whole
 from evenbreak.errors import InputError
-from evenbreak.matches.minutes import between, ended_by
+from evenbreak.matches.minutes import End, all_at_once, between, ended_by, one_after_another
 from evenbreak.matches.pace import Pace, Turnover, pace_of
 from evenbreak.matches.quantiles import TIE
-from evenbreak.matches.table_time import End, all_at_once, one_after_another
 
 _WORK = 200_000_000  # matches times matches times simulated runs
 _FEWEST_RUNS, _MOST_RUNS = 1_000, 50_000

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
 from scipy.special import ndtr, ndtri
 
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, number
-from evenbreak.matches.pace import Pace
+from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.matches.quantiles import TIE
 
 _LEAST = 1e-9  # stands for no time at all and for no spread, whose logarithms do not exist
@@ -123,3 +124,114 @@ def between(low: Any, high: Any, reached: Callable[[Any], Any]) -> Any:
         holds = reached(middle)
         low, high = np.where(holds, low, middle), np.where(holds, middle, high)
     return high
+
+
+# When the matches of a table end, and when matches that all begin at once do, on a usual evening.
+#
+# Times are put on a grid of steps h so that the mean is kept: what lies between two points goes to
+# both of them in proportion. With L(x) the mean of a time cut off at x, the point x receives
+#
+#     (2 L(x) - L(x - h) - L(x + h)) / h.
+#
+# What is at the points up to x has then ended half a step after x. Sums are convolutions, done by
+# the fast Fourier transform.
+
+
+_STEPS_PER_SD = 500
+_MOST_STEPS = 2**18
+_TAIL = 5.0  # standard deviations of a logarithm beyond which a time is not followed
+
+
+class End(NamedTuple):
+    """When something ends: P(by minutes[k]) = ended[k], with its mean and standard deviation."""
+
+    minutes: Floats
+    ended: Floats
+    mean: float
+    sd: float
+
+
+def one_after_another(lengths: Sequence[Floats], pace: Pace, turnover: Turnover) -> End:
+    """Return when matches on one table end, with the turnovers between them.
+
+    Parameters
+    ----------
+    lengths
+        P(the match takes k games), k = 0, 1, ..., for each match.
+    pace, turnover
+        how fast matches are played, and the time between two; of evenings of the usual pace.
+
+    >>> once = one_after_another([np.array([0.0, 0.0, 1.0])] * 3, Pace(4, 6, 0, 0), Turnover(5))
+    >>> once.mean
+    58.0
+    """
+    chances, means = _by_games(lengths, pace)
+    mean, square = chances @ means, chances @ means**2 * math.exp(pace.match_sd**2)
+    pauses = len(lengths) - 1
+    pause_variance = turnover.mean**2 * math.expm1(turnover.log_sd**2)
+    total = float(mean.sum()) + pauses * turnover.mean
+    variance = float((square - mean**2).sum()) + pauses * pause_variance
+    sd = math.sqrt(max(variance, 0.0))
+    longest = means.max() * math.exp(_TAIL * pace.match_sd)
+    if pauses:
+        longest = max(longest, turnover.mean * math.exp(_TAIL * turnover.log_sd))
+    step, points = _grid(total + 10.0 * sd + longest, sd)
+    size = fft.next_fast_len(points, real=True)
+
+    def transformed(mean: float, log_sd: float) -> NDArray[np.complex128]:
+        spectrum: NDArray[np.complex128] = fft.rfft(_on_grid(step, points, mean, log_sd), size)
+        return spectrum
+
+    matches = chances @ np.array([transformed(mean, pace.match_sd) for mean in means])
+    spectrum = matches.prod(axis=0) * transformed(turnover.mean, turnover.log_sd) ** pauses
+    chance = np.maximum(fft.irfft(spectrum, size), 0.0)
+    minutes: Floats = step * np.arange(0.5, size)
+    return End(minutes, np.cumsum(chance) / chance.sum(), total, sd)
+
+
+def all_at_once(lengths: Sequence[Floats], pace: Pace) -> End:
+    """Return when the last of some matches ends that all begin at once.
+
+    Parameters
+    ----------
+    lengths, pace
+        as for `one_after_another`.
+
+    >>> all_at_once([np.array([0.0, 0.5, 0.5])] * 2, Pace(0, 8, 0, 0)).mean.__round__(1)
+    14.0
+    """
+    chances, means = _by_games(lengths, pace)
+    usual = Pace(pace.overhead, pace.per_game, pace.match_sd, 0.0)
+    each = [match_minutes(np.arange(len(length)), length, usual) for length in lengths]
+    longest = means.max() * math.exp((_TAIL + 1.0) * pace.match_sd)
+    step, points = _grid(longest, max(match.sd for match in each))
+    law = np.array([_on_grid(step, points, mean, pace.match_sd) for mean in means])
+    ended = np.minimum(chances @ law.cumsum(axis=1), 1.0).prod(axis=0)
+    minutes: Floats = step * np.arange(0.0, points)
+    chance = np.diff(ended, prepend=0.0)
+    mean = float(minutes @ chance)
+    sd = math.sqrt(float((minutes - mean) ** 2 @ chance))
+    half_on: Floats = minutes + step / 2.0
+    return End(half_on, ended, mean, sd)
+
+
+def _by_games(lengths: Sequence[Floats], pace: Pace) -> tuple[Floats, Floats]:
+    """Return P(match i takes games j), shape (matches, k), and the mean minutes of games j."""
+    longest = max(map(len, lengths))
+    padded = np.array([np.pad(length, (0, longest - len(length))) for length in lengths])
+    games = np.flatnonzero(padded.any(axis=0))
+    return padded[:, games], pace.mean_minutes(games)
+
+
+def _grid(longest: float, sd: float) -> tuple[float, int]:
+    """Return the step and the number of points of a grid that reaches so far."""
+    step = max(sd / _STEPS_PER_SD, longest / _MOST_STEPS, 1e-9)
+    return step, int(longest / step) + 3
+
+
+def _on_grid(step: float, points: int, mean: float, log_sd: float) -> Floats:
+    """Return the chance of each point of the grid, for a lognormal time with this mean."""
+    cut = mean_up_to(step * np.arange(-1, points + 1), mean, log_sd)
+    cut[:2] = -step, 0.0  # nothing is cut off below 0
+    chance: Floats = np.maximum(2.0 * cut[1:-1] - cut[:-2] - cut[2:], 0.0) / step
+    return chance

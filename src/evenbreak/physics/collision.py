@@ -21,11 +21,10 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import kind_or_usual, plain
-from evenbreak.physics.arrays import numbers, positive
-from evenbreak.physics.ball_friction import BALL_FRICTION, checked_friction, friction_of_slip
+from evenbreak.physics.friction import BALL_FRICTION, checked_friction, friction_of_slip
 from evenbreak.physics.objects import Ball
 from evenbreak.physics.throw import hand_of, shot_of, slip_of, thrown
-from evenbreak.physics.units import GRAVITY
+from evenbreak.physics.units import GRAVITY, numbers, positive
 
 
 class Jump(NamedTuple):

@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import plain
-from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.throw import shot_of
+from evenbreak.physics.units import LEAST, numbers, positive
 
 
 class EnergyShares(NamedTuple):

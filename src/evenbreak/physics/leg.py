@@ -15,11 +15,11 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import PoolTable
 from evenbreak.physics.pockets import pockets
 from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
+from evenbreak.physics.units import numbers
 
 ENDINGS = ("rest", "hit", "cushion", "pocket")
 """How a leg can end."""

@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import LEAST, numbers, positive
 from evenbreak.physics.friction import tip_friction_of
 from evenbreak.physics.objects import Cloth
 from evenbreak.physics.throw import gearing_side
+from evenbreak.physics.units import LEAST, numbers, positive
 
 NATURAL_ROLL_OFFSET = 0.4
 """The height above the centre, over R, at which a hit gives natural roll at once (P3.5).

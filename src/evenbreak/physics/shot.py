@@ -20,9 +20,8 @@ import numpy as np
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, kind_or_usual, number, one_of
 from evenbreak.errors import InputError
-from evenbreak.physics.ball_friction import BALL_FRICTION, SlipFriction, one_friction
 from evenbreak.physics.collision import Collision, collide
-from evenbreak.physics.friction import miscue_offset
+from evenbreak.physics.friction import BALL_FRICTION, SlipFriction, miscue_offset, one_friction
 from evenbreak.physics.leg import Leg, Phase, State, leg_until, on_table, place_of, time_to
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.rolling import Energy

@@ -26,8 +26,8 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers
 from evenbreak.physics.objects import Ball, Cloth
+from evenbreak.physics.units import numbers
 
 
 def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:

@@ -18,11 +18,11 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.checks import kind_or_usual, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers
 from evenbreak.physics.friction import miscue_offset
 from evenbreak.physics.objects import Ball, Cue
 from evenbreak.physics.offset import ball_speed_ratio, spin_of_offset
 from evenbreak.physics.rolling import Energy, kinetic_energy
+from evenbreak.physics.units import numbers
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,14 +30,14 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats
 from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
-from evenbreak.physics.arrays import numbers
-from evenbreak.physics.ball_friction import (
+from evenbreak.physics.friction import (
     BALL_FRICTION,
     BallFriction,
     SlipFriction,
     checked_friction,
     friction_of_slip,
 )
+from evenbreak.physics.units import numbers
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 

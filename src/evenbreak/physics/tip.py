@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import plain, together
-from evenbreak.physics.arrays import numbers, positive
+from evenbreak.physics.units import numbers, positive
 
 
 class CentreHit(NamedTuple):

@@ -4,7 +4,13 @@ Multiply to convert to SI, divide to convert back: `9 * INCH` is in metres, `len
 inches.
 """
 
+from __future__ import annotations
+
 import math
+from typing import Any
+
+from evenbreak.arrays import Floats
+from evenbreak.checks import floats
 
 INCH = 0.0254
 """Metres in an inch."""
@@ -26,3 +32,35 @@ DEGREE = math.pi / 180.0
 
 GRAVITY = 386.0 * INCH
 """The acceleration of gravity in m/s^2: 386 in/s^2 = 9.8044 m/s^2, the value of the source text."""
+
+
+# Checks of numbers and arrays: numbers too large to calculate with are refused.
+
+
+LARGEST = 1e50
+"""The largest number accepted, so that products of a few of them still fit into a float."""
+
+LEAST = 1.0 / LARGEST
+"""The smallest number accepted where 0 is not."""
+
+
+def numbers(value: Any, name: str, *, low: float = -LARGEST, high: float = LARGEST) -> Floats:
+    """Return numbers as a float array if all of them are from `low` to `high`.
+
+    >>> numbers(-1.0, "speed", low=0.0)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: speed is -1.0; give a number from 0 to 1e+50
+    """
+    return floats(value, name, low=low, high=high)
+
+
+def positive(value: Any, name: str) -> Floats:
+    """Return numbers as a float array if all of them are above 0.
+
+    >>> positive(0.0, "gravity")
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: gravity is 0.0; give a number from 1e-50 to 1e+50
+    """
+    return floats(value, name, low=LEAST, high=LARGEST)

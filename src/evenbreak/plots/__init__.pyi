@@ -1,6 +1,6 @@
-from .break_formats import breaks_figure as breaks_figure
+from .contours import breaks_figure as breaks_figure
+from .contours import shots_figure as shots_figure
 from .diagram import draw as draw
 from .picture import Picture as Picture
 from .picture import image_bytes as image_bytes
-from .shot_choice import shots_figure as shots_figure
 from .traced_shot import shot_on_table as shot_on_table

@@ -5,8 +5,7 @@ from typing import overload
 
 from matplotlib.axes import Axes
 
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes
 from evenbreak.ratings.calibration import CalibrationBin
 from evenbreak.ratings.validate import Validation
 

@@ -7,8 +7,7 @@ from matplotlib.axes import Axes
 
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05

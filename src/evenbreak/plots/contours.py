@@ -1,12 +1,20 @@
 """Contour lines over the unit square: the value of a pair of probabilities (p1, p2)."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from functools import partial
+from typing import Any, TypeAlias, overload
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from numpy.typing import NDArray
+
+from evenbreak.checks import one_of
+from evenbreak.games.breaks import BREAK_FORMATS
+from evenbreak.games.rack import Rack
+from evenbreak.plots.picture import Picture, in_our_look, mark_points, new_axes, write_title
+from evenbreak.practice.breaks import long_run_share
+from evenbreak.practice.shots import LOOK_AHEADS, ShotChoice, one_ball_win
 
 Surface: TypeAlias = Callable[[Any, Any], Any]
 
@@ -60,7 +68,7 @@ def contour_axes(
     -----
     Source: the style of Figs. 5.3 and 5.6.
 
-    >>> from evenbreak.plots.style import new_axes
+    >>> from evenbreak.plots.picture import new_axes
     >>> figure, axes = new_axes("", "")
     >>> lines = contour_axes(axes, lambda p1, p2: p1 - p2, x="p1", y="p2", levels=[-0.5, 0, 0.5])
     >>> [text.get_text() for text in lines.labelTexts]
@@ -116,3 +124,158 @@ def _distance(points: NDArray[np.float64], lines: list[NDArray[np.float64]]) -> 
 def _level(level: Any) -> str:
     """Return a level with as few digits as possible and a true minus sign."""
     return f"{level:.4g}".replace("-", "\N{MINUS SIGN}")
+
+
+# Contour plots of what a break format is worth, with two players as a dot.
+
+
+_X = "$p_1$ = P(A wins | A breaks)"
+_Y = "$p_2$ = P(B wins | B breaks)"
+_DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
+
+
+def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Picture, list[Axes]]:
+    """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
+
+    The panels are winner, loser and alternate breaks, and winner minus loser breaks.
+
+    Parameters
+    ----------
+    x, y
+        what p1 and p2 are the probabilities of.
+    first_breaker
+        who breaks the first rack, as in `evenbreak.practice.long_run_share`.
+
+    Raises
+    ------
+    InputError
+        if `first_breaker` is not 1 or 2.
+
+    Notes
+    -----
+    Source: Fig. 5.6.
+
+    >>> figure, panels = share_panels(x="$p_1$", y="$p_2$")
+    >>> len(panels)
+    4
+    """
+    figure = Picture(figsize=(8.8, 9.2), layout="constrained")
+    panels = list(np.ravel(figure.subplots(2, 2)))
+    for axes, share in zip(panels, _shares(first_breaker), strict=True):
+        if axes is panels[3]:
+            contour_axes(axes, share, x=x, y=y, levels=_DIFFERENCES, main=0.0)
+        else:
+            contour_axes(axes, share, x=x, y=y)
+    return figure, panels
+
+
+def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
+    """Return player 1's share in winner, loser and alternate breaks, and winner minus loser."""
+    winner, loser, alternate = (
+        partial(long_run_share, breaks=BREAK_FORMATS[name], first_breaker=first_breaker)
+        for name in ("winner", "loser", "alternate")
+    )
+    return [winner, loser, alternate, lambda p1, p2: winner(p1, p2) - loser(p1, p2)]
+
+
+@in_our_look
+def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
+    """Draw player 1's long-run share of racks over (p1, p2), with the two players as a dot.
+
+    Four panels: winner, loser and alternate breaks, and winner minus loser breaks. Player 1 is
+    called A, player 2 B.
+
+    Parameters
+    ----------
+    rack
+        the chances with the break, as plain numbers.
+    first_breaker
+        who breaks the first rack, as in `evenbreak.practice.long_run_share`.
+
+    Raises
+    ------
+    InputError
+        if the rack holds arrays, or `first_breaker` is not 1 or 2.
+
+    Notes
+    -----
+    Source: Fig. 5.6.
+
+    >>> [axes.get_title() for axes in breaks_figure(Rack(0.9, 0.5)).axes][:2]
+    ['winner breaks: A wins 0.833', 'loser breaks: A wins 0.643']
+    """
+    rack.of_numbers()
+    p1, p2 = rack.p1, rack.chance(2, breaker=2)
+    figure, panels = share_panels(x=_X, y=_Y, first_breaker=first_breaker)
+    *shares, difference = (share(p1, p2) for share in _shares(first_breaker))
+    text = f"{difference:+.3f}".replace("-", "\N{MINUS SIGN}")
+    titles = [
+        f"{name} breaks: A wins {share:.3f}"
+        for name, share in zip(("winner", "loser", "alternate"), shares, strict=True)
+    ]
+    for axes, title in zip(panels, [*titles, f"winner minus loser breaks: {text}"], strict=True):
+        axes.set_title(title)
+        mark_points(axes, [(p1, p2, "")])
+    write_title(
+        figure,
+        "A's share of the racks in the long run, by break format\n"
+        f"The dot: A wins {p1:g} of the racks A breaks, B wins {p2:g} of the racks B breaks",
+    )
+    return figure
+
+
+# Shots of the one-ball game on a contour plot of the chance of winning.
+
+
+_TITLES = {
+    "infinite": "P(you win), the two shots repeated",
+    "two shots": "P(you win), even after two misses",
+}
+
+
+@overload
+def shots_figure(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes
+) -> Axes: ...
+@overload
+def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Picture: ...
+@in_our_look
+def shots_figure(
+    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes | None = None
+) -> Picture | Axes:
+    """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
+
+    Below the thick line player 1, called "you", is the favourite.
+
+    Parameters
+    ----------
+    shots
+        the shots that player 1 may choose from.
+    look_ahead
+        as in `evenbreak.practice.one_ball_win`.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    Raises
+    ------
+    InputError
+        if there is no such look-ahead.
+
+    Notes
+    -----
+    Source: Fig. 5.3.
+
+    >>> figure = shots_figure([ShotChoice("bank", 0.4, 0.8)])
+    >>> figure.axes[0].get_title()
+    'P(you win), the two shots repeated'
+    """
+    one_of(look_ahead, "look_ahead", LOOK_AHEADS)
+    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6), ax=ax)
+    contour_axes(
+        axes,
+        partial(one_ball_win, look_ahead=look_ahead),
+        x="$p_1$ = P(you make the shot)",
+        y="$p_2$ = P(the opponent makes what a miss leaves)",
+    )
+    mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
+    return figure if ax is None else ax

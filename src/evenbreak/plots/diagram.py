@@ -11,9 +11,16 @@ from matplotlib.axes import Axes
 from evenbreak.checks import floats
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
-from evenbreak.plots.layout import Positions, positions_of
 from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.strokes import FONT, INCHES, Pen, is_words, longest_line
+from evenbreak.plots.strokes import (
+    FONT,
+    INCHES,
+    Pen,
+    Positions,
+    is_words,
+    longest_line,
+    positions_of,
+)
 
 if TYPE_CHECKING:
     import networkx as nx

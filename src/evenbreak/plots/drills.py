@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import new_axes
+from evenbreak.plots.picture import Picture, in_our_look, new_axes
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.log_analysis import LogAnalysis
 

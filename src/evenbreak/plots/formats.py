@@ -10,9 +10,10 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossings, rack_along
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.win import win_probability
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import (
+from evenbreak.plots.picture import (
     LINES,
+    Picture,
+    in_our_look,
     new_axes,
     take_names_as_they_are,
     unit_axis,

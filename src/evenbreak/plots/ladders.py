@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from evenbreak.handicaps.ladders.settling import Settling
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes, unit_axis
+from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes, unit_axis
 from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3

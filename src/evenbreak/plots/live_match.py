@@ -6,8 +6,7 @@ from typing import Any, Literal
 import numpy as np
 
 from evenbreak.matches.live import LiveOdds
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, take_names_as_they_are, write_title
+from evenbreak.plots.picture import LINES, Picture, in_our_look, take_names_as_they_are, write_title
 
 _MOST_SCORES = 24
 """The most scores that fit below the picture; of more, only every second, third, ... is written."""

@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from evenbreak.files.practice import ScoresFile
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, legend_below, new_axes
+from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
 from evenbreak.stats.confidence import MeanInterval
 from evenbreak.stats.trend import TrendLine
 

@@ -7,10 +7,8 @@ from typing import overload
 import numpy as np
 from matplotlib.axes import Axes
 
-from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
-from evenbreak.matches.straight_pool_spot import even_spot
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.matches.straight_pool import StraightPool, even_spot, straight_pool_odds
+from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 

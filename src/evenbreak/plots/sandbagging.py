@@ -8,8 +8,7 @@ from matplotlib.axes import Axes
 
 from evenbreak.league.sandbag_pay import Sandbagging
 from evenbreak.league.sandbag_watch import Watched
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, new_axes
+from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes
 
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""

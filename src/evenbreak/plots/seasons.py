@@ -7,8 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from evenbreak.files.tables.problems import printable
-from evenbreak.plots.picture import Picture, in_our_look
-from evenbreak.plots.style import LINES, legend_below, new_axes
+from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
 
 MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""

@@ -10,8 +10,8 @@ from .log_analysis import LevelReport as LevelReport
 from .log_analysis import LogAnalysis as LogAnalysis
 from .log_analysis import analyse_log as analyse_log
 from .log_tests import PlayedAgainTest as PlayedAgainTest
-from .progressive_fit import ProgressiveFit as ProgressiveFit
-from .progressive_fit import fit_progressive as fit_progressive
+from .log_tests import ProgressiveFit as ProgressiveFit
+from .log_tests import fit_progressive as fit_progressive
 from .shots import RankedShot as RankedShot
 from .shots import ShotChoice as ShotChoice
 from .shots import break_even_p2 as break_even_p2

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.limits import limit_of
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.games.drill import Drill
-from evenbreak.practice.levels import level_gains, level_lifts
 from evenbreak.stats.summary import Distribution
 
 
@@ -89,3 +89,135 @@ def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics
         tuple(level_lifts(success).tolist()),
         limit.period,
     )
+
+
+# Where progressive drills settle and what each level is worth, for many drills at once.
+#
+# The levels of a drill are in a line, so between two levels that communicate as many attempts go
+# up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
+# quotients. The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the
+# total lead over the long-run mean, summed over all time, of a player who is now at level i:
+#
+#     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
+#     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
+#
+# The climbs are solved from the top for levels above the mean, from the bottom for those below:
+# then all terms are positive and no digits are lost. References: Schweitzer 1968; Karlin and
+# McGregor 1957.
+
+
+MORE = 0.05
+"""The rise in a chance by which levels are compared: five more successes in 100."""
+
+
+def chances_seen(attempts: Ints, successes: Ints) -> Floats:
+    """Return the success rate at each level, with a convention for levels that were not tried.
+
+    Untried levels below all those tried count as always succeeding: a player who begins at
+    level 4 and never falls below 3 would not get stuck at level 1. All others count as never
+    succeeding.
+
+    Parameters
+    ----------
+    attempts, successes
+        shape (..., n): the counts at each level, one log per row.
+
+    >>> chances_seen(np.array([0, 2, 4, 0]), np.array([0, 2, 1, 0]))
+    array([1.  , 1.  , 0.25, 0.  ])
+    """
+    tried = attempts > 0
+    below_all = ~np.logical_or.accumulate(tried, axis=-1)
+    return np.where(tried, successes / np.maximum(attempts, 1), below_all)
+
+
+def level_laws(success: Floats) -> Floats:
+    """Return the stochastic limits of drills that begin at level 1.
+
+    Parameters
+    ----------
+    success
+        shape (..., n): P(success | an attempt at level i), one drill per row.
+
+    Returns
+    -------
+    numpy.ndarray
+        shape (..., n): the long-run fraction of attempts at each level.
+
+    >>> level_laws(np.array([[0.5, 0.5], [0.5, 1.0], [0.0, 0.5]]))
+    array([[0.5, 0.5],
+           [0. , 1. ],
+           [1. , 0. ]])
+    """
+    n = success.shape[-1]
+    level = np.arange(n)
+    failure = 1.0 - success
+    # The player stays between the last level that always succeeds and the first that never does.
+    stuck = success == 0.0
+    last = np.where(stuck.any(-1), stuck.argmax(-1), n - 1)[..., None]
+    sure = (failure == 0.0) & (level > 0) & (level <= last)
+    first = np.where(sure, level, 0).max(-1, keepdims=True)
+    up, down = success[..., :-1], failure[..., 1:]
+    moves = (up > 0.0) & (down > 0.0)
+    steps = np.zeros_like(success)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        steps[..., 1:] = np.where(moves, np.log(up) - np.log(down), 0.0)
+    height = np.where((first <= level) & (level <= last), steps.cumsum(-1), -np.inf)
+    law = np.exp(height - height.max(-1, keepdims=True))
+    return np.asarray(law / law.sum(-1, keepdims=True))
+
+
+def level_gains(success: Floats, law: Floats) -> Floats:
+    """Return the derivative of the mean level with respect to the chance at each level.
+
+    At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never
+    succeeds and level i + 1 always does), and 0 at levels not visited in the long run.
+
+    Parameters
+    ----------
+    success, law
+        shape (..., n), as in `level_laws`.
+
+    >>> success = np.array([0.5, 0.5])
+    >>> level_gains(success, level_laws(success))
+    array([0.5, 0.5])
+    """
+    n = success.shape[-1]
+    failure = 1.0 - success
+    mean = law @ np.arange(1.0, n + 1)
+    climb = np.zeros((*mean.shape, n + 1))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for i in range(n, 1, -1):
+            p, q = success[..., i - 1], failure[..., i - 1]
+            above = np.where(p > 0.0, p * climb[..., i], 0.0)
+            climb[..., i - 1] = np.where(i > mean, (i - mean + above) / q, 0.0)
+        for i in range(1, n):
+            p, q = success[..., i - 1], failure[..., i - 1]
+            from_below = (mean - i + q * climb[..., i - 1]) / p
+            climb[..., i] = np.where(i + 1 > mean, climb[..., i], from_below)
+        gain = law * (climb[..., :-1] + climb[..., 1:])
+    return np.where(law > 0.0, gain, 0.0)
+
+
+def level_lifts(success: Floats) -> Floats:
+    """Return by how much the mean level rises with five more successes in 100 at each level.
+
+    Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is above
+    0.95 already); so a level that always succeeds has none.
+
+    Parameters
+    ----------
+    success
+        shape (..., n), as in `level_laws`.
+
+    >>> level_lifts(np.array([1.0, 0.5])).round(6)
+    array([0.      , 0.022989])
+    """
+    level = np.arange(1.0, success.shape[-1] + 1)
+    mean = level_laws(success) @ level
+    lifts = np.zeros_like(success)
+    for i in range(len(level)):
+        more = success.copy()
+        more[..., i] = np.minimum(more[..., i] + MORE, 1.0)
+        lifts[..., i] = level_laws(more) @ level - mean
+    # A rise smaller than rounding may come out negative.
+    return np.maximum(lifts, 0.0)

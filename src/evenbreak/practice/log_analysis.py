@@ -10,15 +10,16 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import generator_of, whole
 from evenbreak.practice.drill_log import DrillLog
-from evenbreak.practice.levels import chances_seen, level_gains, level_laws, level_lifts
+from evenbreak.practice.drills import chances_seen, level_gains, level_laws, level_lifts
 from evenbreak.practice.log_tests import (
     PlayedAgainTest,
+    ProgressiveFit,
     difference_test,
+    fit_progressive,
     memory_test,
     model_test,
+    play_again,
 )
-from evenbreak.practice.played_again import play_again
-from evenbreak.practice.progressive_fit import ProgressiveFit, fit_progressive
 from evenbreak.stats.summary import Distribution
 
 _CONFIDENCE = 0.95

@@ -7,11 +7,11 @@ from .fit import fit as fit
 from .fitted import Group as Group
 from .fitted import Ratings as Ratings
 from .levels import Levels as Levels
+from .likelihood_terms import RaceSlopes as RaceSlopes
+from .likelihood_terms import race_slopes as race_slopes
 from .prior import Evidence as Evidence
 from .prior import PriorChoice as PriorChoice
 from .prior import best_prior as best_prior
-from .race_likelihood import RaceSlopes as RaceSlopes
-from .race_likelihood import race_slopes as race_slopes
 from .results import Played as Played
 from .results import Results as Results
 from .roster import Roster as Roster

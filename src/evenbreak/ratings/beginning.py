@@ -24,8 +24,7 @@ from evenbreak.checks import column, names, number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 
 class Known(NamedTuple):

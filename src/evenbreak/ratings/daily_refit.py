@@ -17,7 +17,7 @@ from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.covariance import sums_by_player
-from evenbreak.ratings.newton import damped, find_zero, step_accuracy, tolerance
+from evenbreak.ratings.posterior import damped, find_zero, step_accuracy, tolerance
 from evenbreak.ratings.prior_means import PriorMeans
 
 GRADIENT = 1e-6

@@ -13,17 +13,16 @@ from scipy.sparse.csgraph import connected_components
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
+from evenbreak.ratings.covariance import PairCounts, count_pairs
 from evenbreak.ratings.decay import day_of, match_weights, until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
-from evenbreak.ratings.pairs import PairCounts, count_pairs
 from evenbreak.ratings.posterior import find_mode
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.

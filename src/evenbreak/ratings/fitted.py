@@ -12,10 +12,9 @@ import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.errors import InputError
-from evenbreak.ratings.covariance import Curvature
+from evenbreak.ratings.covariance import Curvature, PairCounts
 from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
-from evenbreak.ratings.pairs import PairCounts
 from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.scale import Scale
 

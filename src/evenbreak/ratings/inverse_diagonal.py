@@ -12,13 +12,17 @@ and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fag
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
+from scipy.sparse.linalg import LinearOperator, eigsh, spilu
 
-from evenbreak.arrays import Floats
-from evenbreak.ratings.approximate_diagonal import approximate_diagonal, not_definite
-from evenbreak.ratings.elimination_fronts import Front, fronts_of
+from evenbreak.arrays import Floats, Places
+from evenbreak.errors import AccuracyError
 
 _TRACE = 1e-100
 _NOTHING = np.zeros((0, 0))
@@ -134,3 +138,232 @@ def _inverse_root(block: Floats) -> Floats:
 def _sums(x: Floats, y: Floats) -> Floats:
     """Return the diagonal of xᵀy."""
     return np.asarray(np.einsum("ij,ij->j", x, y))
+
+
+# The diagonal of the inverse of a league's Hessian, where no elimination order keeps it sparse.
+#
+# All rows of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with
+# a weak prior, its largest by far. It is put aside exactly: with u the vector of ones,
+#
+#     diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn)
+#
+# and, scaled to a unit diagonal by S, what is left is I - W with the spectral radius ρ of W
+# small in a league where everybody may meet everybody. Eliminating all others but i,
+#
+#     ((I - W)⁻¹)ᵢᵢ = 1 / (1 - Σⱼₖ Wᵢⱼ Cⱼₖ Wₖᵢ),
+#
+# C being the inverse without row i, whose eigenvalues lie between 1/(1+ρ) and 1/(1-ρ). So
+# the sum is known within that factor of Σⱼ Wᵢⱼ², which is small where players have many
+# games. Within those bounds C is taken as its diagonal, and that as the answer sought: the
+# cavity approximation, exact but for cycles of opponents (Thouless, Anderson & Palmer 1977).
+
+
+_LARGE = 2000
+"""From this many rows on, answers may be approximate, because they are much faster."""
+
+_WELL_MIXED = 0.002
+"""How far from certain an answer by cavities may be. As ρ² is at least the sum of any row of
+squares, no such sum is then above .015, and every round comes 60 times nearer."""
+_ROUNDS = 6
+
+
+def approximate_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
+    """Return the diagonal of the inverse; parameters and errors of `inverse_diagonal`."""
+    if matrix.shape[0] >= _LARGE and row_sum is not None:
+        league = _Levelled.of(matrix, row_sum)
+        for diagonal_of in (_by_cavities, _in_single_precision):
+            diagonal = diagonal_of(league)
+            if diagonal is not None:
+                return diagonal * league.scale**2 + league.level
+    return _in_double_precision(matrix)
+
+
+@dataclass(frozen=True, eq=False)
+class _Levelled:
+    """S (H + αuuᵀ) S = I - W, where W is `pull` - r rᵀ off the diagonal and 0 on it."""
+
+    pull: sparse.csc_array
+    r: Floats
+    scale: Floats
+    level: float
+
+    @classmethod
+    def of(cls, matrix: sparse.csc_array, row_sum: float) -> _Levelled:
+        size = matrix.shape[0]
+        degree = matrix.diagonal()
+        alpha = float(degree.mean()) / size
+        scale = 1.0 / np.sqrt(degree + alpha)
+        pull = sparse.diags_array(degree) - matrix
+        pull = sparse.diags_array(scale) @ pull @ sparse.diags_array(scale)
+        level = alpha / (row_sum * (row_sum + alpha * size))
+        return cls(sparse.csc_array(pull), np.sqrt(alpha) * scale, scale, level)
+
+
+def _by_cavities(league: _Levelled) -> Floats | None:
+    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
+    r, pull = league.r, league.pull
+    rr, size = r * r, len(r)
+    w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)
+    start = np.cos(np.arange(size))
+    largest = eigsh(w, 1, which="LM", tol=0.01, v0=start, return_eigenvectors=False)
+    radius = 1.05 * abs(float(largest[0]))  # Lanczos comes from below
+    squares = pull.multiply(pull) - 2.0 * (sparse.diags_array(r) @ pull @ sparse.diags_array(r))
+
+    def squared(v: Floats) -> Floats:
+        product: Floats = squares @ v + rr * (rr @ v) - rr * rr * v
+        return product
+
+    total = float(squared(np.ones(size)).max())
+    unknown = 2.0 * radius * total / (1.0 - radius**2) if radius < 0.5 else 1.0
+    if unknown > _WELL_MIXED * (1.0 - total / (1.0 - radius)):
+        return None
+    diagonal = np.ones(size)
+    for _ in range(_ROUNDS):
+        diagonal = 1.0 / (1.0 - squared(diagonal))
+    return diagonal
+
+
+def _in_single_precision(league: _Levelled) -> Floats | None:
+    """Return the diagonal of (I - W)⁻¹, or None if single precision may not be enough."""
+    r = league.r.astype(np.float32)
+    block = np.multiply.outer(r, r).T
+    column = np.repeat(np.arange(len(r)), np.diff(league.pull.indptr))
+    block[league.pull.indices, column] -= league.pull.data.astype(np.float32)
+    np.fill_diagonal(block, 1.0)
+    norm = float(np.abs(block).sum(axis=0).max())
+    factor, failed = lapack.spotrf(block, lower=1, overwrite_a=1)
+    if failed:
+        return None
+    reciprocal_condition, _ = lapack.spocon(factor, norm, uplo="L")
+    if reciprocal_condition < 1e-3:
+        return None
+    inverse, _ = lapack.strtri(factor, lower=1, overwrite_c=1)
+    return _square_sums(inverse)
+
+
+def _in_double_precision(matrix: sparse.csc_array) -> Floats:
+    factor, failed = lapack.dpotrf(matrix.toarray(order="F"), lower=1, overwrite_a=1)
+    if failed:
+        raise not_definite()
+    inverse, _ = lapack.dtrtri(factor, lower=1, overwrite_c=1)
+    return _square_sums(inverse)
+
+
+def _square_sums(lower: NDArray[Any]) -> Floats:
+    """Return the sum of the squares of every column of a lower triangle."""
+    columns = (lower[k:, k] for k in range(len(lower)))
+    return np.array([column @ column for column in columns], dtype=np.float64)
+
+
+def not_definite() -> AccuracyError:
+    """Return the error of a Hessian that rounding has made singular."""
+    return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
+
+
+# The dense blocks in which a sparse symmetric matrix is eliminated.
+#
+# A minimum degree order, its elimination tree, and pivots that share their rows gathered
+# in one front (Liu 1992, "The multifrontal method for sparse matrix solution").
+
+
+_ONE_FRONT_UP_TO = 300
+_PADDING, _PADDING_PER_ROW = 64, 20
+"""Explicit zeros that a front accepts before its rows get a front of their own."""
+
+
+@dataclass(eq=False)
+class Front:
+    """Columns that are eliminated together, and the later rows that they touch.
+
+    `children` are the positions, in the list of fronts, of those whose Schur complement
+    this front takes up; they come before it.
+    """
+
+    pivots: Places
+    rows: Places
+    children: list[int] = field(default_factory=list)
+
+
+def fronts_of(matrix: sparse.csc_array) -> list[Front]:
+    """Return the fronts of a symmetric matrix, children before parents.
+
+    >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
+    >>> fronts_of(path)
+    [Front(pivots=array([0, 1, 2]), rows=array([], dtype=int64), children=[])]
+    """
+    size = matrix.shape[0]
+    if size <= _ONE_FRONT_UP_TO or _fills_in(matrix):
+        return [Front(np.arange(size), np.zeros(0, dtype=np.intp))]
+    return _gather(matrix, _minimum_degree(matrix))
+
+
+def _fills_in(matrix: sparse.csc_array) -> bool:
+    """Return whether nearly everybody is reached in two steps, through many at once.
+
+    No order helps such a matrix, and finding that out by minimum degree takes longer than
+    the elimination. A sample of the rows is enough.
+    """
+    size = matrix.shape[0]
+    if matrix.nnz < 32 * size:
+        return False
+    reached = []
+    for row in range(0, size, max(size // 16, 1)):
+        near = matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]]
+        seen = np.zeros(size, dtype=bool)
+        for other in near:
+            seen[matrix.indices[matrix.indptr[other] : matrix.indptr[other + 1]]] = True
+        reached.append(int(seen.sum()))
+    return bool(np.median(reached) > size / 6)
+
+
+def _minimum_degree(matrix: sparse.csc_array) -> Places:
+    """Return the columns in the order of elimination.
+
+    SuperLU orders before it factorises, and an incomplete factor that drops all it may
+    costs nothing: what is left is the order.
+    """
+    factor = spilu(
+        matrix,
+        drop_tol=1.0,
+        fill_factor=1.0,
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+    return np.argsort(factor.perm_c)
+
+
+def _gather(matrix: sparse.csc_array, order: Places) -> list[Front]:
+    """Return the fronts for an order, in the names of the matrix."""
+    size = len(order)
+    rank = np.empty(size, dtype=np.intp)
+    rank[order] = np.arange(size)
+    pivots: list[list[int]] = []
+    rows: list[Places] = []
+    children: list[list[int]] = []
+    waiting: list[list[int]] = [[] for _ in range(size)]  # fronts, by the first of their rows
+    for k in range(size):
+        column = order[k]
+        near = rank[matrix.indices[matrix.indptr[column] : matrix.indptr[column + 1]]]
+        below = [near[near > k], *(rows[front][1:] for front in waiting[k])]
+        touched = np.unique(np.concatenate(below))
+        host = max(waiting[k], key=lambda front: len(rows[front]), default=None)
+        if host is not None:
+            padding = (len(touched) + 1 - len(rows[host])) * len(pivots[host])
+        if host is None or padding > _PADDING + _PADDING_PER_ROW * len(touched):
+            host = len(pivots)
+            pivots.append([])
+            rows.append(touched)
+            children.append([])
+        pivots[host].append(k)
+        rows[host] = touched
+        children[host].extend(front for front in waiting[k] if front != host)
+        waiting[k].clear()
+        if len(touched):
+            waiting[touched[0]].append(host)
+    last = sorted(range(len(pivots)), key=lambda front: pivots[front][-1])
+    place = {front: number for number, front in enumerate(last)}
+    return [
+        Front(order[pivots[front]], order[rows[front]], [place[c] for c in children[front]])
+        for front in last
+    ]

@@ -9,14 +9,19 @@ necessarily in β.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
+from scipy import sparse
+from scipy.special import expit
 
 from evenbreak.arrays import Floats
-from evenbreak.ratings.likelihood_terms import LikelihoodTerms
-from evenbreak.ratings.newton import (
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.likelihood_terms import LikelihoodTerms, race_slopes
+from evenbreak.ratings.posterior import (
     GRADIENT_TOLERANCE,
+    MOST_STEPS,
     Mode,
     damped,
     find_zero,
@@ -106,3 +111,205 @@ def find_mixed_mode(
     known_best = float(known.information.max(initial=0.0))
     most = max(float(terms.race_m.max(initial=0)), terms.amount, known_best)
     return find_zero(begin, gradient_at, tolerance(precision, most, gradient))
+
+
+# The modes of one season rated in several ways, found together.
+#
+# In a league of a few dozen players a step of Newton's method takes longer to call than to
+# calculate, so here all ways take each step at once, as arrays with one row a way. The model is
+# that of `evenbreak.ratings.mixed_posterior`. The levels of teams and divisions are integrated
+# out: with the design Z and the levels' variances S, the skills are normal with
+#
+#     precision  Q = (σ²I + Z S Zᵀ)⁻¹
+#
+# about their means, and their mode is the same as that of skills and levels together. The break
+# advantage, where it is estimated, is the last unknown.
+
+
+GRADIENT = 1e-6
+"""How small the gradients have to become, in games, times τ where that is below 1."""
+
+"""Steps shorter than this are taken whole: the cost can no longer measure their gain."""
+
+
+class WayToRate(NamedTuple):
+    """What the skills of a season depend on, apart from its results.
+
+    Parameters
+    ----------
+    terms
+        what was played, in weights of its own.
+    precision
+        τ, the prior precision of a skill, 1/sd² in log-odds.
+    advantage
+        the break advantage in log-odds: known, or where to begin.
+    break_precision
+        the prior precision of the advantage, about 0; None: it is known.
+    means
+        where players are expected to be before any result; None: all at 0.
+    """
+
+    terms: LikelihoodTerms
+    precision: float
+    advantage: float = 0.0
+    break_precision: float | None = None
+    means: PriorMeans | None = None
+
+
+def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[Floats, Floats]:
+    """Return the most likely skills, shape (ways, players), and break advantages, a posteriori.
+
+    Parameters
+    ----------
+    ways
+        one or more; their terms are of the same matches and differ in weights alone.
+    start
+        skills from which to begin.
+
+    Raises
+    ------
+    AccuracyError
+        if a gradient does not come down to what is wanted.
+    """
+    season = _Season(ways)
+    skill = season.mean if start is None else np.broadcast_to(start, season.mean.shape)
+    point = np.column_stack([skill, [way.advantage for way in ways]])
+    cost = season.cost(point)
+    for _ in range(MOST_STEPS):
+        gradient, curvature = season.slopes(point)
+        left = np.abs(gradient).max(1)
+        if (left <= season.enough).all():
+            return point[:, :-1], point[:, -1]
+        step = _newton_step(gradient, curvature)
+        longest = np.abs(step).max(1)
+        length = np.ones(len(step))
+        while True:
+            new = season.cost(point + length[:, None] * step)
+            too_long = (new > cost) & (length * longest >= _FULL_STEP)
+            if not too_long.any():
+                break
+            length[too_long] *= 0.5
+        point, cost = point + length[:, None] * step, new
+    raise AccuracyError(
+        f"the ratings' gradient is {left.max():.1e} after {MOST_STEPS} Newton steps; give a "
+        "smaller prior_sd"
+    )
+
+
+def _newton_step(gradient: Floats, curvature: Floats) -> Floats:
+    """Return the step of each way; the curvature in the last unknown may be below 0."""
+    border, corner = curvature[:, :-1, -1], curvature[:, -1, -1]
+    right = np.stack([gradient[:, :-1], border], axis=2)
+    plain, bordered = np.moveaxis(np.linalg.solve(curvature[:, :-1, :-1], right), 2, 0)
+    across = (border * bordered).sum(1)
+    # Where it is not convex: down along the slope, as if all of the corner were left.
+    rest = np.where(corner > across, corner - across, np.abs(corner) + across)
+    shift = -(gradient[:, -1] - (border * plain).sum(1)) / rest
+    return np.column_stack([-plain - bordered * shift[:, None], shift])
+
+
+class _Season:
+    """The negative log-posterior of each way, with its first two derivatives."""
+
+    def __init__(self, ways: Sequence[WayToRate]) -> None:
+        terms = ways[0].terms
+        self._terms, self._players = terms, terms.players
+        self._won = np.array([way.terms.won for way in ways])
+        self._lost = np.array([way.terms.lost for way in ways])
+        self._race_weight = np.array([way.terms.race_weight for way in ways])
+        self._own_break_weight = np.array([way.terms.own_break_weight for way in ways])
+        self._estimated = np.array([way.break_precision is not None for way in ways])
+        self._break_precision = np.array([way.break_precision or 0.0 for way in ways])
+        known = [way.means or PriorMeans.none(self._players) for way in ways]
+        priors = [_prior_of(one, way.precision) for one, way in zip(known, ways, strict=True)]
+        self.mean = np.array([mean for mean, _ in priors])
+        self._precision = np.array([precision for _, precision in priors])
+        brought = max(float(one.information.max(initial=0.0)) for one in known)
+        most = max(float(terms.race_m.max(initial=0)), terms.amount, brought)
+        self.enough = np.array([tolerance(way.precision, most, GRADIENT) for way in ways])
+        many = len(terms.low)
+        # Which pair each term is about, and the two players of each pair.
+        pair = np.concatenate([terms.pair, terms.race_pair])
+        rows = np.arange(len(pair))
+        self._to_pairs = sparse.csr_array((np.ones(len(pair)), (rows, pair)), (len(pair), many))
+        ends = np.zeros((many, self._players))
+        ends[np.arange(many), terms.low] = 1.0
+        ends[np.arange(many), terms.high] = -1.0
+        self._ends = ends
+
+    def _differences(self, point: Floats) -> tuple[Floats, Floats]:
+        """Return the log-odds of each term of games, and of each race for its winner."""
+        terms = self._terms
+        difference = point[:, terms.low] - point[:, terms.high]
+        games = difference[:, terms.pair] + point[:, -1:] * terms.broke
+        return games, terms.race_side * difference[:, terms.race_pair]
+
+    def cost(self, point: Floats) -> Floats:
+        """Return minus the logarithm of each posterior density, but for a constant."""
+        games, races = self._differences(point)
+        # ln(1 + exp(x)) is ln(1 + exp(-x)) + x.
+        common = (self._won + self._lost) * np.logaddexp(0.0, games) - self._won * games
+        log_win = race_slopes(races, self._terms.race_m, self._terms.race_n).log_win
+        prior = 0.5 * ((point[:, :-1] - self.mean) * self._pull(point)).sum(1)
+        prior += 0.5 * self._break_precision * point[:, -1] ** 2
+        breaks = self._own_break_weight * self._terms.own_breaks.log_sums(point[:, -1])[0]
+        own = common.sum(1) - (self._race_weight * log_win).sum(1) - breaks.sum(1)
+        return np.asarray(own + prior)
+
+    def slopes(self, point: Floats) -> tuple[Floats, Floats]:
+        """Return the gradients, and the Hessians."""
+        games, races = self._differences(point)
+        played, p = self._won + self._lost, expit(games)
+        found = race_slopes(races, self._terms.race_m, self._terms.race_n)
+        miss = played * p - self._won
+        slope = -self._race_weight * self._terms.race_side * found.slope
+        pull = np.hstack([miss, slope]) @ self._to_pairs
+        of_games = played * p * (1.0 - p)
+        bend = np.hstack([of_games, -self._race_weight * found.curvature]) @ self._to_pairs
+        n = self._players
+        gradient, curvature = np.zeros((len(point), n + 1)), np.zeros((len(point), n + 1, n + 1))
+        gradient[:, :n] = pull @ self._ends + self._pull(point)
+        curvature[:, :n, :n] = self._precision + self._laplacians(bend)
+        curvature[:, n, n] = 1.0
+        if self._estimated.any():
+            broke = self._terms.broke
+            _, mean, spread = self._terms.own_breaks.log_sums(point[:, -1])
+            weight = self._own_break_weight
+            slope = miss @ broke - (weight * mean).sum(1) + self._break_precision * point[:, -1]
+            corner = of_games @ (broke != 0) - (weight * spread).sum(1) + self._break_precision
+            rest = np.zeros((len(point), len(self._terms.race_pair)))
+            border = np.hstack([of_games * broke, rest]) @ self._to_pairs @ self._ends
+            gradient[:, n] = np.where(self._estimated, slope, 0.0)
+            curvature[:, n, n] = np.where(self._estimated, corner, 1.0)
+            curvature[:, :n, n] = np.where(self._estimated[:, None], border, 0.0)
+        return gradient, curvature
+
+    def _pull(self, point: Floats) -> Floats:
+        """Return the gradient of minus the prior's logarithm, in the skills."""
+        off = point[:, :-1] - self.mean
+        return np.asarray((self._precision @ off[:, :, None])[:, :, 0])
+
+    def _laplacians(self, bend: Floats) -> Floats:
+        n = self._players
+        whole = np.zeros((len(bend), n, n))
+        whole[:, self._terms.low, self._terms.high] = -bend
+        whole += whole.transpose(0, 2, 1)
+        whole[:, np.arange(n), np.arange(n)] = bend @ np.abs(self._ends)
+        return whole
+
+
+def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
+    """Return mean and precision of the skills' prior, levels integrated out.
+
+    What earlier results say is part of it: it is normal in the skills, too.
+    """
+    one = np.eye(len(means.mean))
+    prior = precision * one
+    if len(means.level_sd):
+        spread = means.design * means.level_sd
+        prior = np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
+    if means.known is None:
+        return means.mean, prior
+    both = prior + np.diag(means.known.information)
+    mean = np.linalg.solve(both, prior @ means.mean + means.known.pull)
+    return np.asarray(mean, dtype=np.float64), both

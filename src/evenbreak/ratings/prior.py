@@ -9,24 +9,25 @@ others is added in turn where it clearly predicts better, and the width is chose
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from scipy.special import logsumexp
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import Beginning
-from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.calibration import Estimate, ratio_over, samples
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.gains import gains_over, is_clear
-from evenbreak.ratings.half_life import half_lives_for
 from evenbreak.ratings.levels import Levels, begun, known_levels
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.stretches import Stretches, StretchLosses
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE
+from evenbreak.ratings.stretches import Stretches, StretchLosses, stretch_losses
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -152,7 +153,7 @@ def best_prior(
     there are too few results to choose by, and the width nearest to the default is returned.
 
     Levels and half-lives are added one after another where they clearly predict better (see
-    `evenbreak.ratings.gains`).
+    `evenbreak.ratings.prior`).
 
     Parameters
     ----------
@@ -309,3 +310,126 @@ def _as_it_went(found: StretchLosses, tried: Floats) -> float:
     before[0] = _from_default(tried)
     chosen = found.losses[np.arange(len(before)), before.argmin(1)]
     return float(chosen.sum() / found.predicted.sum())
+
+
+# What one way of rating gains over another in predicting a season, and whether that is clear.
+#
+# Predictions are made before the results, so the product of the ratios of what two ways predicted
+# is a betting score: if the first way is right, the chance that the score ever reaches 20 is at
+# most 1/20 (Ville 1939; Shafer 2021). That also holds for the mean of the scores of several ways.
+
+
+FEWEST_STRETCHES = 10
+"""Stretches from which ways can be compared."""
+
+EVIDENCE = 20.0
+"""The betting score from which a gain is clear, if the bootstrap does not speak against it."""
+
+SEED = 1
+"""Of the bootstrap, so that the same file always has the same answer."""
+
+
+def gains_over(found: StretchLosses) -> tuple[Estimate, ...]:
+    """Return how much log-loss a game each way but the first saves over the first.
+
+    All ways predict the same stretches, so the intervals are those of the differences, the
+    stretches resampled.
+    """
+    stretches = np.arange(len(found.losses))
+    drawn = _samples(len(stretches))
+    return tuple(
+        ratio_over(saved, found.predicted, stretches, drawn)
+        for saved in (found.losses[:, :1] - found.losses[:, 1:]).T
+    )
+
+
+def is_clear(found: StretchLosses) -> bool:
+    """Return whether some way but the first clearly predicts better than the first.
+
+    Either the gain of one is above 0 with 99% confidence, stretches being resampled; or the mean
+    betting score of all is at least 20, and the best gain is above 0 with 90% confidence. The
+    second finds what mostly helps early in a season, as long as little is known from results.
+
+    >>> few = StretchLosses(np.ones((9, 2)), np.ones(9))
+    >>> is_clear(few)
+    False
+    """
+    if len(found.losses) < FEWEST_STRETCHES:
+        return False
+    gains = gains_over(found)
+    saved = found.losses.sum(0)[0] - found.losses.sum(0)[1:]
+    score = float(logsumexp(saved)) - math.log(len(saved))
+    best = max(gains, key=lambda one: one.value)
+    return any(_errors(one) > 2.576 for one in gains) or (
+        score >= math.log(EVIDENCE) and _errors(best) > 1.282
+    )
+
+
+@cache
+def _samples(stretches: int) -> Ints:
+    return samples(stretches, np.random.default_rng(SEED))
+
+
+def _errors(gain: Estimate) -> float:
+    """Return by how many standard errors a gain is above 0: the interval is 1.96 each way."""
+    middle, half = (gain.high + gain.low) / 2.0, (gain.high - gain.low) / 2.0
+    return 1.960 * middle / half if half > 0.0 else math.copysign(math.inf, middle)
+
+
+# Whether a season is predicted better where old games count less.
+
+
+HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)
+"""The half-lives tried, in days; the longer ones only in files that cover as many days."""
+
+
+class HalfLifeGain(NamedTuple):
+    """What a half-life gains over games that never age.
+
+    Parameters
+    ----------
+    half_life
+        days after which a match counts half.
+    gain
+        how much log-loss a game it saves, in nats.
+    """
+
+    half_life: float
+    gain: Estimate
+
+
+def half_lives_for(results: Results) -> tuple[float, ...]:
+    """Return the half-lives to try: those up to a year, and those that the file is longer than."""
+    dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
+    days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
+    return tuple(one for one in HALF_LIVES if one <= max(days, 365.0))
+
+
+def half_life_gains(
+    results: Results,
+    prior_sd: float,
+    *,
+    levels: Levels | None = None,
+    half_lives: Sequence[float] | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
+) -> tuple[HalfLifeGain, ...]:
+    """Return what each half-life gains in predicting a season from the days before.
+
+    Nothing is returned for a season of fewer than ten stretches.
+
+    Parameters
+    ----------
+    results, progress
+        as for `stretch_losses`.
+    prior_sd, levels
+        as for `fit`.
+    half_lives
+        days; None: those of `half_lives_for`.
+    """
+    tried = half_lives_for(results) if half_lives is None else half_lives
+    how = {"prior_sd": prior_sd, "levels": levels}
+    ways = [{**how, "half_life": days} for days in (None, *tried)]
+    found = stretch_losses(results, ways, progress=progress)
+    if len(found.losses) < FEWEST_STRETCHES:
+        return ()
+    return tuple(map(HalfLifeGain, tried, gains_over(found)))

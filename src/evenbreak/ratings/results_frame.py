@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from datetime import date, datetime
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from evenbreak.errors import DataError
 from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, LARGEST_WHOLE, letters
-from evenbreak.ratings.spellings import folded, usual_spellings
 
 if TYPE_CHECKING:
     import pandas as pd
+
 
 Meaning = TypeVar("Meaning")
 
@@ -208,3 +208,43 @@ def _format(cell: Any) -> int | None:
 def _racks(cell: Any) -> str | None:
     text = "".join(cell.casefold().split()) if isinstance(cell, str) else "?"
     return text if set(text) <= {"a", "b"} else None
+
+
+# One spelling for names that differ in case or blanks alone: they are one player's.
+
+
+def folded(name: str) -> str:
+    """Return what names have in common that differ in case or blanks alone.
+
+    >>> folded("Ann Lee") == folded("ann  LEE") == folded("AnnLee")
+    True
+    """
+    return "".join(name.casefold().split())
+
+
+def usual_spellings(counts: Mapping[str, int], meant: Set[str] = frozenset()) -> dict[str, str]:
+    """Return the spelling to use of each name, by what `folded` makes of it.
+
+    It is the most frequent one; of several, one in mixed case, and with more blanks.
+
+    Parameters
+    ----------
+    counts
+        how often each name is written.
+    meant
+        spellings that come before all others.
+
+    >>> usual_spellings({"ann lee": 1, "Ann Lee": 1, "BO": 2, "Bo": 1})
+    {'annlee': 'Ann Lee', 'bo': 'BO'}
+    """
+
+    def rank(name: str) -> tuple[bool, int, bool, int]:
+        mixed = name not in (name.lower(), name.upper())
+        return name in meant, counts[name], mixed, name.count(" ")
+
+    spelling: dict[str, str] = {}
+    for name in sorted(counts):
+        key = folded(name)
+        if key not in spelling or rank(name) > rank(spelling[key]):
+            spelling[key] = name
+    return spelling

@@ -10,25 +10,49 @@ from typing import Literal
 import numpy as np
 
 from evenbreak.checks import seed_of
-from evenbreak.ratings.advantages import FirstBreaks, break_advantage, first_breaks
+from evenbreak.ratings.advantages import (
+    ByExperience,
+    FirstBreaks,
+    FirstColumn,
+    break_advantage,
+    by_experience,
+    first_breaks,
+    first_column,
+    side_advantage,
+)
 from evenbreak.ratings.beginning import Beginning
-from evenbreak.ratings.by_experience import ByExperience, by_experience
-from evenbreak.ratings.calibration import CalibrationBin, Estimate, bootstrap_ratio, calibration
+from evenbreak.ratings.calibration import (
+    CalibrationBin,
+    Estimate,
+    How,
+    Of,
+    Predictions,
+    Scored,
+    bootstrap_ratio,
+    calibration,
+)
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.first_column import FirstColumn, first_column, side_advantage
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
-from evenbreak.ratings.half_life import HalfLifeGain, half_life_gains
-from evenbreak.ratings.handicap_fairness import HandicapFairness, handicap_fairness
 from evenbreak.ratings.levels import Levels, begun
-from evenbreak.ratings.match_form import MatchForm, match_form
-from evenbreak.ratings.prior import PriorChoice, best_prior
-from evenbreak.ratings.race_lengths import RaceLengths, race_lengths
+from evenbreak.ratings.prior import HalfLifeGain, PriorChoice, best_prior, half_life_gains
+from evenbreak.ratings.race_fairness import (
+    HandicapFairness,
+    RaceLengths,
+    handicap_fairness,
+    race_lengths,
+)
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scored import How, Of, Predictions, Scored
 from evenbreak.ratings.starts import Starts, starts
 from evenbreak.ratings.walk_forward import Forecasts, walk_forward
-from evenbreak.ratings.within_matches import Dispersion, Streaks, dispersion, streaks
+from evenbreak.ratings.within_matches import (
+    Dispersion,
+    MatchForm,
+    Streaks,
+    dispersion,
+    match_form,
+    streaks,
+)
 
 FEWEST_DATES = 10
 """Dates from which the bootstrap resamples whole dates; with fewer it resamples matches."""

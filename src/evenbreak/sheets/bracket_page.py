@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from evenbreak.answers.tournament.bracket_view import Box, Panel, short_names
-from evenbreak.sheets.answer_page import Section
-from evenbreak.sheets.html_page import drawn, html_page
+from evenbreak.sheets.html_page import Section, drawn, html_page
 from evenbreak.sheets.pdf_page import POINTS, fitted
 
 COLUMN, ROW, WIDE, HIGH = 250.0, 66.0, 214.0, 46.0

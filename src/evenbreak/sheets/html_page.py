@@ -3,15 +3,23 @@
 import base64
 import hashlib
 import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from markupsafe import Markup
 
 from evenbreak import __version__
+from evenbreak.answers.faces.to_html import body_lines, part_lines
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.remarks import Remarks, fingerprints, warnings_of
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import ResultsFile
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-    from markupsafe import Markup
 
 
 def html_page(*, search: bool = False, **values: Any) -> bytes:
@@ -82,3 +90,90 @@ def _digest(text: str) -> str:
 
 def _template(name: str) -> str:
     return files("evenbreak.sheets").joinpath("templates", name).read_text("utf-8")
+
+
+# Any answer as a page: one file, nothing fetched from elsewhere.
+#
+# A page says what its answer says, in that order. A sheet may draw the tables of its answer in
+# another way, and add drawings; it adds no sentence of its own.
+
+
+class Section(NamedTuple):
+    """A section of a page: where links lead, its heading, and what is in it."""
+
+    id: str
+    title: str
+    html: Markup
+
+
+def answer_page(answer: Answer) -> bytes:
+    """Return an answer as a page of HTML in UTF-8.
+
+    >>> from evenbreak.answers.kit.answer import Answer
+    >>> b"<p>Ann wins.</p>" in answer_page(Answer("race 7:5", ["Ann wins."]))
+    True
+    """
+    return html_page(
+        heading=answer.heading.split("\n"),
+        links=[],
+        sections=[Section("", "", _markup(body_lines(answer)))],
+        below="",
+        made_of="",
+    )
+
+
+def drawn_page(
+    answer: Answer,
+    drawings: Sequence[Sequence[Section]],
+    *,
+    notes: tuple[str, str, str],
+    made_of: str,
+    file: ResultsFile | RosterFile,
+) -> bytes:
+    """Return an answer as a page whose tables are drawn in their own way.
+
+    Parameters
+    ----------
+    answer
+        what the page says. What stands before a table belongs to the table's section; what
+        stands after the last one comes last, with the remarks of the details and the warnings.
+        The other details are at the foot of the page.
+    drawings
+        for each table of the answer the sections that stand for it.
+    notes
+        the last section: its id, its title, and what it says if there is nothing else to say.
+    made_of, file
+        what the page was made from, in words, and the file.
+    """
+    tables = iter(drawings)
+    sections, said = [], Markup()
+    for part in answer.parts:
+        if isinstance(part, Table):
+            for section in next(tables):
+                sections.append(section._replace(html=said + section.html))
+                said = Markup()
+        else:
+            said += _parts([part])
+    warnings = list(warnings_of(file, answer.warnings))
+    remarks: list[Part] = [part for part in answer.details if isinstance(part, Remarks)]
+    said += _parts([*remarks, *([Remarks(warnings)] if warnings else [])])
+    identity, title, nothing = notes
+    sections.append(Section(identity, title, said or _parts([nothing])))
+    return html_page(
+        search=True,
+        heading=answer.heading.split("\n"),
+        links=[(section.id, section.title) for section in sections],
+        sections=sections,
+        below=_parts(part for part in answer.details if not isinstance(part, Remarks)),
+        made_of=made_of,
+        sha256=fingerprints(file),
+    )
+
+
+def _parts(parts: Iterable[Part]) -> Markup:
+    return _markup(line for part in parts for line in part_lines(part))
+
+
+def _markup(lines: Iterator[str]) -> Markup:
+    """Return lines that are HTML already, with every text in them escaped."""
+    return Markup("".join(f"{line}\n" for line in lines))  # noqa: S704

@@ -1,16 +1,38 @@
 """The fair-race sheet as one HTML file: for a phone, a screen, a printer and a screen reader."""
 
+from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
 
 from evenbreak.answers.kit.scales import decimals_of
+from evenbreak.answers.kit.wording import race
+from evenbreak.answers.league.matchups import matchups_answer, races_of
 from evenbreak.answers.league.pairs import how_sure, three_pairs
 from evenbreak.answers.league.report import NOTHING_LEFT_OUT, how_even, how_to_read, report_answer
-from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, count_groups
-from evenbreak.sheets.answer_page import Section, drawn_page
-from evenbreak.sheets.evenness_plot import HEIGHT, WIDTH, evenness_plot
-from evenbreak.sheets.html_page import drawn
+from evenbreak.answers.league.round import Round
+from evenbreak.answers.league.sheet import (
+    MOST_ON_SHEET,
+    NO_RACE,
+    Sheet,
+    count_groups,
+    races_by_name,
+)
+from evenbreak.errors import InputError
+from evenbreak.files.csv_writer import rows_of
+from evenbreak.sheets.html_page import Section, drawn, drawn_page
 from evenbreak.sheets.race_blocks import race_blocks, race_cards
-from evenbreak.sheets.rating_bars import Bars, player_lines
+from evenbreak.sheets.rating_bars import (
+    HEIGHT,
+    WIDTH,
+    Bars,
+    PlayerLine,
+    evenness_plot,
+    player_lines,
+)
 
 MOST_LISTED = 500
 """Players in the list of ratings; the CSV files hold all."""
@@ -65,3 +87,140 @@ def sheet_html(sheet: Sheet) -> bytes:
         made_of="results",
         file=sheet.file,
     )
+
+
+# The races of a round as one HTML file: for the wall, a phone and a screen reader.
+
+
+MOST_ACROSS = 48
+"""The most players whose races against each other stand on a page."""
+
+MOST_MATCHES = 500
+"""The most matches of a list on a page."""
+
+
+def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
+    """Return the races of a round as one HTML file that asks no other host for anything.
+
+    A list of matches becomes a table with the races in large letters and room for the
+    scores; all pairs of a roster become a table with names on both sides, on a narrow page
+    each player's races, and the ratings below it. All else is what `matchups_answer` says.
+
+    Parameters
+    ----------
+    tonight
+        the round.
+    warnings
+        as for `matchups_answer`.
+
+    Returns
+    -------
+    bytes
+        UTF-8; the same input gives the same bytes. A control character in a name is shown
+        as a mark, since HTML cannot hold it.
+
+    Raises
+    ------
+    InputError
+        if there are more than 500 listed matches, or all pairs of more than 48 players.
+
+    >>> from evenbreak.answers.league.roster_matchups import all_pairs
+    >>> from evenbreak.files.lists.roster import RosterFile
+    >>> from evenbreak.handicaps import chart
+    >>> from evenbreak.ratings import SCALES
+    >>> from evenbreak.ratings.roster import Roster
+    >>> club = Roster(["Ann", "Bo"], [92, 71])
+    >>> file = RosterFile(club, np.array([2, 3]), "club.csv", (), "0123456789abcdef")
+    >>> asked = {"scale": SCALES["npl"], "chart": chart("npl_10")}
+    >>> page = round_html(Round(file=file, roster=club, pairs=all_pairs(club), **asked)).decode()
+    >>> page[:15], "<td>6:4</td>" in page, "://" in page
+    ('<!doctype html>', True, False)
+    """
+    rated = _rated(tonight)
+    _check(tonight, len(rated))
+    bars = Bars(rated)
+    grouped = bool(rated["component"].max() > 1)
+    lines = player_lines(rated, tonight.scale, bars, grouped=grouped)
+    if tonight.listed:
+        minutes, both = tonight.pace is not None, len(tonight.kinds) > 1
+        drawing = drawn("matches", _matches(tonight, lines), minutes, both)
+        sections = [Section("matches", "Matches", drawing)]
+    else:
+        sections = [_races(tonight, prefix, lines) for prefix in tonight.kinds]
+        sections.append(Section("ratings", "Ratings", drawn("ratings", lines, bars.ticks())))
+    return drawn_page(
+        matchups_answer(tonight, warnings=warnings),
+        [sections],
+        notes=("assumed", "What was assumed", ""),
+        made_of="a list of players",
+        file=tonight.file,
+    )
+
+
+def _check(tonight: Round, players: int) -> None:
+    matches = len(tonight.pairs)
+    if tonight.listed and matches > MOST_MATCHES:
+        raise InputError(
+            f"{matches:,} matches are too many for a page, which holds {MOST_MATCHES} at most; "
+            "make a list and a page for each part of the round"
+        )
+    if not tonight.listed and players > MOST_ACROSS:
+        raise InputError(
+            f"{players:,} players are too many for a page, which holds all pairs of {MOST_ACROSS} "
+            "at most; name those who meet with --pairs PAIRS.csv"
+        )
+
+
+def _rated(tonight: Round) -> pd.DataFrame:
+    """Return the players who are on the page, the strongest first."""
+    roster = tonight.roster
+    here = np.unique(tonight.pairs)
+    order = here[np.argsort(-roster.rating[here], kind="stable")]
+    columns = ("rating", "standard_error", "games", "component")
+    return pd.DataFrame(
+        {
+            "player": [roster.players[place] for place in order.tolist()],
+            **{name: getattr(roster, name)[order] for name in columns},
+        }
+    )
+
+
+def _races(tonight: Round, prefix: str, lines: Sequence[PlayerLine]) -> Section:
+    paired = races_of(tonight.matchups.frame, prefix)
+    races = races_by_name(paired)
+    blocks, cards = race_blocks(lines, races), race_cards(lines, races, paired)
+    table = drawn("races", blocks, cards, how_to_read(paired))
+    first = prefix == next(iter(tonight.kinds))
+    return Section(
+        "races" if first else "fairest",
+        "The races" if first else "The fairest races",
+        table + drawn("sentences", list(how_even(paired))),
+    )
+
+
+def _matches(tonight: Round, lines: Sequence[PlayerLine]) -> list[dict[str, Any]]:
+    by_name = {line.name: line for line in lines}
+    main, *others = tonight.kinds
+    frame = tonight.matchups.frame
+    matches = []
+    for values in rows_of(frame):
+        row: dict[str, Any] = dict(zip(frame.columns, values, strict=True))
+        a, b = by_name[row["player_a"]], by_name[row["player_b"]]
+        # What is not set is empty on the page.
+        match: dict[str, Any] = defaultdict(str, a=a, b=b, needs_a=NO_RACE, needs_b=NO_RACE)
+        matches.append(match)
+        if row["difference"] is None:
+            continue
+        # Rounded first, so that the two chances are 1 together.
+        chance = round(row[f"{main}p_win_a"], 2)
+        match |= {f"needs_{side}": str(row[f"{main}race_{side}"]) for side in "ab"}
+        match |= {"chance": f"{chance:.2f}", "chance_b": f"{1.0 - chance:.2f}"}
+        match["games"] = f"{row[f'{main}mean_games']:.1f}"
+        match["games_p90"] = str(row[f"{main}games_p90"])
+        if tonight.pace is not None:
+            match["minutes"] = f"{row[f'{main}mean_minutes']:.0f}"
+            match["minutes_p90"] = f"{row[f'{main}minutes_p90']:.0f}"
+        if others:
+            match["fairest"] = race((row["race_a"], row["race_b"]))
+            match["fairest_chance"] = f"{row['p_win_a']:.2f}"
+    return matches

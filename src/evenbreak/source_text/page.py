@@ -9,9 +9,8 @@ from decimal import Decimal
 from fractions import Fraction
 from importlib.resources import files
 
-from evenbreak.source_text.cells import number_cell
+from evenbreak.source_text.cells import markdown_table, number_cell, short
 from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.markdown import markdown_table, short
 from evenbreak.source_text.published import Erratum
 
 _PLACE = re.compile(r"\{\{(\w+)(?:\s([^}]*))?\}\}")

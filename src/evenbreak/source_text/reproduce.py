@@ -5,21 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from evenbreak.plots.picture import image_bytes
-from evenbreak.source_text.answers import physics_findings, section_5_findings
+from evenbreak.source_text.answers import figures, physics_findings, section_5_findings
 from evenbreak.source_text.cells import Rows, Tables, csv_bytes
-from evenbreak.source_text.figures import figures
 from evenbreak.source_text.findings import Finding, physics_row_of, row_of
 from evenbreak.source_text.graph_to_limit.page import graph_to_limit_page
 from evenbreak.source_text.graph_to_limit.tables import game_tables
 from evenbreak.source_text.physics.figure_tables import figure_tables as physics_figure_tables
 from evenbreak.source_text.physics.page import physics_page
 from evenbreak.source_text.published import Erratum, errata, physics_errata
-from evenbreak.source_text.section5.figure_tables import figure_tables
 from evenbreak.source_text.section5.page import section_5_page
 from evenbreak.source_text.section5.problems import problem_tables
 from evenbreak.source_text.section5.tables import (
     chart_rows,
     eight_ball_rows,
+    figure_tables,
     ladder_rows,
     off_rule_rows,
     score_tables,

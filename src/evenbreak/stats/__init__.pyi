@@ -16,7 +16,7 @@ from .confidence import sd_of_mean as sd_of_mean
 from .confidence import was_it_luck as was_it_luck
 from .counts import CountLaw as CountLaw
 from .counts import FairLine as FairLine
-from .exact import exact as exact
+from .counts import exact as exact
 from .innings import InningsScore as InningsScore
 from .runs import RunLength as RunLength
 from .runs import median_ratio_limit as median_ratio_limit

@@ -19,8 +19,7 @@ from evenbreak.checks import (
 )
 from evenbreak.errors import InputError
 from evenbreak.stats.beta_tail import beta_tail
-from evenbreak.stats.counts import CountLaw
-from evenbreak.stats.exact import exact
+from evenbreak.stats.counts import CountLaw, exact
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

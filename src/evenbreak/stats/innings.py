@@ -21,8 +21,7 @@ from evenbreak.arrays import Floats
 from evenbreak.checks import whole
 from evenbreak.stats.beta_tail import beta_tail
 from evenbreak.stats.binomial import GamesWon, score_probability
-from evenbreak.stats.counts import CountLaw
-from evenbreak.stats.exact import exact
+from evenbreak.stats.counts import CountLaw, exact
 from evenbreak.stats.runs import checked_shots
 
 _NEAR = 1e-9

@@ -17,8 +17,7 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.stats.counts import CountLaw
-from evenbreak.stats.exact import exact
+from evenbreak.stats.counts import CountLaw, exact
 
 _MOST = 100_000
 """The largest mean allowed; exact medians beyond it would take minutes."""

@@ -12,7 +12,7 @@ from typing import Any
 
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.stats.exact import exact
+from evenbreak.stats.counts import exact
 
 Number = float | Fraction
 

@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING
 
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.store.folder import write_files
-from evenbreak.ratings.scale import SCALES, Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 from evenbreak.web.beside import Beside
 from evenbreak.web.uploads import ending_of, read_upload
 

@@ -17,8 +17,7 @@ from evenbreak.files.lists.teams import TeamList, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
 from evenbreak.tournaments.evening.opening import LONGEST_RACE
 from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in

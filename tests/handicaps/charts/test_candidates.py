@@ -3,8 +3,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import RaceLimits
-from evenbreak.handicaps.charts.candidates import Candidates
-from evenbreak.handicaps.charts.cheapest_path import NoChartError
+from evenbreak.handicaps.charts.candidates import Candidates, NoChartError
 from evenbreak.handicaps.charts.race_grid import even_differences, win_grid
 from evenbreak.ratings import SCALES
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from evenbreak.handicaps.charts.cheapest_path import NoChartError, cheapest_path
+from evenbreak.handicaps.charts.candidates import NoChartError, cheapest_path
 
 RACES, DIFFERENCES, EVENS = 4, 4, 2
 costs = arrays(float, (RACES, DIFFERENCES), elements=st.integers(0, 20).map(float))

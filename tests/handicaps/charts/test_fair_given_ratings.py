@@ -2,8 +2,11 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.fair import fair_races
-from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
-from evenbreak.handicaps.charts.given_ratings import fair_races_given_ratings, win_given_ratings
+from evenbreak.handicaps.charts.given_ratings import (
+    fair_races_given_ratings,
+    nearest_races_given_ratings,
+    win_given_ratings,
+)
 from evenbreak.ratings.scale import SCALES
 
 LIMITS = [{"race_to": 7}, {"games": (5, 13)}, {"games": (9, 9)}]

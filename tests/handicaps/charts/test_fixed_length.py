@@ -4,7 +4,7 @@ from math import comb
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.fixed_length import fixed_length_chart
+from evenbreak.handicaps.charts.design import fixed_length_chart
 from evenbreak.ratings.scale import SCALES
 
 

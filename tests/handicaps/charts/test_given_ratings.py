@@ -10,10 +10,10 @@ from scipy.special import betainc
 from evenbreak.errors import InputError
 from evenbreak.games import Race
 from evenbreak.handicaps.charts.fair import fair_races
-from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
 from evenbreak.handicaps.charts.given_ratings import (
     fair_races_given_ratings,
     length_given_ratings,
+    nearest_races_given_ratings,
     win_given_ratings,
 )
 from evenbreak.matches.odds import match_odds

@@ -3,8 +3,11 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games import Ahead, Race, Rack, winner_breaks
-from evenbreak.handicaps.charts.given_ratings import length_given_ratings, win_given_ratings
-from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
+from evenbreak.handicaps.charts.given_ratings import (
+    length_given_ratings,
+    odds_given_ratings,
+    win_given_ratings,
+)
 from evenbreak.matches import match_odds
 from evenbreak.ratings.scale import SCALES
 

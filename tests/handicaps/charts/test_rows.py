@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Chart, ChartRow
-from evenbreak.handicaps.charts.rows import catalogue_rows, row_faults
+from evenbreak.handicaps.charts.chart import catalogue_rows, row_faults
 
 
 def test_all_faults_are_told_with_the_place_of_their_row():

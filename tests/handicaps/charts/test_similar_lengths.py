@@ -2,7 +2,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import RaceLimits, design, measure_chart
-from evenbreak.handicaps.charts.similar_lengths import SimilarLengths, similar_limits
+from evenbreak.handicaps.charts.candidates import SimilarLengths, similar_limits
 from evenbreak.ratings import SCALES
 
 WIDE = RaceLimits((5, 13), weaker_least=2)

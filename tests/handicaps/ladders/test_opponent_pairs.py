@@ -10,7 +10,7 @@ from evenbreak.handicaps import (
     chart,
     opponents_of,
 )
-from evenbreak.handicaps.ladders.opponent_pairs import opponent_pairs_of
+from evenbreak.handicaps.ladders.unfairness import opponent_pairs_of
 from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.step import step_system

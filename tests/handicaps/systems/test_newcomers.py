@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems.newcomers import NEWCOMER_STEPS, step_after
+from evenbreak.handicaps.systems.npl import NEWCOMER_STEPS, step_after
 
 
 @pytest.mark.parametrize(("played", "factor"), [(0, 3), (9, 3), (10, 2), (29, 2), (30, 1)])

@@ -3,8 +3,8 @@ import math
 import pytest
 
 from evenbreak.physics import ContactPoint, small_circle_point
-from evenbreak.plots.style import new_axes
-from evenbreak.source_text.physics.ball_view import angle_arc, ball_view, name_point, roll_chord
+from evenbreak.plots.picture import new_axes
+from evenbreak.source_text.physics.tip_figures import angle_arc, ball_view, name_point, roll_chord
 
 
 @pytest.fixture

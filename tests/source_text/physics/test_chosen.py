@@ -4,7 +4,7 @@ import math
 from itertools import pairwise
 
 from evenbreak.physics import gearing_side, miscue_offset
-from evenbreak.source_text.physics import chosen
+from evenbreak.source_text.physics import tip_figures as chosen
 
 
 def test_sidespins_are_even_steps_about_none():

@@ -2,8 +2,7 @@ import re
 
 import pytest
 
-from evenbreak.source_text.answers import physics_findings
-from evenbreak.source_text.figures import figures
+from evenbreak.source_text.answers import figures, physics_findings
 from evenbreak.source_text.physics.page import place_of
 from evenbreak.source_text.published import physics_errata
 from evenbreak.source_text.reproduce import physics_tables

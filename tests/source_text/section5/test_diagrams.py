@@ -19,7 +19,7 @@ from evenbreak.games import (
     loser_breaks,
     winner_breaks,
 )
-from evenbreak.source_text.section5.diagrams import diagram_graphs, drawn
+from evenbreak.source_text.section5.plots import diagram_graphs, drawn
 
 GRAPHS = diagram_graphs()
 SHOTS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)

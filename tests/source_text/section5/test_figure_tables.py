@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.games import Ahead, Rack
 from evenbreak.matches import win_probability
-from evenbreak.source_text.section5.figure_tables import figure_tables
+from evenbreak.source_text.section5.tables import figure_tables
 
 
 @pytest.fixture(scope="module")

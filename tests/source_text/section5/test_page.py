@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from evenbreak.source_text.figures import figures
+from evenbreak.source_text.answers import figures
 from evenbreak.source_text.published import errata
 from evenbreak.source_text.reproduce import section_5_tables
 from evenbreak.source_text.section5.page import slips_of

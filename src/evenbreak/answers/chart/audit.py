@@ -8,9 +8,8 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Table
 from evenbreak.answers.kit.wording import chance, decimals, listed, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
-from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell
-from evenbreak.handicaps.charts.points_audit import PointsAudit, audit_points
-from evenbreak.handicaps.charts.points_chart import PointsChart
+from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell, PointsAudit, audit_points
+from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import NAMES, SCALES
 

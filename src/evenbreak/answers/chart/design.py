@@ -13,9 +13,9 @@ from evenbreak.answers.kit.wording import count_of, decimals, percent, race, ran
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try
-from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
+from evenbreak.handicaps.charts.fair import RaceLimits
+from evenbreak.handicaps.charts.pareto import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_grid import games_quantiles, mean_games_grid, win_grid
-from evenbreak.handicaps.charts.race_limits import RaceLimits
 from evenbreak.ratings.scale import Scale
 
 MOST_LISTED = 10

@@ -9,8 +9,13 @@ from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, race, range_words
 from evenbreak.files.charts import chart_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
-from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
-from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    LevelChart,
+    PointsChart,
+    level_chart,
+)
 from evenbreak.handicaps.systems.team_handicap import TeamHandicap
 from evenbreak.ratings.scale import Scale
 

@@ -13,10 +13,9 @@ from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Tabl
 from evenbreak.answers.kit.wording import count_of, decimals, percent
 from evenbreak.chains.ways import Way
 from evenbreak.errors import AccuracyError, InputError
-from evenbreak.handicaps.ladders.inflation import NewcomerInflation, inflation, newcomer_inflation
+from evenbreak.handicaps.ladders.comparison import NewcomerInflation, inflation, newcomer_inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.handicaps.ladders.mixing import ladder_gap, ladder_mixing
-from evenbreak.handicaps.ladders.settling import Settling, settling
+from evenbreak.handicaps.ladders.settling import Settling, ladder_gap, ladder_mixing, settling
 from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
 from evenbreak.stats.summary import Distribution
 

@@ -13,10 +13,9 @@ from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.systems.night_problems import night_problems
-from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results
+from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
 from evenbreak.handicaps.systems.system import System
-from evenbreak.league.nights import PlayedNight, played_nights
+from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.consistency import Problem
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster

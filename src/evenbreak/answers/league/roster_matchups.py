@@ -22,8 +22,8 @@ from evenbreak.handicaps.charts.given_ratings import (
     length_given_ratings,
     win_given_ratings,
 )
+from evenbreak.handicaps.charts.level_audit import LevelScale
 from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import Length
 from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import Pace

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from evenbreak.answers.league.roster_matchups import OfferedRaces, RosterMatchups, roster_matchups
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_audit import LevelScale
 from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.level_scale import LevelScale
 from evenbreak.matches.evening import evening
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.ratings.roster import Roster

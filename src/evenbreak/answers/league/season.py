@@ -17,8 +17,7 @@ from evenbreak.answers.league.season_tables import SeasonTables, weeks_with_play
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.handicaps.ladders.comparison import NEAR
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
-from evenbreak.league.season import Season
-from evenbreak.league.tally import Tally
+from evenbreak.league.season import Season, Tally
 
 SHOWN = 12
 """Players of the standings that a terminal shows: the first half and the last half of them."""

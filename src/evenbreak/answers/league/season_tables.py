@@ -11,8 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from evenbreak.league.one_season import PlayedSeason
-from evenbreak.league.season import Season
-from evenbreak.league.tally import FIFTHS, Tally
+from evenbreak.league.season import FIFTHS, Season, Tally
 
 Floats = Any
 """Arrays of numbers, of whatever shape."""

@@ -125,7 +125,7 @@ def fraction_words(p: Fraction) -> str:
 def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
     if players.scale is None or not (players.error or players.form):
         return match_odds(match, form=players.form)
-    from evenbreak.handicaps.charts.odds_given_ratings import odds_given_ratings
+    from evenbreak.handicaps.charts.given_ratings import odds_given_ratings
 
     return odds_given_ratings(
         match, players.difference, players.error, scale=players.scale, form=players.form

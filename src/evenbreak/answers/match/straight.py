@@ -3,8 +3,13 @@
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Quantities, Quantity, statistic
 from evenbreak.answers.kit.wording import chance, count_of, games, percent
-from evenbreak.matches.straight_pool import StraightPool, StraightPoolOdds, straight_pool_odds
-from evenbreak.matches.straight_pool_spot import Spot, even_spot
+from evenbreak.matches.straight_pool import (
+    Spot,
+    StraightPool,
+    StraightPoolOdds,
+    even_spot,
+    straight_pool_odds,
+)
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:

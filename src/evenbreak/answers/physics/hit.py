@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 from evenbreak.answers.kit.parts import Quantity
 from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.kit.wording import decimals
-from evenbreak.physics.ball_friction import SlipFriction
 from evenbreak.physics.collision import Collision, collide
+from evenbreak.physics.friction import SlipFriction
 from evenbreak.physics.throw import gearing_side
 from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
 

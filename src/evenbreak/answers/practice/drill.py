@@ -10,8 +10,7 @@ from evenbreak.answers.kit.simulated import luck_words
 from evenbreak.answers.kit.wording import chance, count_of, decimals
 from evenbreak.chains.ways import Way
 from evenbreak.files.practice import DrillLogFile
-from evenbreak.practice.drills import DrillStatistics, drill_statistics
-from evenbreak.practice.levels import MORE
+from evenbreak.practice.drills import MORE, DrillStatistics, drill_statistics
 from evenbreak.practice.log_analysis import LogAnalysis
 from evenbreak.practice.log_tests import PlayedAgainTest
 from evenbreak.stats.summary import Distribution

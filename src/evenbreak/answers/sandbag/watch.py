@@ -9,8 +9,7 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, race, some_of
-from evenbreak.league.nights import PlayedNight
-from evenbreak.league.sandbag_watch import Watched
+from evenbreak.league.sandbag_watch import PlayedNight, Watched
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results

@@ -43,7 +43,7 @@ def faces(
                 answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None:
-                from evenbreak.sheets.answer_page import answer_page
+                from evenbreak.sheets.html_page import answer_page
 
                 write_file(page_file, answer_page(answer))
 

@@ -15,8 +15,7 @@ from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.values import NUMBER, SHARE, SPAN, Number, Whole, meant, refuse
 from evenbreak.errors import InputError
 from evenbreak.matches.formats import LONGEST, match_format
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Command], Command]

@@ -10,8 +10,7 @@ from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.options import SAY_WHICH, Command, scale_option, with_options
 from evenbreak.cli.kit.values import CHANCE, number_of, refuse
 from evenbreak.games.rack import Rack
-from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.ratings.scale import Scale, unstated_scale
 
 REMEDY = "give two ratings A B, or two names with --from, or --p, or --p1 and --p2 with --breaks"
 

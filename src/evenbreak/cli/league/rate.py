@@ -145,7 +145,7 @@ def _rate(
     save: str | None,
     **how: Any,
 ) -> Answer:
-    from evenbreak.ratings.unstated_scale import unstated_scale
+    from evenbreak.ratings.scale import unstated_scale
 
     file = files.read_seasons(paths, **reading)
     anchor = _anchor(file, anchors)

@@ -165,7 +165,7 @@ def begin_from(path: str, file: ResultsFile, scale: Scale) -> Beginning:
     from evenbreak.answers.kit.scales import league_doubts
     from evenbreak.errors import InputError
     from evenbreak.files.lists.saved_ratings import read_saved
-    from evenbreak.ratings.unstated_scale import refuse_contradicted
+    from evenbreak.ratings.scale import refuse_contradicted
 
     saved = read_saved(path, scale, file.results.players)
     if not saved.found:

@@ -68,7 +68,7 @@ def command(
     rack = Rack(p1, p2)
     first = "ab".index(first_break) + 1
     if plot is not None:
-        from evenbreak.plots.break_formats import breaks_figure
+        from evenbreak.plots.contours import breaks_figure
 
         write_plot(breaks_figure(rack, first_breaker=first), plot)
     return breaks_answer(rack, win=win, lose=lose, first_breaker=first, via=via)

@@ -80,7 +80,7 @@ def command(
         refuse_uncertain(players)
         _refuse_many(games, race_to, top)
     if players.error or players.form:
-        from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
+        from evenbreak.handicaps.charts.given_ratings import nearest_races_given_ratings
 
         races = nearest_races_given_ratings(
             _difference(players), players.error, scale=_scale(players), form=players.form, **limits

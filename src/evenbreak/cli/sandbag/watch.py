@@ -26,8 +26,7 @@ from evenbreak.cli.kit.systems import (
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.sandbag.options import watch_options, watched_ladder
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale
 
 EXAMPLES = """\b
 Examples:

@@ -13,7 +13,7 @@ from evenbreak.cli.kit.options import SAY_WHICH, Command, chart_option, with_opt
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.ratings.scale import unstated_scale
 from evenbreak.tournaments.evening.opening import LONGEST_RACE
 
 if TYPE_CHECKING:

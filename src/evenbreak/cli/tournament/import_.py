@@ -75,8 +75,7 @@ def command(
     from evenbreak.files.foreign.tournament import read_saved_tournament
     from evenbreak.files.store.evening_file import is_database
     from evenbreak.files.store.tournament import is_event_list, new_tournament, read_event_list
-    from evenbreak.ratings.scale import SCALES
-    from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+    from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES
     from evenbreak.tournaments.evening.events import Entrant, Plan
     from evenbreak.tournaments.evening.fold import evening
 

@@ -66,7 +66,7 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
 
         write_file(place, drawing_of(state, name, ".pdf"))
         return printed_answer(state, "The bracket", place)
-    from evenbreak.sheets.score_card_pages import score_cards_pdf
+    from evenbreak.sheets.paper_pages import score_cards_pdf
 
     cards = score_cards(state, match)
     if not cards:
@@ -78,7 +78,7 @@ def command(*, what: str, match: str | None, per_page: str, out: str | None, fil
 def _draw_list(state: Evening, name: str) -> bytes:
     from evenbreak.answers.tournament.printed import first_matches
     from evenbreak.answers.tournament.tournament import races_words
-    from evenbreak.sheets.draw_list_pages import FirstMatch, draw_list_pdf
+    from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf
 
     players = []
     for one in first_matches(state):

@@ -25,8 +25,7 @@ from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable, read_table
 from evenbreak.ratings.roster import NOT_STATED, Roster
-from evenbreak.ratings.scale import SCALES, Scale, scale_of
-from evenbreak.ratings.unstated_scale import refuse_contradicted, unstated_scale
+from evenbreak.ratings.scale import SCALES, Scale, refuse_contradicted, scale_of, unstated_scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

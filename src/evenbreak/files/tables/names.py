@@ -16,7 +16,7 @@ from evenbreak.files.tables.cells import Values, read_cells
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.result_words import letters
-from evenbreak.ratings.spellings import folded, usual_spellings
+from evenbreak.ratings.results_frame import folded, usual_spellings
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 

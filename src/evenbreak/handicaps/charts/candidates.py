@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cached_property
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -12,11 +13,9 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.cheapest_path import NoChartError, cheapest_path
+from evenbreak.handicaps.charts.chart import Chart, ChartRow
+from evenbreak.handicaps.charts.fair import RaceLimits
 from evenbreak.handicaps.charts.race_grid import ends_within_grid, even_differences, win_grid
-from evenbreak.handicaps.charts.race_limits import RaceLimits
-from evenbreak.handicaps.charts.rows import ChartRow
 from evenbreak.ratings.scale import Scale
 
 _TIE = 1e-12
@@ -151,3 +150,116 @@ class Candidates:
             start += count
         rows[-1] = rows[-1]._replace(difference_to=None)
         return Chart(name, rows)
+
+
+# The cheapest path through the races of a chart, by dynamic programming over the differences.
+#
+# In the arrays races go down and differences across. A path has one race for each difference and
+# never steps back to an easier one; the first `evens` races are all even, and a path has just one
+# of them. A limit on the rows of the chart limits the different races of its path: the best
+# total is then kept for each number of rows used so far.
+
+
+class NoChartError(InputError):
+    """No chart keeps the limits."""
+
+
+def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
+    """Return the path of least total cost, as the place of a race for each difference.
+
+    It has at most `rows` different races; any number of them if that is None.
+
+    Raises
+    ------
+    NoChartError
+        if every path has an infinite cost.
+    """
+    races, differences = cost.shape
+    best = np.empty((differences, rows or 1, races))  # in that many rows, or fewer
+    best[0] = cost[:, 0]
+    for d in range(1, differences):
+        easier = np.minimum.accumulate(best[d - 1], axis=1)
+        if rows is not None:  # a step to another race begins a row
+            easier[1:] = easier[:-1].copy()
+            easier[0] = np.inf
+        easier[:, :evens] = np.inf  # no steps between even races: none is harder
+        best[d] = np.minimum(best[d - 1], easier) + cost[:, d]
+    path = np.empty(differences, dtype=np.int64)
+    left = 0 if rows is None else rows - 1
+    path[-1] = here = int(best[-1, left].argmin())
+    if not np.isfinite(best[-1, left, here]):
+        more = "more races" if rows is None else "more races, or more rows"
+        raise NoChartError(
+            "no chart within these limits has races that get harder as the difference grows; "
+            f"allow longer matches or {more}"
+        )
+    for d in range(differences - 1, 0, -1):
+        if here >= evens and (rows is None or left > 0):
+            fewer = left if rows is None else left - 1
+            easiest = int(best[d - 1, fewer, : here + 1].argmin())
+            if best[d - 1, fewer, easiest] <= best[d - 1, left, here]:
+                here, left = easiest, fewer
+        path[d - 1] = here
+    return path
+
+
+# Races of similar length: a chart as leagues print it does not jump from 3:3 to 8:7.
+#
+# The longest matches of the National Pool League's chart 10 have 7 to 9 games, those of chart 20
+# have 17 to 19. So the races that limits allow are taken in groups whose longest matches differ
+# by no more than a few games, and the fairest chart is the fairest that any group makes.
+
+
+def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
+    """Return limits for each group of races whose longest matches differ by `spread` at most.
+
+    >>> [alike.games for alike in similar_limits(RaceLimits((5, 9)), 2)]
+    [(5, 7), (6, 8), (7, 9)]
+    """
+    spread, (low, high) = whole(spread, "spread"), limits.games
+    groups = []
+    for first in range(low, max(low, high - spread) + 1):
+        try:
+            groups.append(replace(limits, games=(first, min(first + spread, high))))
+        except InputError:  # no even race is that long
+            continue
+    if not groups:
+        raise InputError(f"spread is {spread}, which leaves no even race; give 1 or more")
+    return groups
+
+
+class SimilarLengths:
+    """The races within limits, in groups of similar length.
+
+    Parameters
+    ----------
+    scale, limits, up_to
+        as for `Candidates`; without `up_to` all groups go to where the hardest race of any of
+        them is even.
+    spread
+        how much the longest matches of a chart's races may differ, in games.
+
+    >>> from evenbreak.ratings import SCALES
+    >>> groups = SimilarLengths(SCALES["npl"], RaceLimits((5, 9), weaker_least=2), 2)
+    >>> [row[2:] for row in groups.fairest(rows=4).rows]
+    [(3, 3), (4, 3), (4, 2), (6, 2)]
+    """
+
+    def __init__(
+        self, scale: Scale, limits: RaceLimits, spread: Any, up_to: int | None = None
+    ) -> None:
+        self.points: Ints = Candidates(scale, limits, up_to).points
+        last = int(self.points[-1])
+        self.groups = [Candidates(scale, alike, last) for alike in similar_limits(limits, spread)]
+
+    def fairest(self, *, name: str = "design", **wishes: Any) -> Chart:
+        """Return the fairest chart that any of the groups makes, as `Candidates.fairest` does."""
+        charts, refused = [], []
+        for group in self.groups:
+            try:
+                charts.append(group.best(name=name, **wishes))
+            except NoChartError as error:
+                refused.append(error)
+        if not charts:
+            raise refused[0]  # that of the shortest races, whose remedy goes furthest
+        return min(charts, key=lambda costed: costed.cost).chart

@@ -8,8 +8,14 @@ from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
-from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
-from evenbreak.handicaps.charts.points_chart import POINTS_CHARTS, PointsChart, points_chart
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    LevelChart,
+    PointsChart,
+    level_chart,
+    points_chart,
+)
 
 AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 

@@ -26,10 +26,9 @@ from evenbreak.handicaps.charts.played_chart import (
 )
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.handicap_slope import handicap_slope
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.starts import FEWEST, MOST_CLASSES
+from evenbreak.ratings.starts import FEWEST, MOST_CLASSES, handicap_slope
 from evenbreak.ratings.stated_strength import implied_difference
 
 FEWEST_STARTS = 7

@@ -20,15 +20,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import floats, plain, probability, together, whole
+from evenbreak.checks import floats, number, plain, probability, together, whole
+from evenbreak.errors import InputError
+from evenbreak.games.match import Match
 from evenbreak.games.race import Race
-from evenbreak.handicaps.charts.fair import longest_matches
-from evenbreak.matches.form import centre_of_form, form_of, normal_rule
-from evenbreak.matches.length import match_length
-from evenbreak.matches.length_law import MatchLength
+from evenbreak.games.rack import Rack
+from evenbreak.handicaps.charts.fair import Candidate, FairRace, longest_matches, shortest_of_ties
+from evenbreak.matches.form import centre_of_form, form_of, given_score, normal_rule, rule_for
+from evenbreak.matches.length import MatchLength, match_length
+from evenbreak.matches.odds import MatchOdds, match_odds, mixed_odds
+from evenbreak.matches.parameters import checked_match, with_rack
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 MOST_DOUBLINGS = 10.0
 """The largest standard error allowed, in doublings of the odds."""
@@ -305,3 +308,126 @@ def _nearest(p: Floats, weights: Floats, low: int, high: int, target: float) -> 
         best_m = np.where(better, place + 1, best_m)
         best_longest = np.where(better, longest, best_longest)
     return best_m, best_longest
+
+
+# The odds of any match, when the ratings of the two players have errors.
+
+
+def odds_given_ratings(
+    match: Match,
+    difference: float,
+    standard_error: float,
+    *,
+    scale: Any = DEFAULT_SCALE,
+    form: float = 0.0,
+) -> MatchOdds:
+    """Return the odds of a match, averaged over how far a difference of ratings may be off.
+
+    Parameters
+    ----------
+    match
+        what is played; the chance in a game comes from the ratings, whatever its rack says.
+    difference, standard_error, scale, form
+        as for `win_given_ratings`; without error and form the odds are those of `match_odds`.
+
+    Raises
+    ------
+    InputError
+        as for `win_given_ratings`, or if the break matters in the match.
+
+    Notes
+    -----
+    The lengths of all possible differences are mixed, and mean, standard deviation and quantiles
+    are those of the mixture. A score that is already reached does not change the ratings, unless
+    there is form: then it shows how well both play today.
+
+    >>> from evenbreak.games import Race, Rack
+    >>> race = Race(7, 3, Rack(0.5))
+    >>> round(odds_given_ratings(race, 60, 0).p_win_1, 4)
+    0.7382
+    >>> round(odds_given_ratings(race, 60, 40).p_win_1, 4)
+    0.6485
+    """
+    match, scale, form = checked_match(match), scale_of(scale), form_of(form)
+    difference = number(difference, "difference")
+    standard_error = float(error_of(number(standard_error, "standard_error"), scale))
+    if match.break_matters:
+        raise InputError("the break matters in the match, but ratings do not say who breaks well")
+
+    if standard_error == 0.0 and not form:
+        return match_odds(with_rack(match, Rack(scale.win_probability(difference))))
+    gap, error = with_form(np.asarray(difference), np.asarray(standard_error), form, scale)
+    nodes, weights = rule_for(match, scale.log_odds(float(error)))
+    many = with_rack(match, Rack(scale.win_probability(gap + nodes * error)))
+    return mixed_odds(many, given_score(many, weights) if form else weights)
+
+
+# The races nearest to a target, when the ratings of the two players have errors.
+
+
+MOST_RACES = 20_000
+"""Races among which the nearest are sought: all of up to 200 games."""
+
+
+def nearest_races_given_ratings(
+    difference: float,
+    standard_error: float,
+    *,
+    games: tuple[int, int] | None = None,
+    race_to: int | None = None,
+    target: float = 0.5,
+    top: int = 5,
+    scale: Any = DEFAULT_SCALE,
+    form: float = 0.0,
+) -> list[FairRace]:
+    """Return the races in which player 1's chance is nearest to `target`, the nearest first.
+
+    Chances and lengths are averaged over the possible differences; the first race is that of
+    `fair_races_given_ratings`.
+
+    Parameters
+    ----------
+    difference, standard_error, scale, form
+        as for `win_given_ratings`.
+    games, race_to, target, top
+        as for `fair_races`.
+
+    Raises
+    ------
+    InputError
+        if a parameter is out of range, not exactly one of `games` and `race_to` is given, or
+        more than 20,000 races are offered.
+
+    >>> for race in nearest_races_given_ratings(91, 80, race_to=7, top=2, scale="fargo"):
+    ...     print(race.race_1, race.race_2, round(race.p_win_1, 3), round(race.mean_games, 2))
+    7 4 0.512 8.06
+    7 3 0.372 6.81
+    """
+    scale, difference = scale_of(scale), number(difference, "difference")
+    target, top = probability(target, "target"), whole(top, "top", at_least=1)
+    low, high = longest_matches(games, race_to)
+    if race_to is not None:
+        other = np.arange(1, low + 1)
+        own = np.full(low, low)
+        m, n = (own, other) if difference >= 0.0 else (other, own)
+    else:
+        if (many := (high * (high + 1) - low * (low - 1)) // 2) > MOST_RACES:
+            raise InputError(
+                f"games {low}..{high} offers {many:,} races, and {MOST_RACES:,} are the most; give "
+                "fewer games"
+            )
+        longest = np.repeat(np.arange(low, high + 1), np.arange(low, high + 1))
+        m = np.concatenate([np.arange(1, games + 1) for games in range(low, high + 1)])
+        n = longest + 1 - m
+    way: dict[str, Any] = {"scale": scale, "form": form}
+    chances = win_given_ratings(difference, standard_error, m, n, **way)
+    rows = zip(np.abs(chances - target).tolist(), m.tolist(), n.tolist(), strict=True)
+    ordered = shortest_of_ties(
+        sorted(Candidate(away, one + two - 1, one, two) for away, one, two in rows)
+    )
+    found = []
+    for _, _, one, two in ordered[:top]:
+        length = length_given_ratings(difference, standard_error, one, two, **way)
+        p_win = win_given_ratings(difference, standard_error, one, two, **way)
+        found.append(FairRace(one, two, p_win, length.mean, length.quantile(0.9) or 0))
+    return found

@@ -9,17 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats
+from evenbreak.checks import floats, number
+from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.audit import even_doublings
-from evenbreak.handicaps.charts.chart_of import level_chart_of
-from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.chart_of import level_chart_of, points_chart_of
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 
 @dataclass(frozen=True)
@@ -165,3 +169,184 @@ def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> I
                 unfairness=abs(centre - 0.5) if i > j else 0.0,
                 monotone=all(even[i, j] > gap_before for gap_before in easier),
             )
+
+
+# Where the skill levels of a chart lie in strength, measured in levels.
+#
+# A chart by skill level does not say how much stronger one level is than the next. The audit finds
+# the strengths that make its races as even as possible; here they are stretched to run from the
+# lowest level to the highest, so that one unit is an average step from level to level.
+
+
+@dataclass(frozen=True)
+class LevelScale:
+    """How strong a player of each level is taken to be; `level_scale` makes it.
+
+    Parameters
+    ----------
+    chart
+        the name of the chart.
+    levels, strengths
+        the levels, and the strength of an average player of each; the lowest and the highest
+        level are as strong as their numbers.
+    scale
+        how many average steps from level to level double the odds of winning a game.
+    """
+
+    chart: str
+    levels: tuple[int, ...]
+    strengths: tuple[float, ...]
+    scale: Scale
+
+    @property
+    def odds_of_a_level(self) -> float:
+        """By how much an average step from one level to the next multiplies the odds of a game."""
+        return float(2.0 ** (1.0 / self.scale.points_per_doubling))
+
+    def strength(self, levels: ArrayLike) -> Floats:
+        """Return the strength of players of these levels, on straight lines between levels."""
+        return np.interp(floats(levels, "levels"), self.levels, self.strengths)
+
+
+def level_scale(chart: LevelChart | str) -> LevelScale:
+    """Return where the levels of a chart lie, so that its races are as even as possible.
+
+    Raises
+    ------
+    InputError
+        if there is no such chart, or its races do not set the levels apart.
+
+    >>> levels = level_scale("apa_8ball")
+    >>> levels.strength([2, 3, 4, 5, 6, 7]).round(2)
+    array([2.  , 2.99, 4.27, 5.33, 6.13, 7.  ])
+    >>> round(levels.odds_of_a_level, 2)
+    1.36
+    """
+    report = audit_levels(chart, scale="npl")
+    ratings, levels = np.array(report.ratings), report.levels
+    if ratings[-1] <= 0.0:
+        raise InputError(
+            f"chart {report.name!r} has the same races for its lowest and its highest level, so "
+            "it does not say how far its levels lie apart; give a scale"
+        )
+    of_a_level = ratings[-1] / (levels[-1] - levels[0])
+    return LevelScale(
+        report.name,
+        levels,
+        tuple((levels[0] + ratings / of_a_level).tolist()),
+        Scale(f"{report.name} levels", report.scale.points_per_doubling / of_a_level),
+    )
+
+
+# The audit of a chart of points: what it takes to be even, and what a wrong level is worth.
+#
+# Such a chart does not say how well a level plays. If all players need about as many innings to
+# reach their points, their points an inning are in proportion to the points they need. A player
+# is then taken to shoot as in straight pool: each shot is made with the same chance, counts a
+# point, and a miss ends the inning, so that r points an inning mean a chance of r / (1 + r).
+# Left out are the second point of the 9, balls that nobody scores, safeties, and the layout.
+
+
+INNINGS = 25.0
+"""The innings that a player is taken to need; the answers change little between 15 and 40."""
+
+
+@dataclass(frozen=True)
+class PointsLevel:
+    """What a level of a chart of points is taken to play like.
+
+    Parameters
+    ----------
+    level, points
+        the level and the points that it needs.
+    points_an_inning
+        what an average player of the level scores an inning.
+    p_win_as_next
+        P(a player of this level who scores like the next one wins against an average player
+        of this level); None for the highest.
+    """
+
+    level: int
+    points: int
+    points_an_inning: float
+    p_win_as_next: float | None
+
+
+@dataclass(frozen=True)
+class PointsPair:
+    """The match of average players of two levels, the higher one first."""
+
+    level: int
+    opponent_level: int
+    points: int
+    opponent_points: int
+    p_win: float
+
+
+@dataclass(frozen=True)
+class PointsAudit:
+    """What a chart of points comes to, under the assumptions of this module.
+
+    Parameters
+    ----------
+    name
+        the name of the chart.
+    innings
+        the innings that a player needs on average.
+    levels, pairs
+        the levels, and the pairs of different levels.
+    """
+
+    name: str
+    innings: float
+    levels: tuple[PointsLevel, ...]
+    pairs: tuple[PointsPair, ...]
+
+
+def audit_points(chart: PointsChart | str, *, innings: float = INNINGS) -> PointsAudit:
+    """Return how even a chart of points is if points an inning go with the points needed.
+
+    Parameters
+    ----------
+    chart
+        the chart, or its name in `POINTS_CHARTS`.
+    innings
+        how many innings a player needs on average to reach their points.
+
+    Raises
+    ------
+    InputError
+        if there is no such chart, or `innings` is not a number of 1 or more.
+
+    >>> report = audit_points("apa_9ball")
+    >>> round(report.levels[4].points_an_inning, 2), round(report.levels[4].p_win_as_next, 2)
+    (1.52, 0.69)
+    """
+    chart = points_chart_of(chart)
+    innings = number(innings, "innings", low=1.0, high=1000.0)
+    rows = list(zip(chart.levels, chart.points, strict=True))
+    following = [*chart.points[1:], None]
+    return PointsAudit(
+        chart.name,
+        innings,
+        tuple(
+            PointsLevel(
+                level,
+                points,
+                points / innings,
+                None if more is None else _win((points, points), (more, points), innings),
+            )
+            for (level, points), more in zip(rows, following, strict=True)
+        ),
+        tuple(
+            PointsPair(high, low, own, other, _win((own, other), (own, other), innings))
+            for (low, other), (high, own) in combinations(rows, 2)
+        ),
+    )
+
+
+def _win(needs: tuple[int, int], scored_as: tuple[int, int], innings: float) -> float:
+    """Return P(player 1 wins), either player being first at the table with chance 1/2."""
+    p1, p2 = (points / (innings + points) for points in scored_as)
+    matches = (StraightPool(*needs, p1, p2, first=first) for first in (1, 2))
+    return sum(straight_pool_odds(match).p_win_1 for match in matches) / 2.0

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.fixed_length import fixed_length_chart
+from evenbreak.handicaps.charts.design import fixed_length_chart
 from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 from evenbreak.ratings.scale import SCALES
 

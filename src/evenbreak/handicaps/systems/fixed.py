@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from evenbreak.handicaps.charts.fixed_length import fixed_length_chart
+from evenbreak.handicaps.charts.design import fixed_length_chart
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.system import System
 

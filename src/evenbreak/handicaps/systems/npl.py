@@ -5,10 +5,49 @@ Source: the text before Table 5.6.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from evenbreak.checks import whole
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.newcomers import NEWCOMER_STEPS, step_after
 from evenbreak.handicaps.systems.system import PlayedMatch, System
 from evenbreak.ratings.scale import SCALES
+
+# Longer steps for newcomers, so that a first guess of their rating is soon corrected.
+
+
+NEWCOMER_STEPS = ((10, 3), (20, 2))
+"""The National Pool League's: 3 points a match for 10 matches, 2 for the next 20, then 1.
+
+The league published them; they are not in the source text.
+"""
+
+
+def step_after(played: int | None, steps: Sequence[tuple[int, int]] = NEWCOMER_STEPS) -> int:
+    """Return the factor by which a player moves in the next match: 1 is an established player.
+
+    Parameters
+    ----------
+    played
+        matches before it; None: an established player.
+    steps
+        (matches, factor) for each stage, as in `System.newcomer_steps`.
+
+    Raises
+    ------
+    InputError
+        if `played` is not a whole number from 0 on.
+
+    >>> [step_after(played) for played in (0, 9, 10, 29, 30, None)]
+    [3, 3, 2, 2, 1, 1]
+    """
+    if played is None:
+        return 1
+    left = whole(played, "played")
+    for matches, factor in steps:
+        if left < matches:
+            return factor
+        left -= matches
+    return 1
 
 
 def _a_point_a_match(match: PlayedMatch) -> tuple[int, int]:

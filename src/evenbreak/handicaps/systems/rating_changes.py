@@ -6,18 +6,18 @@ The ratings before the night set all of its races, and all changes are added up 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Ints, array_values
+from evenbreak.arrays import Bools, Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.systems.night_problems import night_problems
-from evenbreak.handicaps.systems.night_table import NightTable, night_table
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.ratings.consistency import Problem, find_problems, who_won
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
@@ -184,3 +184,205 @@ def _match_change(
     points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
     by_chart = winner_first(night.chart_a, night.chart_b)
     return MatchChange(row, winner, loser, games, race, by_chart, points, ratings)
+
+
+# What keeps a night's results from changing ratings, and which chart its scores fit.
+
+
+def night_problems(
+    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
+) -> list[Problem]:
+    """Return every problem that keeps a night's results from changing ratings, by row.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> club = Roster(["Ann", "Bo"], [92, 80])
+    >>> night = Results.from_names(["Ann", "Ann"], ["Bo", "Boo"], [5, 5], [3, 3], winner=[0, 1])
+    >>> for problem in night_problems(system_of("npl"), club, night):
+    ...     print(problem.row, problem.message)
+    0 neither the race nor the winner is stated ('Ann' - 'Bo', 5-3); give the chart that was used
+    (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b
+    1 'Boo' is not on the list; add the player with a first rating, or correct the name
+    """
+    night = night_table(roster, results, chart)
+    problems = [
+        *_strangers(roster, night),
+        *(
+            problem
+            if chart is None or not _off_chart(night, problem)
+            else problem._replace(message=_no_end(roster, night, chart_of(chart), problem.row))
+            for problem in find_problems(night.results)
+        ),
+    ]
+    refused = {problem.row for problem in problems}
+    problems += [
+        Problem(int(row), "winner", _no_winner(system, night.results, int(row)))
+        for row in np.flatnonzero(night.counted & night.rated & (night.winner == 0))
+        if int(row) not in refused
+    ]
+    refused = {problem.row for problem in problems}
+    problems += [problem for problem in _missing(system, night) if problem.row not in refused]
+    return sorted(problems, key=lambda problem: problem.row)
+
+
+def chart_of_night(system: System, roster: Roster, results: Results) -> Chart | None:
+    """Return the chart of the system that a night must have been played by, given its scores.
+
+    It is the only one whose races all scores finish, for ratings rounded to whole points. None
+    if no chart is needed, since races or winners are stated, or if none or several charts fit.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> club = Roster(["Ann", "Bo"], [92, 80])
+    >>> chart_of_night(
+    ...     system_of("npl"), club, Results.from_names(["Ann"], ["Bo"], [5], [3])
+    ... ).name
+    'npl_10'
+    """
+    night = night_table(roster, results, None)
+    if not (night.counted & night.rated & (night.winner == 0)).any():
+        return None
+    charts = system.known_charts()
+    fitting = [chart for chart in charts if _ended(night_table(roster, results, chart))]
+    return fitting[0] if len(fitting) == 1 else None
+
+
+def _strangers(roster: Roster, night: NightTable) -> Iterator[Problem]:
+    """Yield for each player without a rating on the list the first row that needs it."""
+    seen = set()
+    for row in np.flatnonzero(night.counted):
+        for column, place in (("player_a", night.a[row]), ("player_b", night.b[row])):
+            name = night.results.players[getattr(night.results, column)[row]]
+            if name in seen or (place >= 0 and np.isfinite(roster.rating[place])):
+                continue
+            seen.add(name)
+            yield Problem(
+                int(row),
+                column,
+                f"{name!r} has no rating on the list; write a first rating"
+                if place >= 0
+                else f"{name!r} is not on the list; add the player with a first rating, or "
+                "correct the name",
+            )
+
+
+def _off_chart(night: NightTable, problem: Problem) -> bool:
+    """Return whether a score contradicts a race that comes from the chart alone."""
+    scores = problem.column in ("score_a", "score_b")
+    return scores and bool(night.from_chart[problem.row] and night.chart_a[problem.row])
+
+
+def _ended(night: NightTable) -> bool:
+    """Return whether all scores finish the races that come from the chart alone."""
+    return not any(_off_chart(night, problem) for problem in find_problems(night.results))
+
+
+def _no_end(roster: Roster, night: NightTable, chart: Chart, row: int) -> str:
+    results, a, b = night.results, night.a[row], night.b[row]
+    return (
+        f"{results.score_a[row]}-{results.score_b[row]} does not finish the race "
+        f"{night.chart_a[row]}:{night.chart_b[row]}, which the chart {chart.name} has for "
+        f"{roster.players[a]!r} ({roster.rating[a]:g}) and {roster.players[b]!r} "
+        f"({roster.rating[b]:g}); correct the score, give race_a and race_b, or mark a forfeit"
+    )
+
+
+def _no_winner(system: System, results: Results, row: int) -> str:
+    name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
+    return (
+        f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
+        f"{results.score_a[row]}-{results.score_b[row]}); {_give_chart(system)}"
+    )
+
+
+def _give_chart(system: System) -> str:
+    *charts, last = system.charts or ("",)
+    names = f" ({', '.join(charts)} or {last})" if charts else ""
+    return f"give the chart that was used{names}, or the columns race_a and race_b"
+
+
+def _missing(system: System, night: NightTable) -> Iterator[Problem]:
+    """Yield the matches without a score or race that the system's rule needs."""
+    results = night.results
+    for row in np.flatnonzero(night.counted & night.rated).tolist():
+        if "games" in system.asks and results.unscored is not None and results.unscored[row]:
+            yield Problem(
+                row,
+                "score_a",
+                f"the score is not stated, and the system {system.name} moves ratings by it; "
+                "write it, or mark a forfeit",
+            )
+        elif "race" in system.asks and results.race_a is not None and not results.race_a[row]:
+            yield Problem(
+                row,
+                "race_a",
+                f"the race is not stated, and the system {system.name} moves ratings by it; "
+                f"{_give_chart(system)}",
+            )
+
+
+# A night's results beside the list of ratings: who played whom, by which race, and who won.
+
+
+class NightTable(NamedTuple):
+    """A night's results beside the list: arrays with an entry for each row.
+
+    Parameters
+    ----------
+    results
+        the results, with the chart's race where none was stated.
+    a, b
+        positions of the two players in the list; -1 for a player who is not on it.
+    rated
+        whether both have a rating.
+    counted
+        whether the row changes ratings: it is not a forfeit and not 0-0.
+    winner
+        1, 2, or 0 where it is not known.
+    chart_a, chart_b
+        the chart's race; 0 where no chart was looked up.
+    from_chart
+        whether `results` has the chart's race in this row.
+    """
+
+    results: Results
+    a: Ints
+    b: Ints
+    rated: Bools
+    counted: Bools
+    winner: NDArray[np.int8]
+    chart_a: Ints
+    chart_b: Ints
+    from_chart: Bools
+
+
+def night_table(roster: Roster, results: Results, chart: Chart | str | None) -> NightTable:
+    """Return a night's results beside the list, with races by the chart if there is one."""
+    on_list = {name: position for position, name in enumerate(roster.players)}
+    place = np.array([on_list.get(name, -1) for name in results.players], dtype=np.int64)
+    a, b = place[results.player_a], place[results.player_b]
+    chart_a, chart_b = np.zeros((2, len(results)), dtype=np.int64)
+    # One entry more, for players who are not on the list, whose place is -1.
+    known = np.append(np.isfinite(roster.rating), False)
+    rated = known[a] & known[b]
+    if chart is not None:
+        # As `evenbreak matchups` rounds: each rating, halves upwards.
+        points = np.floor(np.append(roster.rating, 0.0) + 0.5)
+        chart_a[rated], chart_b[rated] = chart_of(chart).races((points[a] - points[b])[rated])
+    race_a = np.zeros_like(chart_a) if results.race_a is None else results.race_a
+    race_b = np.zeros_like(chart_b) if results.race_b is None else results.race_b
+    unraced = (race_a == 0) & (race_b == 0)
+    filled = replace(
+        results,
+        race_a=np.where(unraced, chart_a, race_a),
+        race_b=np.where(unraced, chart_b, race_b),
+    )
+    given_away = np.zeros(len(results), bool) if results.forfeit is None else results.forfeit
+    unscored = np.zeros(len(results), bool) if results.unscored is None else results.unscored
+    counted = ~given_away & (unscored | (results.score_a > 0) | (results.score_b > 0))
+    return NightTable(filled, a, b, rated, counted, _winner(filled), chart_a, chart_b, unraced)
+
+
+def _winner(results: Results) -> NDArray[np.int8]:
+    """Return 1 or 2 where a winner is stated or a player reached the race, else 0."""
+    raced = 0 if results.race_a is None else results.race_a
+    reached = np.where(raced, who_won(results), 0).astype(np.int8)
+    return reached if results.winner is None else np.where(results.winner, results.winner, reached)

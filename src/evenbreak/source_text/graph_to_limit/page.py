@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from evenbreak.chains.ways import WAYS
-from evenbreak.source_text.cells import Tables
+from evenbreak.source_text.cells import Tables, markdown_table, short
 from evenbreak.source_text.graph_to_limit.tables import GAMES, places, roads
-from evenbreak.source_text.markdown import markdown_table, short
 from evenbreak.source_text.page import filled
 
 

@@ -9,22 +9,20 @@ import numpy as np
 
 from evenbreak.physics.offset import ContactPoint, gearing_tip, small_circle_point
 from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
-from evenbreak.plots.style import LINES, new_axes, note
-from evenbreak.source_text.physics.ball_view import (
-    ball_view,
-    draw_line,
-    draw_small_circle,
-    name_point,
-    roll_chord,
-    roll_height,
-)
-from evenbreak.source_text.physics.chosen import (
+from evenbreak.plots.picture import LINES, new_axes, note
+from evenbreak.source_text.physics.tip_figures import (
     HALF_BALL,
     INSET,
     LARGEST_SPIN,
     LEVELS,
     TIP_LINE_CUT,
     TOPSPINS,
+    ball_view,
+    draw_line,
+    draw_small_circle,
+    name_point,
+    roll_chord,
+    roll_height,
 )
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from evenbreak.physics.ball_friction import BALL_FRICTION
 from evenbreak.physics.collision import Collision, axis_tilt, collide
+from evenbreak.physics.friction import BALL_FRICTION
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.offset import NATURAL_ROLL_OFFSET, gearing_tip, offset_for
 from evenbreak.physics.slide import roll_velocity

@@ -6,13 +6,6 @@ import math
 
 import numpy as np
 
-from evenbreak.physics.equipment import (
-    BALL_SETS,
-    LIQUIDS,
-    density_range,
-    floats_in,
-    volume_range,
-)
 from evenbreak.physics.friction import (
     friction_of_incline,
     friction_of_stop,
@@ -23,10 +16,19 @@ from evenbreak.physics.friction import (
     sliding_speed,
     tip_friction_of,
 )
-from evenbreak.physics.objects import Ball, Cloth, PoolTable
-from evenbreak.physics.rolling import kinetic_energy
-from evenbreak.physics.table_speed import (
+from evenbreak.physics.objects import (
+    BALL_SETS,
+    LIQUIDS,
+    Ball,
+    Cloth,
+    PoolTable,
+    density_range,
+    floats_in,
+    volume_range,
+)
+from evenbreak.physics.rolling import (
     TABLE_SPEEDS,
+    kinetic_energy,
     lag_distance,
     lag_speed,
     roll_time,

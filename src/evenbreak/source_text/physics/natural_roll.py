@@ -15,9 +15,11 @@ from evenbreak.physics.rolling import (
     Energy,
     SpinStop,
     kinetic_energy,
+    lag_distance,
     rolling_friction,
     rolling_time,
     spin_stop,
+    table_speed,
 )
 from evenbreak.physics.slide import (
     Slide,
@@ -26,7 +28,6 @@ from evenbreak.physics.slide import (
     roll_speed,
     sliding_ball_speed,
 )
-from evenbreak.physics.table_speed import lag_distance, table_speed
 from evenbreak.physics.units import GRAVITY, INCH
 from evenbreak.source_text.inputs import Answers, Inputs
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from evenbreak.source_text.cells import markdown_table
 from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.markdown import markdown_table
 from evenbreak.source_text.page import compared, errata_table, filled, slip_blocks, verdicts_table
 from evenbreak.source_text.published import physics_errata
 

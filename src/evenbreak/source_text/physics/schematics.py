@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.physics.collision import axis_tilt, collide
 from evenbreak.physics.throw import throw_factor
-from evenbreak.plots.style import new_axes, note
+from evenbreak.plots.picture import new_axes, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,27 +19,12 @@ from evenbreak.physics.offset import (
     roll_speed_ratio,
     small_circle_point,
 )
-from evenbreak.plots.style import LINES, new_axes, note
-from evenbreak.source_text.physics.ball_view import (
-    angle_arc,
-    ball_view,
-    draw_line,
-    draw_small_circle,
-    name_point,
-    roll_chord,
-    roll_height,
-)
-from evenbreak.source_text.physics.chosen import (
-    LARGEST_OFFSET,
-    MASS_RATIOS,
-    MINIMAL_SIDE,
-    SIDES_AFTER_TIP,
-    SIDES_IN_ROLL,
-)
+from evenbreak.plots.picture import LINES, new_axes, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 _QUARTERS = {0.0: "", 0.25: "¼", 0.5: "½", 0.75: "¾"}
 
@@ -142,3 +129,117 @@ def _ratio_curves(axes: Axes, ratio_of: Callable[[Any, Any], Any]) -> None:
     for ratio, line in zip(MASS_RATIOS, LINES, strict=False):
         speed = ratio_of(offset, float(ratio))
         axes.plot(offset, speed, **line._asdict(), lw=1.5, label=f"$m$ = {ratio}")
+
+
+# A ball seen from behind: y/R to the left, z/R above the cloth.
+
+
+def ball_view(axes: Axes, title: str) -> None:
+    """Draw the outline of the ball and the cloth, y growing to the left as the player sees it.
+
+    >>> from evenbreak.plots.picture import new_axes
+    >>> _, axes = new_axes("", "")
+    >>> ball_view(axes, "Contact points")
+    >>> bool(axes.xaxis_inverted())
+    True
+    """
+    from matplotlib.patches import Circle
+
+    axes.add_patch(Circle((0.0, 1.0), 1.0, fill=False, lw=1.6))
+    axes.axhline(0.0, color="0.5", lw=1.0, zorder=0)
+    ticks = [-1.0, -0.5, 0.0, 0.5, 1.0]
+    axes.set(xlim=(1.35, -1.35), ylim=(-0.25, 2.25), aspect="equal", title=title, xticks=ticks)
+    axes.set(xlabel="$y/R$, to the left of the centre", ylabel="$z/R$, above the cloth")
+    axes.tick_params(direction="in", top=True, right=True)
+
+
+def draw_line(axes: Axes, y: Any, z: Any, *, lw: float = 1.0) -> None:
+    """Draw a line of contact points."""
+    axes.plot(y, z, color="black", lw=lw)
+
+
+def roll_chord(point: ContactPoint) -> ContactPoint:
+    """Return where the line from (0, 0) through a point of the small circle leaves the ball.
+
+    The line's nearest point to the centre halves the chord.
+
+    >>> roll_chord(ContactPoint(0.5, 0.5))
+    ContactPoint(y=1.0, z=1.0)
+    """
+    return ContactPoint(2.0 * point.y, 2.0 * point.z)
+
+
+def roll_height(axes: Axes) -> None:
+    """Draw the height at which natural roll is immediate, z = 7/5 R."""
+    height = 1.0 + NATURAL_ROLL_OFFSET
+    reach = float(np.sqrt(1.0 - NATURAL_ROLL_OFFSET**2))
+    axes.plot([-reach, reach], [height, height], **LINES[1]._asdict(), lw=1.2)
+    axes.set_yticks([0.0, 0.5, 1.0, height, 2.0])
+
+
+def draw_small_circle(axes: Axes) -> None:
+    """Draw the circle of the contact points nearest to the centre, for every sidespin."""
+    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 182)[1:-1]
+    circle = small_circle_point(3.5 * np.tan(turn))
+    y, z = (np.concatenate([[0.0], part, [0.0]]) for part in circle)
+    axes.plot(y, z, **LINES[2]._asdict(), lw=1.4)
+
+
+def angle_arc(axes: Axes, point: ContactPoint, radius: float, name: str) -> None:
+    """Mark the angle at (0, 0) between the upright and the line to a point."""
+    end = np.arctan2(point.y, point.z)
+    turn = np.linspace(0.0, end, 31)
+    axes.plot(radius * np.sin(turn), radius * np.cos(turn), color="black", lw=0.8)
+    middle = 1.22 * radius
+    axes.text(
+        middle * np.sin(0.5 * end), middle * np.cos(0.5 * end), name, ha="center", va="center"
+    )
+
+
+def name_point(
+    axes: Axes, point: ContactPoint, name: str, beside: tuple[float, float], ha: str
+) -> None:
+    """Mark a point and write its name beside it, at an offset in typographic points."""
+    axes.plot([point.y], [point.z], "ko", ms=4.5, zorder=4)
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+    note(axes, name, (point.y, point.z), beside, fontsize=9.5, ha=ha, va="center", bbox=box)
+
+
+# The values for which the figures of sections 1 to 4 are drawn.
+#
+# The copy of the text that was read has lost the legends of its plots, and with them the values
+# of most curves. The values here are our choice; only the half-ball cut is the text's.
+
+
+SIDES_AFTER_TIP = tuple(quarter / 4 for quarter in range(-5, 6))
+"""Fig. 3.1a: the sidespins J_z just after the tip."""
+
+SIDES_IN_ROLL = tuple(half / 2 for half in range(-7, 8))
+"""Fig. 3.1b: the sidespins J_z in natural roll."""
+
+MINIMAL_SIDE = 2.0
+"""Fig. 3.2: the sidespin J_z in natural roll of the line drawn."""
+
+MASS_RATIOS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 4))
+"""Figs. 3.3 and 3.4: mass of the ball over mass of the stick; the text works with the last two."""
+
+LARGEST_OFFSET = 0.7
+"""Figs. 3.3 and 3.4: the largest offset b/R, where even a tip of friction 1 slips."""
+
+HALF_BALL = math.pi / 6.0
+"""Figs. 4.4 and 4.5: the half-ball cut, as in the text."""
+
+TOPSPINS = (0.0, 0.1, 0.25, 0.5, 1.0)
+"""Fig. 4.4: the topspins or draws `|J_y|`; stun and natural roll are named in the text."""
+
+LARGEST_SPIN = 2.0
+"""Figs. 4.4 and 4.5: both spins run from minus this value to plus this value."""
+
+LEVELS = tuple(2.0**power for power in range(-4, 7))
+"""Fig. 4.5: the sensitivities of the contours; each is twice the one before."""
+
+INSET = 0.1
+"""Fig. 4.5: how far the inset reaches from the point where nothing slips."""
+
+TIP_LINE_CUT = math.pi / 6.0
+"""Fig. 4.8: the cut angle, chosen as that of a half-ball hit."""

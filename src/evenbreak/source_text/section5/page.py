@@ -9,9 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from evenbreak.source_text.cells import Tables
+from evenbreak.source_text.cells import Tables, markdown_table
 from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.markdown import markdown_table
 from evenbreak.source_text.page import (
     Blocks,
     compared,

@@ -8,9 +8,8 @@ from functools import partial
 from itertools import chain
 from typing import Any
 
-from evenbreak.source_text.cells import Rows, Tables
+from evenbreak.source_text.cells import Rows, Tables, beside, markdown_table, rounded, short
 from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.markdown import beside, markdown_table, rounded, short
 from evenbreak.source_text.section5.innings import INNINGS
 from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
 from evenbreak.source_text.section5.samples import pascals_triangle

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from evenbreak.plots.contours import contour_axes
-from evenbreak.plots.style import LINES, label_beside, label_on, new_axes, note, unit_axis
+from evenbreak.plots.picture import LINES, label_beside, label_on, new_axes, note, unit_axis
+from evenbreak.source_text.cells import packaged_rows
 
 if TYPE_CHECKING:
+    import networkx as nx
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
+
 
 _P = np.linspace(0.0, 1.0, 201)
 _GAME = "$p$ = P(player 1 wins a game)"
@@ -99,7 +102,7 @@ def one_ball() -> Figure:
 
 def break_formats() -> Figure:
     """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
-    from evenbreak.plots.break_formats import share_panels
+    from evenbreak.plots.contours import share_panels
 
     figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
     names = ("Winner breaks", "Loser breaks", "Alternate breaks")
@@ -166,3 +169,42 @@ def ahead_matches() -> Figure:
         label_on(axes, _P[here], chance[here], f"{m}:{n}")
     unit_axis(axes, "x", "y")
     return figure
+
+
+# The game diagrams of section 5: Figs. 5.2, 5.4, 5.5, 5.7, 5.10 and that of problem P5.24.
+#
+# Each is a graph with symbols on its arcs: p for a success, q = 1 - p for a failure.
+
+
+def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
+    """Return the graphs behind the diagrams, by name.
+
+    An arc carries its symbol as `label`, a node its `place` (x, y), its `kind` and,
+    where someone has won there, the `winner`.
+
+    Notes
+    -----
+    Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams of problem P5.24.
+
+    >>> graph = diagram_graphs()["figure_5_5"]
+    >>> graph.edges["S1", "W"]["label"]
+    '$p_1$'
+    """
+    import networkx as nx
+
+    graphs: dict[str, nx.DiGraph[Any]] = {}
+    for figure, state, x, y, kind, label in packaged_rows("section5/diagram_states.csv"):
+        winner = {"W": 1, "L": 2}[state[0]] if kind == "terminal" else None
+        node: dict[str, Any] = {"label": label} if label else {}
+        graph = graphs.setdefault(figure, nx.DiGraph())
+        graph.add_node(state, place=(float(x), float(y)), kind=kind, winner=winner, **node)
+    for figure, source, target, symbol in packaged_rows("section5/diagram_arcs.csv"):
+        graphs[figure].add_edge(source, target, label=f"${symbol}$")
+    return graphs
+
+
+def drawn(graph: nx.DiGraph[Any]) -> Figure:
+    """Return the drawing of a graph whose nodes have places."""
+    from evenbreak.plots.diagram import draw
+
+    return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})

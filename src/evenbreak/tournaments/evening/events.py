@@ -12,7 +12,7 @@ from typing import Annotated, Any, TypeAlias
 from evenbreak.checks import Between, made
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
 

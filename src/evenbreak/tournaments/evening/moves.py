@@ -9,7 +9,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.spellings import folded
+from evenbreak.ratings.results_frame import folded
 from evenbreak.tournaments.brackets.bracket import some_of
 from evenbreak.tournaments.brackets.seeding import (
     blind_draw,

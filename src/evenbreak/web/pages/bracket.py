@@ -47,7 +47,7 @@ async def bracket_on_paper(request: Request) -> Response:
 
 async def cards_on_paper(request: Request) -> Response:
     """Return the score cards as a PDF."""
-    from evenbreak.sheets.score_card_pages import score_cards_pdf
+    from evenbreak.sheets.paper_pages import score_cards_pdf
 
     state = await _drawn(request)
     cards = score_cards(state, None)

@@ -12,9 +12,8 @@ from starlette.routing import Route
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
-from evenbreak.handicaps.charts.fair_given_ratings import nearest_races_given_ratings
-from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of
-from evenbreak.ratings.unstated_scale import unstated_scale
+from evenbreak.handicaps.charts.given_ratings import nearest_races_given_ratings
+from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of, unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
 from evenbreak.tournaments.evening.opening import LONGEST_RACE

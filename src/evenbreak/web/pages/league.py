@@ -16,8 +16,7 @@ from starlette.routing import Route
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament.printed import tournament_matches_answer
 from evenbreak.matches.formats import LONGEST
-from evenbreak.ratings.scale import NAMES, SCALES
-from evenbreak.ratings.unstated_scale import DEFAULT_SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, NAMES, SCALES
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MOST_BYTES

@@ -12,9 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart import Chart, ChartRow
 from evenbreak.handicaps.charts.race_grid import win_grid
-from evenbreak.handicaps.charts.rows import ChartRow
 from evenbreak.ratings.scale import scale_of
 
 
