@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
+.PHONY: catalogues check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -46,6 +46,19 @@ lowest:           ## tests that lean on other libraries, at the lowest versions 
 
 layers:           ## imports in one direction, files and terminal only at the end
 	$(PYTHON) -m pytest -q tests/test_layers.py
+
+# What is said with these is translated.
+SAID = say say_as:1c,2 say_count:1,2 EvenbreakError InputError DataError GameError ChainError AccuracyError \
+	WorkerError RefusalError MovedOnError TakenBeforeError
+
+catalogues:       ## collect the sentences that pages show into each language's catalogue
+	$(PYTHON) -m babel.messages.frontend -q extract -F babel.cfg --no-default-keywords $(addprefix -k ,$(SAID)) \
+		--add-location file --width 100 -o evenbreak.pot .
+	for po in src/evenbreak/words/locale/*/LC_MESSAGES/evenbreak.po; do \
+		$(PYTHON) -m babel.messages.frontend -q update -i evenbreak.pot -o $$po -D evenbreak \
+		-l $$(basename $$(dirname $$(dirname $$po))) -N --ignore-obsolete --width 100 \
+		--ignore-pot-creation-date; done
+	rm evenbreak.pot
 
 docs:             ## HTML pages in docs/_build, a warning is an error
 	$(PYTHON) -m sphinx -W --keep-going -q -b html docs docs/_build/html

@@ -2,7 +2,6 @@
 
 import doctest
 import importlib
-import json
 import re
 import shutil
 from collections.abc import Iterator
@@ -12,6 +11,7 @@ from typing import NamedTuple
 import click
 import pytest
 
+from catalogued import said_on_pages
 from evenbreak.cli.program import COMMANDS, program
 from evenbreak.files.results.matches import OPTIONAL, REQUIRED
 from places import ROOT, SRC
@@ -147,9 +147,8 @@ def test_every_page_is_in_a_table_of_contents() -> None:
     "page", ["tutorial/evening-by-page.md", "how-to/a-page-for-phones-and-the-screen.md"]
 )
 def test_what_a_reader_is_to_tap_is_on_the_page(page: str) -> None:
-    words = json.loads((SRC / "web/words/en.json").read_text("utf-8")).values()
     # Of a label that ends with a name, such as "Undo: {what}", the part before it.
-    labels = {re.sub(r"(?<=:) \{\w+\}$", "", label) for label in words}
+    labels = {re.sub(r"(?<=:) \{\w+\}$", "", label) for label in said_on_pages()}
     text = (ROOT / "docs" / page).read_text("utf-8")
     assert set(re.findall(r"(?<!\*)\*([^*\n]+)\*(?!\*)", text)) <= labels | {"Deutsch"}
 

@@ -29,7 +29,7 @@ class Hall(NamedTuple):
 
 
 def begun(director: Phone, players: list[str], **plan: object) -> None:
-    """Begin a tournament through the page, and draw it."""
+    """Start a tournament through the page, and draw it."""
     rows = [f"{name},{700 - 10 * k}" for k, name in enumerate(players)]
     asked = {
         "entrants": "\n".join(["player,rating", *rows]),

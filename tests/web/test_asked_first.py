@@ -99,7 +99,7 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
     assert busy.state.live["W2.2"].what.score == (2, 1)
     assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
     history = busy.director.open("/desk/history").text
-    assert history.count("<s>The call of W2.2 to table 4</s> (taken back)") == TAPS
+    assert history.count("<s>The call of W2.2 to table 4</s> (undone)") == TAPS
     assert history.count("taken back: the call of W2.2 to table 4") == TAPS
     busy.director.send("/language", language="de")
     history = busy.director.open("/desk/history").text

@@ -64,12 +64,12 @@ class Director:
 
     def begins(self) -> None:
         self.page.goto(self.site.address)
-        self.page.get_by_role("link", name="Begin a tournament").click()
+        self.page.get_by_role("link", name="New tournament").click()
         self.page.select_option("[name=seeding]", "rating")
         self.does("Begin", entrants=PLAYERS, race="2", losers_race="1", tables="4")
         self.does("Make the draw", "draw")
         self.page.get_by_text("Late entry").click()
-        self.does("Let in", "late 'Late Larry' --rating 555", name="Late Larry", rating="555")
+        self.does("Add player", "late 'Late Larry' --rating 555", name="Late Larry", rating="555")
 
     def calls_all(self) -> None:
         """Call matches while the page proposes some; where it knows none yet, wait for them."""

@@ -80,7 +80,7 @@ def test_without_scripts_a_captain_puts_up_and_enters_a_result(
         night.put(1, "Wim")
         _enter(page, night)
         night.say(1, 1, (4, 2))
-        page.get_by_role("link", name="Look again").click()
+        page.get_by_role("link", name="Reload").click()
         assert page.locator("text=4:2").count() == 1
 
 

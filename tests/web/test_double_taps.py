@@ -179,7 +179,7 @@ def test_a_form_without_its_number_is_refused(six: Hall) -> None:
     before = read_events(six.site.path)
     for path, given, _ in [*FORMS, ("/team/new", TEAMS, 0)]:
         shown = six.director.send(path, **given, once="")
-        assert (shown.status, "another visit" in shown.words) == (400, True), path
+        assert (shown.status, "an earlier visit" in shown.words) == (400, True), path
     assert (read_events(six.site.path), read_team_events(six.site.path)) == (before, [])
 
 

@@ -90,10 +90,10 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     one.send(f"/m/{token}/me", me=0)
     other.send(f"/m/{token}/me", me=1)
     assert "counts once" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
-    assert "another result" in other.send(f"/m/{token}/score", a=1, b=3, **asked).words
+    assert "a different result" in other.send(f"/m/{token}/score", a=1, b=3, **asked).words
     assert "W1.1" not in hall.state.counted
     assert [one.kind for one in phone_entries(hall.site.path)].count("proposed") == 2
-    assert hall.director.open("/desk").words.count("says:") == 2
+    assert hall.director.open("/desk").words.count(" reports ") == 2
     assert hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new").status == 200
     assert hall.state.counted["W1.1"].winner == pair[0]
 
@@ -118,7 +118,7 @@ def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) ->
     phones[1].send(f"/m/{token}/me", me=1)
     shown = phones[1].send(f"/m/{token}/score", a=0, b=3, **players_of(hall, "W2.1"))
     assert shown.status == 200
-    assert "another result" not in shown.words
+    assert "a different result" not in shown.words
 
 
 def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
@@ -154,7 +154,7 @@ def test_the_director_sees_that_a_match_is_played_without_a_call(hall: Hall) -> 
     phone = Phone(hall.site)
     phone.send(f"/m/{token}/me", me=0)
     assert phone.send(f"/m/{token}/score", a=2, b=1, **asked).status == 200
-    assert "Plays already without being called: 2:1" in hall.director.open("/desk").words
+    assert "Already playing, not called yet: 2:1" in hall.director.open("/desk").words
 
 
 def test_phones_of_a_match_that_others_play_now_are_refused(hall: Hall) -> None:
@@ -218,7 +218,7 @@ def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None
     assert hall.state.counted["W2.1"] == played
     shown = enter(match="W1.1", a=1, b=3, how="correct", sure="yes")
     assert "W2.1" not in hall.state.counted
-    assert "Let W2.1 stand" in shown.words
+    assert "Keep the result of W2.1" in shown.words
     assert hall.director.send("/desk/stand", match="W1.2").status == 400
     assert hall.guest.send("/desk/stand", match="W2.1").status == 403
     assert hall.director.send("/desk/stand", match="W2.1").status == 200
@@ -250,9 +250,9 @@ def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> Non
     asked = {"fee": 20, "added": 80, "payout": "50/30/20"}
     assert hall.guest.send("/prizes", **asked).status == 403
     tried = hall.director.open("/prizes", fee="20", added="80", payout="50/30/20")
-    assert "Keep these prizes" in tried.words
-    assert "Keep these prizes" not in hall.guest.open("/prizes", fee="20").words
-    assert "The prizes are kept" in hall.director.send("/prizes", **asked).words
+    assert "Save these prizes" in tried.words
+    assert "Save these prizes" not in hall.guest.open("/prizes", fee="20").words
+    assert "The prizes are saved" in hall.director.send("/prizes", **asked).words
     for page in ("/", "/screen"):
         assert "Prizes 1: 200 2: 120 3: 80" in hall.guest.open(page).words
     assert "400.00 is paid to 3 places" in hall.guest.open("/prizes").words

@@ -59,7 +59,7 @@ def test_a_side_belongs_to_the_first_phone_that_claims_it(hall: Hall) -> None:
         assert refused.status == 409
         assert "ask the director" in refused.words
     one, two = hall.state.pair("W1.1")
-    assert f"says: {one} 3, {two} 1" in hall.director.open("/desk").words
+    assert f"reports {one} 3, {two} 1" in hall.director.open("/desk").words
     other = Player(hall, "127.0.0.4")
     other.claims(1)
     assert "Both of you agree" in other.sends(3, 1).words

@@ -59,7 +59,7 @@ def test_only_the_director_sees_the_desk(standing_hall: Hall, page: str) -> None
 def test_a_form_from_elsewhere_is_refused(standing_hall: Hall, token: str) -> None:
     shown = standing_hall.director.send_raw("/desk/undo", {"csrf": token, "seen": 2})
     assert shown.status == 403
-    assert "another visit" in shown.words
+    assert "an earlier visit" in shown.words
 
 
 def test_the_token_of_another_session_is_refused(standing_hall: Hall) -> None:
@@ -123,7 +123,7 @@ def test_two_pages_on_one_computer_keep_their_sessions_apart(tmp_path: Path) -> 
         phone.site, phone.kept = other, ""
         phone.open("/")
         phone.site = one
-        assert "Stop directing" in phone.open("/").words
+        assert "Sign out as director" in phone.open("/").words
 
 
 def test_the_language_is_chosen_where_the_reader_is(standing_hall: Hall) -> None:
@@ -269,7 +269,7 @@ def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:
         ("/desk/result", {"match": "W1.1", "a": "x", "b": 0, "how": "new"}, "whole number"),
         ("/desk/result", {"match": "W1.1", "a": 9, "b": 0, "how": "new"}, "does not end"),
         ("/desk/result", {"match": "W9.9", "a": 3, "b": 0, "how": "new"}, "does not exist"),
-        ("/desk/result", {"match": "W1.1", "a": 3, "b": 0, "how": "else"}, "choose one of"),
+        ("/desk/result", {"match": "W1.1", "a": 3, "b": 0, "how": "else"}, "must be one of"),
         ("/desk/call", {"match": "W2.1", "table": 1}, "not ready"),
         ("/desk/late", {"name": " "}, "at least one"),
         ("/desk/late", {"name": "Zoë", "rating": "high"}, "not a rating"),

@@ -76,7 +76,7 @@ def test_the_score_is_the_games_that_were_acknowledged(table: Table, seed: int) 
             games = games[0] + added[0], games[1] + added[1]
         else:
             assert got.status == 409
-            assert "by now" in got.words
+            assert "Check it, then tap" in got.words
             assert "Game for" in got.words  # the page as it is now
             assert (table.score, seen == before) == (before, False)
             refused += 1

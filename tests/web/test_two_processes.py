@@ -100,7 +100,7 @@ sys.addaudithook(look)
 
 
 def begun(path: Path, *, in_place_of: int = 0) -> list[str]:
-    """Begin a tournament, and return the matches of its first round."""
+    """Start a tournament, and return the matches of its first round."""
     entrants = tuple(Entrant(f"P{k}", 600.0 - k) for k in range(2 * MATCHES))
     names = tuple(one.name for one in entrants)
     plan = Plan("single", 5, scale="fargo", tables=MATCHES)

@@ -17,7 +17,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.web.guard import Guard
 from evenbreak.web.live import Watch, events
 from evenbreak.web.once import once_each
-from evenbreak.web.page import language, own_file, refused, script_hash
+from evenbreak.web.page import own_file, refused, script_hash
 from evenbreak.web.pages import (
     bracket,
     desk,
@@ -35,11 +35,14 @@ from evenbreak.web.pages import (
 )
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.site import Site
-from evenbreak.web.words import say
+from evenbreak.words import say
 
 _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
-_HTTP = {400: "refused_unreadable", 404: "refused_missing"}
+_HTTP = {
+    400: say("The form could not be read. Open the page again."),
+    404: say("There is no such page."),
+}
 
 
 def make_app(site: Site, *, streams: int = 500) -> Starlette:
@@ -120,8 +123,8 @@ async def _wrong(request: Request, error: Exception) -> Response:
 
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
-    words = say(language(request), _HTTP.get(error.status_code, "refused_method"))
-    return refused(request, words, error.status_code)
+    words = _HTTP.get(error.status_code, say("You can't do that here."))
+    return refused(request, RefusalError(words), error.status_code)
 
 
 async def _disk(request: Request, error: Exception) -> Response:
@@ -129,7 +132,15 @@ async def _disk(request: Request, error: Exception) -> Response:
     if not isinstance(error, OSError) or isinstance(error, TimeoutError | ConnectionError):
         raise error
     _LOG.error("%s: %s", request.url.path, error)
-    return refused(request, RefusalError("refused_disk", why=error.strerror or ""), 503)
+    return refused(
+        request,
+        RefusalError(
+            "This computer can't do that right now ({why}). Tell the director: the disk "
+            "may be full.",
+            why=error.strerror or "",
+        ),
+        503,
+    )
 
 
 async def _failed(request: Request, error: Exception) -> Response:

@@ -14,7 +14,7 @@ def name_of(form: Form) -> str:
     """Return the name in a form, as it is read from a list; '': the field was left empty."""
     name = clean_name(form.text("name", longest=80))
     if name and not is_name(name):
-        raise RefusalError("refused_name", value=name)
+        raise RefusalError("The name {value!r} can't be printed. Type it again.", value=name)
     return name
 
 
@@ -26,9 +26,11 @@ def rating_of(form: Form) -> float | None:
     try:
         rating = float(stated)
     except ValueError:
-        raise RefusalError("refused_rating", value=stated) from None
+        raise RefusalError(
+            "{value!r} is not a rating. Enter a number, such as 520.", value=stated
+        ) from None
     if not abs(rating) <= LARGEST:
-        raise RefusalError("refused_rating", value=stated)
+        raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=stated)
     return rating
 
 

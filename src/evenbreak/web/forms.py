@@ -13,13 +13,17 @@ from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_form
+from evenbreak.words import Parameter, say
 
 _MOST_FIELDS, _MOST_FILES = 1000, 2
 LONGEST = 200
 """Characters of a field, if nothing else is said."""
 
 EVEN, FAIR = "even", "fair"
-RACES = {EVEN: "races_even", FAIR: "races_fair"}
+RACES = {
+    EVEN: say("Even: same race for both"),
+    FAIR: say("Handicapped: the weaker player gets games"),
+}
 """The races that are not those of a chart, with their words."""
 
 
@@ -46,9 +50,13 @@ class Form:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
-            raise RefusalError("refused_field", field=name)
+            raise RefusalError("{field} is not text.", field=Parameter(name))
         if len(value) > longest:
-            raise RefusalError("refused_long", field=name, longest=longest)
+            raise RefusalError(
+                "{field} must not be longer than {longest} characters.",
+                field=Parameter(name),
+                longest=longest,
+            )
         return value.strip()
 
     def content(self, name: str) -> bytes:
@@ -76,7 +84,9 @@ class Form:
         [True, True, False]
         """
         if not self.text("once"):
-            raise RefusalError("refused_form")
+            raise RefusalError(
+                "This form is from an earlier visit. Open the page again and repeat what you did."
+            )
         sent = sorted((k, repr(v)) for k, v in self.fields.multi_items() if k != "csrf")
         return hashlib.sha256(repr([*more, sent]).encode()).hexdigest()
 
@@ -84,7 +94,12 @@ class Form:
         """Return one of several words."""
         text = self.text(name)
         if text not in allowed:
-            raise RefusalError("refused_choice", field=name, value=text, allowed=", ".join(allowed))
+            raise RefusalError(
+                "{field} must be one of {allowed}; you entered {value!r}.",
+                field=Parameter(name),
+                value=text,
+                allowed=", ".join(allowed),
+            )
         return text
 
 
@@ -95,9 +110,20 @@ def whole(name: str, text: str, low: int, high: int) -> int:
     7
     """
     if not text:
-        raise RefusalError("refused_empty", field=name, low=low, high=high)
+        raise RefusalError(
+            "{field} is blank; enter a whole number from {low} to {high}.",
+            field=Parameter(name),
+            low=low,
+            high=high,
+        )
     if not text.isascii() or not text.isdigit() or not low <= int(text) <= high:
-        raise RefusalError("refused_whole", field=name, value=text, low=low, high=high)
+        raise RefusalError(
+            "{field} must be a whole number from {low} to {high}; you entered {value!r}.",
+            field=Parameter(name),
+            value=text,
+            low=low,
+            high=high,
+        )
     return int(text)
 
 

@@ -23,6 +23,7 @@ from evenbreak.files.store.folder import write_files
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 from evenbreak.web.beside import Beside
 from evenbreak.web.uploads import ending_of, read_upload
+from evenbreak.words import Sentence, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.kit.answer import Answer
@@ -33,9 +34,9 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass
 class Progress:
-    """How far the work is: a key of the catalogue, and how much is done of how much."""
+    """How far the work is: what is done now, and how much of it."""
 
-    step: str = "league_reading"
+    step: Sentence = say("Reading the results…")
     done: int = 0
     of: int = 0
 
@@ -175,7 +176,7 @@ class League:
             raise DataError(["there are no results"])
         scale, race = self._shown()
 
-        def at(step: str) -> Callable[[int, int], None]:
+        def at(step: Sentence) -> Callable[[int, int], None]:
             def told(done: int, of: int) -> None:
                 if asked == self._asked:
                     self.progress = Progress(step, done, of)
@@ -183,11 +184,13 @@ class League:
             told(0, 0)
             return told
 
-        at("league_reading")
+        at(say("Reading the results…"))
         file = read_seasons(paths)
         file = replace(file, source=file.source.replace(f"{self.beside.parent}/", ""))
-        ratings, choice = usual_ratings(file.results, scale=scale, progress=at("league_rating"))
-        at("league_pairing")
+        ratings, choice = usual_ratings(
+            file.results, scale=scale, progress=at(say("Rating the players…"))
+        )
+        at(say("Finding the fairest races…"))
         offered = OfferedRaces(race_to=race)
         return Sheet.of(file, ratings, offered, most_active(ratings, MOST_ON_SHEET), choice)
 

@@ -19,10 +19,10 @@ from starlette.routing import Route
 
 from evenbreak.files.store.tournament import TakenBeforeError
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import begun_at, done, language
+from evenbreak.web.page import begun_at, done
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token
-from evenbreak.web.words import say
+from evenbreak.words import say
 
 _DOUBLE_TAP = 10.0  # seconds
 _MOST = 1000  # forms whose answers are remembered
@@ -72,7 +72,9 @@ async def _taken(request: Request, route: Route, answers: _Answers) -> Response:
     before, answer = dict(request.session), None
     try:
         if form.text("begun") != await asyncio.to_thread(begun_at, request):
-            raise RefusalError("refused_other_tournament", status=409)
+            raise RefusalError(
+                "Another tournament was started in the meantime. Open the page again.", status=409
+            )
         found: Response = await route.endpoint(request)
         if isinstance(found, RedirectResponse):
             changed = {k: v for k, v in request.session.items() if before.get(k) != v}
@@ -97,4 +99,4 @@ def _again(request: Request, first: _Answer) -> Response:
 
 
 def _told(request: Request, to: str) -> Response:
-    return done(request, to, say(language(request), "taken_before"))
+    return done(request, to, say("You entered that before. Nothing was entered twice."))

@@ -22,14 +22,13 @@ from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
-from evenbreak.files.catalogues import face_in
+from evenbreak.files.catalogues import language_of, languages
+from evenbreak.web.faces import page_face
 from evenbreak.web.forms import LONGEST, Form
-from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
-from evenbreak.web.words import LANGUAGES, catalogue, language_of, number_in, say
 from evenbreak.web.words.sentences import answer_in_language, in_language
-from evenbreak.words import in_face
+from evenbreak.words import Figure, in_face, say, say_as, say_count
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -47,7 +46,14 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
+        finalize=_said,
     )
+
+
+@jinja2.pass_context
+def _said(context: jinja2.runtime.Context, value: Any) -> Any:
+    """Return what a template prints: sentences as the reader's page says them."""
+    return in_face(value, context["face"])
 
 
 @cache
@@ -72,7 +78,7 @@ def site_of(request: Request) -> Site:
 def language(request: Request) -> str:
     """Return the language of the reader: as chosen, or as the browser asks."""
     chosen = request.session.get(_LANGUAGE)
-    if chosen in LANGUAGES:
+    if chosen in languages():
         return str(chosen)
     return language_of(request.headers.get("accept-language", ""))
 
@@ -80,7 +86,7 @@ def language(request: Request) -> str:
 def in_words(request: Request, text: str) -> str:
     """Return sentences in the reader's language, with every name as it is."""
     code = language(request)
-    said = in_face(text, face_in(code))
+    said: str = in_face(text, page_face(code))
     if said != str(text):
         return _without_folder(request, said)
     return in_language(code, _without_folder(request, text), _names(request))
@@ -95,7 +101,7 @@ def _names(request: Request) -> set[str]:
 
 def choose_language(request: Request, code: str) -> None:
     """Keep the language that the reader chose."""
-    if code in LANGUAGES:
+    if code in languages():
         request.session[_LANGUAGE] = code
 
 
@@ -126,38 +132,31 @@ def page(
         what the template shows.
     """
     code = language(request)
-
-    def t(key: str, **held: object) -> str:
-        return say(code, key, **held)
+    face = page_face(code)
 
     def tr(text: str) -> str:
         return in_words(request, text)
 
-    def percent(p: float) -> str:
-        return number_in(code, share_at_a_glance(p))
-
-    def share_exactly(p: float) -> str:
-        return number_in(code, share(p))
-
-    def number(value: float, places: int = 0) -> str:
-        return number_in(code, f"{value:.{places}f}")
-
-    def rating(value: float) -> str:
-        return number_in(code, f"{round(value, 1):g}")
+    def capital(text: str) -> str:
+        shown: str = in_face(text, face)
+        return shown[:1].upper() + shown[1:]
 
     shown = (
         _templates()
         .get_template(template)
         .render(
-            t=t,
+            face=face,
+            say=say,
+            say_as=say_as,
+            say_count=say_count,
             tr=tr,
-            percent=percent,
-            share=share_exactly,
-            number=number,
-            rating=rating,
-            capital=_capital,
+            percent=share_at_a_glance,
+            share=share,
+            number=_number,
+            rating=_rating,
+            capital=capital,
             language=code,
-            languages=LANGUAGES,
+            languages=languages(),
             here=request.url.path,
             return_to=_return_to(request),
             site=site_of(request),
@@ -165,7 +164,7 @@ def page(
             csrf=form_token(request),
             once=secrets.token_urlsafe(9),
             begun=begun_at(request),
-            said=[tr(line) for line in request.session.pop(_SAID, [])],
+            said=request.session.pop(_SAID, []),
             live=live,
             quick=quick,
             script=own_file("live.js"),
@@ -195,9 +194,9 @@ def asked_again(
     return page(request, template, status=400, entered=entered, why=words, **values)
 
 
-def refused(request: Request, why: Exception | str, status: int) -> Response:
+def refused(request: Request, why: Exception, status: int) -> Response:
     """Return why a request is refused, with the way back to the page that it came from."""
-    words = why if isinstance(why, str) else reason(request, why)
+    words = reason(request, why)
     back = _came_from(request) or ("/desk" if is_director(request) else "/")
     return page(request, "refused.html", status=status, why=words, back=back)
 
@@ -222,11 +221,6 @@ def _can_be_opened(request: Request, path: str) -> bool:
 
 def reason(request: Request, why: Exception) -> str:
     """Return why something is refused, in the reader's language."""
-    if isinstance(why, RefusalError):
-        values, words = dict(why.values), catalogue(language(request))
-        if "field" in values:
-            values["field"] = words.get(f"field_{values['field']}", values["field"])
-        return say(language(request), why.key, **values)
     return in_words(request, why.sentence if isinstance(why, EvenbreakError) else str(why))
 
 
@@ -256,15 +250,18 @@ def _return_to(request: Request) -> str:
     return asked if len(asked) <= LONGEST else request.url.path
 
 
-def _capital(text: str) -> str:
-    """Return a text with a capital letter in front."""
-    return text[:1].upper() + text[1:]
+def _number(value: float, places: int = 0) -> Figure:
+    return Figure(value, f".{places}f")
+
+
+def _rating(value: float) -> Figure:
+    return Figure(round(value, 1), "g")
 
 
 def done(request: Request, to: str, *said: str) -> Response:
     """Return to a page after a form was taken, and say there what happened."""
     kept: list[str] = []
-    for line in said:
+    for line in (in_words(request, one) for one in said):
         if len(json.dumps([*kept, line])) <= _MOST_SAID:
             kept.append(line)
     if kept:

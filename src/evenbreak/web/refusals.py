@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Any
 
-class RefusalError(Exception):
+from evenbreak.errors import EvenbreakError
+
+
+class RefusalError(EvenbreakError):
     """A request that is refused.
 
     Parameters
     ----------
-    key
-        of the sentence in the catalogue.
+    template
+        what the reader is told, as `evenbreak.words.say` takes it.
     status
         of HTTP.
     values
-        what the sentence holds.
+        what fills it in.
     """
 
-    def __init__(self, key: str, *, status: int = 400, **values: object) -> None:
-        super().__init__(key)
-        self.key = key
+    def __init__(self, template: str, /, *, status: int = 400, **values: Any) -> None:
+        super().__init__(template, **values)
         self.status = status
-        self.values = values
+
+
+class MovedOnError(RefusalError):
+    """A tap on a page that shows an older score than there is."""

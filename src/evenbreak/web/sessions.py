@@ -62,7 +62,10 @@ def check_form(request: Request, token: str) -> None:
     """Refuse a form that this session was not given."""
     known = request.session.get(_CSRF)
     if not known or not hmac.compare_digest(known.encode(), token.encode()):
-        raise RefusalError("refused_form", status=403)
+        raise RefusalError(
+            "This form is from an earlier visit. Open the page again and repeat what you did.",
+            status=403,
+        )
 
 
 def let_in(request: Request, role: str, mark: str) -> None:
@@ -95,7 +98,7 @@ def is_director(request: Request) -> bool:
 def check_director(request: Request) -> None:
     """Refuse whoever has not entered the director's PIN."""
     if not is_director(request):
-        raise RefusalError("refused_director", status=403)
+        raise RefusalError("Only the director can do that. Enter the PIN first.", status=403)
 
 
 def captain_of(request: Request, night: int) -> int | None:
@@ -122,7 +125,7 @@ def check_tries(request: Request) -> None:
     site, address = request.app.state.site, address_of(request)
     here = address in {"127.0.0.1", "::1"}
     if site.tries.full(address) or (site.all_tries.full("") and not here):
-        raise RefusalError("refused_tries", status=429)
+        raise RefusalError("Too many wrong PINs. Wait a minute.", status=429)
 
 
 def wrong_pin(request: Request) -> RefusalError:
@@ -130,7 +133,7 @@ def wrong_pin(request: Request) -> RefusalError:
     site = request.app.state.site
     site.tries.count(address_of(request))
     site.all_tries.count("")
-    return RefusalError("refused_pin", status=403)
+    return RefusalError("Wrong PIN.", status=403)
 
 
 def address_of(request: Request) -> str:

@@ -24,18 +24,29 @@ from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
+from evenbreak.words import Parameter, say
 
 ORDERS = {
-    "alternate": "order_alternate",
-    "home": "order_home",
-    "loser": "order_loser",
-    "winner": "order_winner",
-    "blind": "order_blind",
-    "sealed": "order_sealed",
+    "alternate": say("Taking turns"),
+    "home": say("Always the first team"),
+    "loser": say("The loser of the last set"),
+    "winner": say("The winner of the last set"),
+    "blind": say("Both at once, blind"),
+    "sealed": say("Sealed: both line-ups before the match starts"),
 }
 """Who puts up first, with its words."""
 
-COUNT_WORDS = dict(zip(COUNTS, ("count_sets", "count_games", "count_points"), strict=True))
+COUNT_WORDS = dict(
+    zip(
+        COUNTS,
+        (
+            say("Sets won"),
+            say("All games won"),
+            say("Points: 3-0 for a shutout, 2-1 hill-hill, else 2-0"),
+        ),
+        strict=True,
+    )
+)
 """What decides the night, with its words."""
 
 MOST_SETS = 25
@@ -50,15 +61,15 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     """
     names = [clean_name(form.text(f"team_{side}", longest=60)) for side in "ab"]
     if not all(names):
-        raise RefusalError("refused_teams")
+        raise RefusalError("A team has no name. Name both teams.")
     for name in names:
         if not is_name(name):
-            raise RefusalError("refused_name", value=name)
+            raise RefusalError("The name {value!r} can't be printed. Type it again.", value=name)
     lists = []
     for side, name in zip("ab", names, strict=True):
         content = list_of(form, f"players_{side}", f"file_{side}")
         if not content.strip():
-            raise RefusalError("refused_nobody")
+            raise RefusalError("Enter at least one player.")
         lists.append(_read(content, name))
     scale = _scale(form, lists, league)
     lists = [_with_league(one, scale, league) for one in lists]
@@ -118,10 +129,13 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     if points := _number(form, "doubling"):
         return scale_of(points)
     if any(one.file.levels for one in lists):
-        raise RefusalError("refused_levels")
+        raise RefusalError(
+            "The lists have skill levels instead of ratings. Under More, enter how many "
+            "levels double the odds."
+        )
     stated = [one.file.scale for one in lists if one.file.scale is not None]
     if any(not stated[0].same_points(other) for other in stated[1:]):
-        raise RefusalError("refused_scales")
+        raise RefusalError("The two lists are on different scales. Put all ratings on one scale.")
     if stated:
         for one in lists:
             refuse_to_read(one.file, stated[0], "the other team's list", CHOOSE_IT)
@@ -137,7 +151,10 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
 def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
     """Return a team; new players get the rating in the middle, and are very uncertain."""
     if read.without_weight and any(form.text(field) for field in ("cap", "at_most")):
-        raise RefusalError("refused_weight", name=read.without_weight)
+        raise RefusalError(
+            "{name} has no skill level, and a cap needs one for every player.",
+            name=read.without_weight,
+        )
     roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
     errors = np.zeros(len(roster)) if form.text("sure") else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
@@ -160,7 +177,11 @@ def _number(form: Form, name: str) -> float | None:
     except ValueError:
         value = 0.0
     if not 0.0 < value < 1e6:
-        raise RefusalError("refused_number", field=name, value=text)
+        raise RefusalError(
+            "{field} must be a number above 0; you entered {value!r}.",
+            field=Parameter(name),
+            value=text,
+        )
     return value
 
 
@@ -169,7 +190,9 @@ def _numbers(form: Form) -> tuple[int, ...]:
     if not text:
         return ()
     if not _NUMBERS.fullmatch(text):
-        raise RefusalError("refused_doubles", value=text)
+        raise RefusalError(
+            "{value!r} does not name any sets; list their numbers, such as 1,5.", value=text
+        )
     return tuple(sorted({int(part) for part in text.split(",")}))
 
 
@@ -179,5 +202,7 @@ def _at_most(form: Form) -> tuple[int, float] | None:
         return None
     found = _AT_MOST.fullmatch(text)
     if found is None:
-        raise RefusalError("refused_at_most", value=text)
+        raise RefusalError(
+            "{value!r}: write how many players of which level, such as 2:6.", value=text
+        )
     return int(found[1]), float(found[2])

@@ -151,5 +151,5 @@ async def night_on(request: Request) -> TeamNow:
     """Return the team night that a request is about; refuse it if there is none."""
     now: TeamNow | None = await request.app.state.site.teams.now()
     if now is None:
-        raise RefusalError("refused_no_night", status=404)
+        raise RefusalError("No team night is running yet.", status=404)
     return now

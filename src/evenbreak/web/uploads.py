@@ -74,6 +74,8 @@ def _check_size(content: bytes) -> None:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             size = sum(one.file_size for one in packed.infolist())
     except zipfile.BadZipFile:
-        raise RefusalError("refused_workbook") from None
+        raise RefusalError("This workbook can't be read. Save it again, or as CSV.") from None
     if size > _MOST_UNPACKED:
-        raise RefusalError("refused_workbook_size", status=413)
+        raise RefusalError(
+            "This workbook is too large. Save the sheet with the results as CSV.", status=413
+        )

@@ -52,7 +52,9 @@ async def cards_on_paper(request: Request) -> Response:
     state = await _drawn(request)
     cards = score_cards(state, None)
     if not cards:
-        raise RefusalError("refused_no_card", status=404)
+        raise RefusalError(
+            "No match is left to play, so there is no score card to print.", status=404
+        )
     make = partial(score_cards_pdf, cards, site_of(request).path.stem, per_page=4)
     return await _pdf(request, "cards.pdf", state, make)
 
@@ -60,10 +62,10 @@ async def cards_on_paper(request: Request) -> Response:
 async def _drawn(request: Request) -> Evening:
     night = site_of(request).night
     if not night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     state = await asyncio.to_thread(night.state)
     if not state.drawn:
-        raise RefusalError("refused_no_draw", status=404)
+        raise RefusalError("The draw has not been made yet.", status=404)
     return state
 
 

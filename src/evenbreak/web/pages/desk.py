@@ -39,13 +39,18 @@ from evenbreak.tournaments.evening.undoing import undoable
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
-from evenbreak.web.page import done, in_words, language, page, site_of
+from evenbreak.web.page import done, in_words, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
-from evenbreak.web.words import say
+from evenbreak.words import Sentence, say
 
 BY = "director's page"
-RACES_TO_CHANGE = ("race", "losers_race", "final_race")
+RACES_TO_CHANGE = {
+    "race": "Race to (now {now})",
+    "losers_race": "Race on the losers' side (now {now})",
+    "final_race": "Race in the final (now {now})",
+}
+"""The races that can be changed, with their fields."""
 
 Decide = Callable[[Evening], Sequence[What]]
 Said = Callable[[Evening, Evening], Sequence[str]]
@@ -58,7 +63,7 @@ async def desk(request: Request) -> Response:
     if not site.night.exists:
         if await site.teams.now() is not None:
             return RedirectResponse("/team", status_code=303)
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     known = await site.night.outlook()
     state = await asyncio.to_thread(site.night.state)
     shown: dict[str, Any] = {
@@ -86,18 +91,19 @@ async def desk(request: Request) -> Response:
         shown["warnings"] = known.data.get("warnings", []) if known else []
         if known and known.problem:
             why = in_words(request, known.problem)
-            shown["warnings"] = [say(language(request), "not_worked_out", why=why)]
+            shown["warnings"] = [say("Odds and finish time can't be calculated: {why}", why=why)]
     return page(request, "desk.html", live=True, **shown)
 
 
-def _changeable(state: Evening) -> dict[str, int]:
+def _changeable(state: Evening) -> dict[str, Sentence]:
     """Return what can be changed under way, with what it is now: the tables, and the races."""
     plan = state.plan
-    found = {"tables": plan.tables}
+    found: dict[str, Sentence] = {"tables": say("Tables (now {now})", now=plan.tables)}
     if plan.chart is None and plan.form != "chips":
         own = (plan.race, plan.losers_race or plan.race, plan.final_race or plan.race)
-        races = zip(RACES_TO_CHANGE, own, strict=True)
-        found |= {name: n for name, n in races if plan.form in FORMATS_WITH.get(name, FORMATS)}
+        for name, now in zip(RACES_TO_CHANGE, own, strict=True):
+            if plan.form in FORMATS_WITH.get(name, FORMATS):
+                found[name] = say(RACES_TO_CHANGE[name], now=now)
     return found
 
 
@@ -178,7 +184,7 @@ async def call(request: Request) -> Response:
     form = await _form(request)
     matches, tables = form.texts("match"), form.texts("table")
     if len(matches) != len(tables):
-        raise RefusalError("refused_calls")
+        raise RefusalError("A match has no table, or a table has no match. Open the page again.")
     calls = {
         name: whole("table", table, 1, 1000) for name, table in zip(matches, tables, strict=True)
     }
@@ -196,8 +202,7 @@ async def call(request: Request) -> Response:
         found = [after.on_tables[moves.known_match(after, match)].call for match in calls]
         return [
             say(
-                language(request),
-                "called",
+                "Table {table}: {match}, {names}.",
                 match=one.match,
                 names=" – ".join(one.players),
                 table=one.table,
@@ -227,7 +232,7 @@ async def result(request: Request) -> Response:
 
     def said(before: Evening, after: Evening) -> list[str]:
         if len(before.events) == len(after.events):
-            return [say(language(request), "there_already")]
+            return [say("That result has already been entered.")]
         return happened(before, after, after.events[-1])
 
     return await _enter(request, form, decide, said)
@@ -262,7 +267,7 @@ async def entrant(request: Request) -> Response:
 
     def decide(state: Evening) -> list[What]:
         if state.drawn:
-            raise RefusalError("refused_drawn", status=409)
+            raise RefusalError("The draw has been made. Undo it to correct an entry.", status=409)
         return [moves.edit(state, player, name=name, rating=stated)]
 
     return await _enter(request, form, decide, lambda _, after: rating_doubts(after))
@@ -280,7 +285,7 @@ async def change(request: Request) -> Response:
 
     def said(_: Evening, after: Evening) -> list[str]:
         words = in_words(request, races_words(after.races))
-        return [say(language(request), "changed", tables=after.plan.tables, races=words)]
+        return [say("{tables} tables. {races}.", tables=after.plan.tables, races=words)]
 
     return await _enter(request, form, decide, said)
 
@@ -317,7 +322,7 @@ async def call_back(request: Request) -> Response:
 
     def said(before: Evening, _: Evening) -> list[str]:
         table = before.on_tables[moves.known_match(before, match)].call.table
-        return [say(language(request), "called_back", match=match, table=table)]
+        return [say("{match} is off table {table}.", match=match, table=table)]
 
     return await _enter(request, form, lambda state: [moves.call_back(state, match)], said)
 
@@ -329,7 +334,10 @@ async def undo(request: Request) -> Response:
 
     def decide(state: Evening) -> list[What]:
         if entry not in undoable(state):
-            raise RefusalError("refused_changed", status=409)
+            raise RefusalError(
+                "Something was entered after you opened this page. Check it before you undo.",
+                status=409,
+            )
         return [take_back(state, entry)]
 
     def said(before: Evening, after: Evening) -> list[str]:

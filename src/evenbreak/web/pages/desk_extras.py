@@ -20,11 +20,11 @@ from evenbreak.tournaments.evening.events import Undone
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import answer_shown, done, language, page, site_of
+from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.match import phone_label, phone_words
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import DIRECTOR, check_director, let_in
-from evenbreak.web.words import say
+from evenbreak.words import say
 
 
 async def save(request: Request) -> Response:
@@ -32,7 +32,9 @@ async def save(request: Request) -> Response:
     await form_of(request)
     check_director(request)
     copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
-    return done(request, "/desk", say(language(request), "saved", name=copy.name))
+    return done(
+        request, "/desk", say("Saved as {name}, next to the tournament's file.", name=copy.name)
+    )
 
 
 async def change_pin(request: Request) -> Response:
@@ -42,7 +44,15 @@ async def change_pin(request: Request) -> Response:
     site = site_of(request)
     await asyncio.to_thread(site.change_pin)
     let_in(request, DIRECTOR, site.director_mark)
-    return done(request, "/desk", say(language(request), "pin_changed", pin=site.pin))
+    return done(
+        request,
+        "/desk",
+        say(
+            "The director's PIN is now {pin}. Other phones have to enter it before they "
+            "can change anything.",
+            pin=site.pin,
+        ),
+    )
 
 
 async def time(request: Request) -> Response:
@@ -50,10 +60,10 @@ async def time(request: Request) -> Response:
     check_director(request)
     site = site_of(request)
     if not site.night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     state = await asyncio.to_thread(site.night.state)
     if not state.drawn:
-        raise RefusalError("refused_not_drawn", status=409)
+        raise RefusalError("There is no draw yet.", status=409)
 
     def work() -> Answer:
         answer = time_under_way(Outlook(state, site.clock()))
@@ -68,7 +78,7 @@ async def history(request: Request) -> Response:
     check_director(request)
     path = site_of(request).path
     if not path.exists():
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     found = await asyncio.to_thread(read_events, path)
     rows: list[tuple[str, int | str, str, str]] = [
         (one.at, k, what, one.by)
@@ -77,7 +87,7 @@ async def history(request: Request) -> Response:
     undos = {k for k, one in enumerate(found, 1) if isinstance(one.what, Undone)}
     gone = set(range(1, len(found) + 1)) - undos - set(evening(found).numbers)
     rows += [
-        (one.at, "", phone_words(request, one), phone_label(request, one))
+        (one.at, "", phone_words(one), phone_label(one))
         for one in await asyncio.to_thread(phone_entries, path)
         if one.kind != ENTERED  # it is among the events
     ]

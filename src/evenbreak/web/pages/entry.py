@@ -46,8 +46,39 @@ from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
+from evenbreak.words import say
 
-SEEDINGS = ("", "listed", "rating", "blind")
+SEEDINGS = {
+    "": say("Default: as listed; chip tournaments at random"),
+    "listed": say("Seeded as listed"),
+    "rating": say("Seeded by rating"),
+    "blind": say("Blind draw"),
+}
+FORMAT_WORDS = {
+    "double": say("Double elimination"),
+    "single": say("Single elimination"),
+    "round-robin": say("Round robin"),
+    "groups": say("Groups, then knock-out"),
+    "consolation": say("Single elimination with consolation"),
+    "king-of-the-hill": say("King of the hill"),
+    "swiss": say("Swiss"),
+    "chips": say("Chip tournament"),
+    "pods": say("Pods: double elimination in small brackets, then single"),
+}
+NOT_WITH_FORMAT = {
+    "losers_race": say("This format has no losers' side. Leave its race blank."),
+    "final_race": say("This format has no final. Leave its race blank."),
+    "groups": say("This format has no groups. Leave their number blank."),
+    "pod_size": say("This format has no pods. Leave their size at 8."),
+    "qualifiers": say(
+        "In this format nobody qualifies. Leave the number of players advancing blank."
+    ),
+    "rounds": say("Only a Swiss has a number of rounds. Leave it blank."),
+    "final": say("Only a double elimination has a choice of final."),
+    "third_place": say("Only a single elimination has a match for third place."),
+}
+"""Why a field must be left blank in a format that does not have it."""
+
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 
 
@@ -61,7 +92,7 @@ async def _choices(site: Site) -> dict[str, Any]:
     """Return what there is to choose from, and the tournament that there is already."""
     return {
         "there": await asyncio.to_thread(_there, site),
-        "formats": FORMATS,
+        "formats": {name: FORMAT_WORDS[name] for name in FORMATS},
         "formats_with": FORMATS_WITH,
         "races": RACES,
         "charts": CHARTS,
@@ -121,7 +152,11 @@ def _put_aside(form: Form, site: Site) -> int:
     if there is None:
         return 0
     if form.text("in_place_of") != there.name:
-        raise RefusalError("refused_there", status=409)
+        raise RefusalError(
+            "A tournament is already running. Tick the box to archive it, or leave this "
+            "page to continue it.",
+            status=409,
+        )
     back_up(site.path, datetime.now())
     return there.events
 
@@ -130,11 +165,13 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     """Return what a form begins, and what its list makes doubtful."""
     content = list_of(form, "entrants", "file")
     if not content.strip():
-        raise RefusalError("refused_nobody")
+        raise RefusalError("Enter at least one player.")
     file = read_upload(content, read_entrants)
     stated = scale_in(form)
     if file.levels and stated is None:
-        raise RefusalError("refused_skill_levels")
+        raise RefusalError(
+            "The list has skill levels, not ratings. Replace them with ratings, or leave them out."
+        )
     scale = file.scale or file.scale_by(stated, CHOOSE_IT)
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
@@ -166,17 +203,22 @@ def _plan(form: Form, scale: Scale) -> Plan:
     given = _given(form)
     for name in given:
         if kind not in FORMATS_WITH[name]:
-            raise RefusalError(f"refused_{name}")
+            raise RefusalError(NOT_WITH_FORMAT[name])
     if {"final", "qualifiers"} <= given.keys():
-        raise RefusalError("refused_final_of_qualifiers")
+        raise RefusalError(
+            "A double elimination that ends with qualifiers has one final. Leave out one "
+            "of the two choices."
+        )
     if races in CHARTS and given.keys() & {"losers_race", "final_race"}:
-        raise RefusalError("refused_chart_races")
+        raise RefusalError(
+            "The chart sets all races. Leave the races of the losers' side and of the final blank."
+        )
     return Plan(
         kind,
         1 if kind == "chips" or races in CHARTS else form.whole("race", 1, LONGEST_RACE),
         handicapped=races == FAIR,
         chart=_chart(races) if races in CHARTS else None,
-        seeding=form.one_of("seeding", SEEDINGS) or usual_seeding(kind),
+        seeding=form.one_of("seeding", tuple(SEEDINGS)) or usual_seeding(kind),
         scale=scale.text,
         starter=scale.centre,
         starter_error=scale.points_per_doubling,
@@ -219,7 +261,7 @@ async def late(request: Request) -> Response:
     check_director(request)
     site, name, rating = site_of(request), name_of(form), rating_of(form)
     if not name:
-        raise RefusalError("refused_nobody")
+        raise RefusalError("Enter at least one player.")
 
     def decide(state: Evening) -> list[Event]:
         plan = state.plan

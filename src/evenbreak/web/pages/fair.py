@@ -69,7 +69,9 @@ def _scale(request: Request, state: Evening | None, league: League) -> Scale | N
             return scale_of(given)
         except InputError:
             raise RefusalError(
-                "refused_scale", value=given[:20], allowed=", ".join(SCALES)
+                "There is no rating scale called {value!r}; choose one of {allowed}.",
+                value=given[:20],
+                allowed=", ".join(SCALES),
             ) from None
     if state:
         return state.scale
@@ -87,7 +89,7 @@ def _side(text: str, state: Evening | None, league: League) -> Side:
     if known is not None and not tonight:
         return Side(*known)
     if state is None:
-        raise RefusalError("refused_rating", value=text)
+        raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=text)
     entrant = state.entrants[known_player(state, text)]
     return Side(entrant.name, entrant.rating, entrant.standard_error)
 
@@ -96,7 +98,9 @@ def _races(sides: tuple[Side, ...], scale: Scale, length: int) -> list[FairRace]
     one, other = sides
     gap, error = one.rating - other.rating, (one.error**2 + other.error**2) ** 0.5
     if not abs(gap) < 1e6:  # neither too large nor not a number
-        raise RefusalError("refused_rating", value=f"{one.rating:g}")
+        raise RefusalError(
+            "{value!r} is not a rating. Enter a number, such as 520.", value=f"{one.rating:g}"
+        )
     if error:
         return nearest_races_given_ratings(gap, error, scale=scale, race_to=length, top=3)
     return fair_races(Rack(float(scale.win_probability(gap))), race_to=length, top=3)

@@ -21,12 +21,12 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.league import League
-from evenbreak.web.page import answer_shown, done, language, page, site_of
+from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of
-from evenbreak.web.words import say
+from evenbreak.words import say
 
 if TYPE_CHECKING:
     from evenbreak.answers.league.sheet import Sheet
@@ -85,13 +85,13 @@ async def give(request: Request) -> Response:
     check_director(request)
     content = list_of(form, "results", "file", longest=MOST_BYTES)
     if not content.strip():
-        raise RefusalError("refused_nothing")
+        raise RefusalError("Nothing was sent. Choose a file or paste the results.")
     found = _league(request)
     scale = form.one_of("scale", tuple(SCALES))
     race = form.whole("race", 1, LONGEST, default=7)
     await asyncio.to_thread(found.keep, content, scale, race)
     found.begin()
-    return done(request, "/league", say(language(request), "league_taken"))
+    return done(request, "/league", say("Results saved; calculating ratings…"))
 
 
 async def add_tonight(request: Request) -> Response:
@@ -104,7 +104,9 @@ async def add_tonight(request: Request) -> Response:
     content = matches_csv(state, site.path.stem)
     await asyncio.to_thread(site.league.add_evening, content, begun)
     site.league.begin()
-    return done(request, "/league", say(language(request), "league_added"))
+    return done(
+        request, "/league", say("Tonight's results are in the league. Calculating its ratings…")
+    )
 
 
 async def results(request: Request) -> Response:
@@ -117,10 +119,10 @@ async def results(request: Request) -> Response:
 def tournament_of(site: Site) -> Evening:
     """Return tonight's tournament, of which something has been played."""
     if not site.night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     state = site.night.state()
     if not state.counted:
-        raise RefusalError("refused_nothing_played", status=409)
+        raise RefusalError("No match has been played yet.", status=409)
     return state
 
 
@@ -229,7 +231,7 @@ def _league(request: Request) -> League:
 def _sheet(request: Request) -> Sheet:
     found = _league(request).sheet
     if found is None:
-        raise RefusalError("refused_no_league", status=404)
+        raise RefusalError("There are no league ratings yet.", status=404)
     return found
 
 

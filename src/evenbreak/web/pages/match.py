@@ -34,14 +34,13 @@ from evenbreak.tournaments.evening.events import Event, Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import MatchView, match_view
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import done, language, page, reason, site_of
+from evenbreak.web.page import done, page, reason, site_of
 from evenbreak.web.player_view import player_views
-from evenbreak.web.refusals import RefusalError
+from evenbreak.web.refusals import MovedOnError, RefusalError
 from evenbreak.web.sessions import address_of, check_director, is_director, phone_of
-from evenbreak.web.words import say
+from evenbreak.words import say
 
 _SEEN, _MOST_SEEN = "seen", 4
-_MOVED_ON = "refused_seen"
 
 Check: TypeAlias = Callable[[Evening], None]
 """Refuses a form by the state that there is when it is entered."""
@@ -139,7 +138,7 @@ async def release(request: Request) -> Response:
         return Entry(site.clock(), name, RELEASED, player) if claimed else None
 
     await asyncio.to_thread(enter, site.path, name, pair, decide)
-    said = say(language(request), "side_released", name=player)
+    said = say("{name}'s side is free. The next phone that claims it gets it.", name=player)
     return done(request, f"/m/{request.path_params['token']}", said)
 
 
@@ -154,10 +153,12 @@ async def tap(request: Request) -> Response:
     site, to = site_of(request), f"/m/{request.path_params['token']}"
     _count_tap(request, name)
     if name not in state.standing.to_play:
-        raise RefusalError("refused_over", status=409, match=name)
+        raise RefusalError("{match} is not being played now.", status=409, match=name)
     pair, needs = state.pair(name), state.needed(name, state.pair(name))
     if (form.text("player_a"), form.text("player_b")) != pair:
-        raise RefusalError("refused_other_players", status=409, match=name)
+        raise RefusalError(
+            "Other players are in {match} now. Open the page again.", status=409, match=name
+        )
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
     seen = form.text("seen")
 
@@ -183,9 +184,7 @@ async def tap(request: Request) -> Response:
 
     try:
         said = await asyncio.to_thread(work)
-    except RefusalError as error:
-        if error.key != _MOVED_ON:
-            raise
+    except MovedOnError as error:
         return await _shown(request, *await _match(request), error)
     return done(request, to, *filter(None, [said]))
 
@@ -196,13 +195,22 @@ def _check_tap(request: Request, now: Evening, name: str, pair: tuple[str, str],
     It is asked while nobody else can enter anything.
     """
     if name not in now.standing.to_play:
-        raise RefusalError("refused_over", status=409, match=name)
+        raise RefusalError("{match} is not being played now.", status=409, match=name)
     if now.pair(name) != pair:
-        raise RefusalError("refused_other_players", status=409, match=name)
+        raise RefusalError(
+            "Other players are in {match} now. Open the page again.", status=409, match=name
+        )
     if not _may_score(request, _sides(request, name, pair)):
-        raise RefusalError("refused_not_playing", status=403, match=name)
+        raise RefusalError(
+            "Both players of {match} keep the score on their own phones.", status=403, match=name
+        )
     if seen != (there := _live_words(now, name)):
-        raise RefusalError(_MOVED_ON, status=409, match=name, score=there)
+        raise MovedOnError(
+            "The score of {match} is {score} now. Check it, then tap again if a game is missing.",
+            status=409,
+            match=name,
+            score=there,
+        )
 
 
 def _may_score(request: Request, sides: Sides) -> bool:
@@ -220,14 +228,14 @@ def _live_words(state: Evening, name: str) -> str:
 def _players(state: Evening, name: str) -> tuple[str, str]:
     """Return who plays a match; refuse a page that was opened before somebody left it."""
     if name not in state.standing.to_play and name not in state.counted:
-        raise RefusalError("refused_over", status=409, match=name)
+        raise RefusalError("{match} is not being played now.", status=409, match=name)
     return state.pair(name)
 
 
 def _count_tap(request: Request, name: str) -> None:
     taps = site_of(request).taps
     if taps.full(name):
-        raise RefusalError("refused_taps", status=429)
+        raise RefusalError("Too many taps. Wait a moment.", status=429)
     taps.count(name)
 
 
@@ -242,7 +250,12 @@ def _claim(request: Request, name: str, pair: tuple[str, str], player: str, chec
             at = site.clock()
             return Entry(at, name, CLAIMED, player, phone=phone, address=address_of(request))
         if holder.phone != phone:
-            raise RefusalError("refused_claimed", status=409, name=player)
+            raise RefusalError(
+                "Another phone has {name}'s side of this match. If that isn't you, ask the "
+                "director to release it.",
+                status=409,
+                name=player,
+            )
         return None
 
     enter(site.path, name, pair, decide)
@@ -252,7 +265,7 @@ def _propose(
     request: Request, name: str, pair: tuple[str, str], score: tuple[int, int], check: Check
 ) -> str:
     """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
-    site, code = site_of(request), language(request)
+    site = site_of(request)
     phone, address = phone_of(request), address_of(request)
     moves.result(site.night.state(), name, score)  # refuses what cannot be a result
     games = dict(zip(pair, score, strict=True))
@@ -269,15 +282,20 @@ def _propose(
     sides = enter(site.path, name, pair, decide)
     me = sides.of(phone)
     if not me:
-        return say(code, "refused_who")
+        return say("Say whose phone this is first, then enter the last game again.")
     if _entered(site.night.state(), name, games):  # the other phone was faster
-        return say(code, "result_entered", match=name)
+        return say("Both of you agree. The result of {match} is in.", match=name)
     if len(sides.proposed) < len(pair):
-        return say(code, "proposed_wait", other=pair[pair[0] == me])
+        return say(
+            "Sent. It counts once {other} or the director confirms it.", other=pair[pair[0] == me]
+        )
     if not sides.agree:
-        return say(code, "proposed_differ")
+        return say("Your opponent entered a different result. Please go to the director together.")
     if not sides.apart:
-        return say(code, "proposed_alike")
+        return say(
+            "Both results agree, but they came from one phone or one network address. "
+            "Please ask the director to confirm."
+        )
 
     def settle(now: Evening) -> list[Event]:
         if _entered(now, name, games):
@@ -287,7 +305,7 @@ def _propose(
 
     add_events(site.path, settle, by=f"phones: {' and '.join(pair)}")
     enter(site.path, name, pair, lambda _: Entry(site.clock(), name, ENTERED))
-    return say(code, "result_entered", match=name)
+    return say("Both of you agree. The result of {match} is in.", match=name)
 
 
 def _sides(request: Request, name: str, pair: tuple[str, str]) -> Sides:
@@ -303,29 +321,33 @@ def _entered(state: Evening, name: str, games: dict[str, int]) -> bool:
 async def _match(request: Request) -> tuple[str, Evening]:
     site = site_of(request)
     if not site.night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     state = await asyncio.to_thread(site.night.state)
     if not state.drawn:
-        raise RefusalError("refused_no_draw", status=404)
+        raise RefusalError("The draw has not been made yet.", status=404)
     name = site.match_of(request.path_params["token"], list(state.bracket.by_name))
     if name is None:
-        raise RefusalError("refused_token", status=404)
+        raise RefusalError("This link isn't for one of tonight's matches.", status=404)
     return name, state
 
 
-def phone_words(request: Request, entry: Entry) -> str:
+def phone_words(entry: Entry) -> str:
     """Return what a phone did, for the history."""
-    key = {CLAIMED: "phone_claimed", RELEASED: "phone_released"}.get(entry.kind, "phone_proposed")
+    match, name = entry.match, entry.player
+    if entry.kind == CLAIMED:
+        return say("{match}: claimed {name}'s side", match=match, name=name)
+    if entry.kind == RELEASED:
+        return say("{match}: released {name}'s side", match=match, name=name)
     score = ", ".join(f"{name} {games}" for name, games in entry.score.items())
-    return say(language(request), key, match=entry.match, name=entry.player, score=score)
+    return say("{match}: {name} sent {score}", match=match, name=name, score=score)
 
 
-def phone_label(request: Request, entry: Entry) -> str:
+def phone_label(entry: Entry) -> str:
     """Return which phone did it, for the history; the director has none."""
     if not entry.phone:
         return "director's page"
     label = f"{entry.phone[:4]} {entry.address}".strip()
-    return say(language(request), "phone_label", label=label)
+    return say("phone {label}", label=label)
 
 
 ROUTES = [

@@ -15,11 +15,11 @@ from evenbreak.files.store.desk import kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.tournaments.money.prize_money import PrizeMoney
 from evenbreak.web.forms import Form, form_of
-from evenbreak.web.page import answer_shown, done, language, page, reason, site_of
+from evenbreak.web.page import answer_shown, done, page, reason, site_of
 from evenbreak.web.player_view import player_views
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
-from evenbreak.web.words import say
+from evenbreak.words import Parameter, say
 
 _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
 
@@ -28,7 +28,7 @@ async def players(request: Request) -> Response:
     """Show the players, the highest rating first."""
     night = site_of(request).night
     if not night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     known = await night.outlook()
     state = night.state()
     return page(request, "players.html", live=True, players=player_views(state, known))
@@ -38,7 +38,7 @@ async def prizes(request: Request) -> Response:
     """Show what each place is paid, and what each player may expect."""
     site = site_of(request)
     if not site.night.exists:
-        raise RefusalError("refused_no_tournament", status=404)
+        raise RefusalError("No tournament is running yet.", status=404)
     kept = await asyncio.to_thread(kept_prizes, site.path) or PrizeMoney()
     asked = _asked(Form(request.query_params)) if "fee" in request.query_params else kept
     state = await asyncio.to_thread(site.night.state)
@@ -70,7 +70,11 @@ async def keep(request: Request) -> Response:
     money = _asked(form)
     money.amounts(len((await asyncio.to_thread(site.night.state)).entrants))
     await asyncio.to_thread(site.night.keep_prizes, money)
-    return done(request, "/prizes", say(language(request), "prizes_kept"))
+    return done(
+        request,
+        "/prizes",
+        say("The prizes are saved, and shown on tonight's page and on the screen."),
+    )
 
 
 def _asked(form: Form) -> PrizeMoney:
@@ -79,13 +83,22 @@ def _asked(form: Form) -> PrizeMoney:
     try:
         return PrizeMoney(fee, added, payout=payout.lower().replace(",", "."))
     except InputError:
-        raise RefusalError("refused_payout", value=payout) from None
+        raise RefusalError(
+            "{value!r}: choose a table from the list, or write the percentage for each "
+            "place, such as 50/30/20, adding up to 100 at most.",
+            value=payout,
+        ) from None
 
 
 def _money(form: Form, name: str) -> float:
     text = form.text(name).replace(",", ".")
     if text and not _MONEY.fullmatch(text):
-        raise RefusalError("refused_money", field=name, value=text)
+        raise RefusalError(
+            "{field} must be an amount of money below 10 million, such as 20 or 12.50; you "
+            "entered {value!r}.",
+            field=Parameter(name),
+            value=text,
+        )
     return float(text or 0)
 
 

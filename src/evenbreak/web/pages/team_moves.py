@@ -16,7 +16,7 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.web.forms import Form, form_of
-from evenbreak.web.page import done, language, site_of
+from evenbreak.web.page import done, site_of
 from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import (
@@ -29,7 +29,7 @@ from evenbreak.web.sessions import (
     wrong_pin,
 )
 from evenbreak.web.team_night import night_on
-from evenbreak.web.words import say
+from evenbreak.words import Sentence, say
 
 _DIRECTOR = "director"
 _MOST_PLAYERS = 2
@@ -71,7 +71,7 @@ async def put(request: Request) -> Response:
         return moves.put_up(state, side, number, pick)
 
     _, added = await _add(request, form, by, decide)
-    return _taken(request, added, "team_put", name=" + ".join(pick), n=number)
+    return _taken(request, added, say("{name} plays set {n}.", name=" + ".join(pick), n=number))
 
 
 async def hand(request: Request) -> Response:
@@ -87,7 +87,7 @@ async def hand(request: Request) -> Response:
         return moves.hand_in(state, side, picks)
 
     _, added = await _add(request, form, by, decide)
-    return _taken(request, added, "team_handed")
+    return _taken(request, added, say("The line-up is handed in."))
 
 
 async def result(request: Request) -> Response:
@@ -99,17 +99,28 @@ async def result(request: Request) -> Response:
     if form.text("by") == _DIRECTOR:
         check_director(request)
         _, added = await _add(request, form, BY, lambda state: moves.result(state, number, score))
-        return _taken(request, added, "team_result", n=number)
+        return _taken(request, added, say("The result of set {n} is in.", n=number))
     by, side = _author(request, now.state, form)
     state, added = await _add(
         request, form, by, lambda state: moves.propose(state, side, number, score)
     )
     line, other = state.sets[number - 1], state.teams[1 - side]
     if line.score:
-        return _taken(request, added, "team_agreed", n=number)
+        return _taken(
+            request, added, say("Both captains agree. The result of set {n} is in.", n=number)
+        )
     if line.said[1 - side] not in (None, score):
-        return _taken(request, added, "team_differ", name=other)
-    return _taken(request, added, "team_proposed", name=other)
+        return _taken(
+            request,
+            added,
+            say(
+                "{name} entered a different result. Please agree, or go to the director.",
+                name=other,
+            ),
+        )
+    return _taken(
+        request, added, say("Sent. It counts once {name} or the director confirms it.", name=other)
+    )
 
 
 async def undo(request: Request) -> Response:
@@ -120,11 +131,14 @@ async def undo(request: Request) -> Response:
 
     def decide(events: list[Event], _: TeamEvening | None) -> Sequence[What]:
         if len(events) != seen:
-            raise RefusalError("refused_changed", status=409)
+            raise RefusalError(
+                "Something was entered after you opened this page. Check it before you undo.",
+                status=409,
+            )
         return [Undone()]
 
     await asyncio.to_thread(_write, request, decide, form, BY)
-    return done(request, "/team", say(language(request), "undone"))
+    return done(request, "/team", say("The last entry has been undone."))
 
 
 def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]:
@@ -134,14 +148,21 @@ def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]
         return BY, form.whole("team", 0, 1)
     side = captain_of(request, state.began)
     if side is None or form.text("by") != str(side):
-        raise RefusalError("refused_captain", status=403)
+        raise RefusalError(
+            "Only that team's captain can do that. Enter the captain's PIN first.", status=403
+        )
     return f"captain of {state.teams[side]}", side
 
 
 def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
     """Refuse to let the director find out by guessing what a captain has handed in unseen."""
     if not state.open(number) and state.sets[number - 1].picks[side]:
-        raise RefusalError("refused_handed_in", status=409, name=state.teams[side])
+        raise RefusalError(
+            "{name} has already handed in for this set. Undo that first, or let the "
+            "captain change it.",
+            status=409,
+            name=state.teams[side],
+        )
 
 
 def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
@@ -150,7 +171,7 @@ def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
     text = form.text(field, longest=12)
     places = [int(part) for part in text.split(",") if part.isascii() and part.isdigit()]
     if not 1 <= len(places) <= _MOST_PLAYERS or max(places) >= len(squad):
-        raise RefusalError("refused_nobody_chosen")
+        raise RefusalError("Choose a player first.")
     return tuple(squad[place] for place in places)
 
 
@@ -160,12 +181,14 @@ async def _add(request: Request, form: Form, by: str, decide: Decide) -> tuple[T
 
     def decided(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
         if state is None or state.began != night:
-            raise RefusalError("refused_other_night", status=409)
+            raise RefusalError(
+                "Another team night was started in the meantime. Open the page again.", status=409
+            )
         return decide(state)
 
     state, added = await asyncio.to_thread(_write, request, decided, form, by)
     if state is None:
-        raise RefusalError("refused_no_night", status=404)
+        raise RefusalError("No team night is running yet.", status=404)
     return state, added
 
 
@@ -176,10 +199,9 @@ def _write(request: Request, decide: Any, form: Form, by: str) -> tuple[TeamEven
     )
 
 
-def _taken(request: Request, added: bool, key: str, **values: object) -> Response:
+def _taken(request: Request, added: bool, words: Sentence) -> Response:
     """Return to the night, and say what was taken, or that it was there already."""
-    code = language(request)
-    return done(request, "/team", say(code, key if added else "team_there", **values))
+    return done(request, "/team", words if added else say("That has already been entered."))
 
 
 ROUTES = [

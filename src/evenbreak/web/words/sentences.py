@@ -19,16 +19,28 @@ from typing import Any, TypeAlias, TypeVar
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Part, Quantity, Table
-from evenbreak.web.words import number_in
+from evenbreak.files.catalogues import face_in
+from evenbreak.words import Sentence, in_face
 
 Named = TypeVar("Named", Column, Quantity)
 Say: TypeAlias = Callable[[str], str]
 
+_NUMBER = re.compile(r"([<>+-]?)(\d{1,3}(?:,\d{3})*|\d+)(\.\d+)?(%?)", re.ASCII)
 _FIRST, _LAST = "\U000f0000", "\U000ffffd"  # private letters, each in place of a name
 _SENTENCE_ENDS = re.compile(rf"(?<=[.!?]) (?=[A-Z0-9{_FIRST}-{_LAST}])")
 _QUOTED = r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")(?!\w)"""
 _PAIR = " - "
 _LIST_ENDS = re.compile(r"(, | and |; )")
+
+
+def number_in(language: str, text: str) -> str:
+    """Return a number as it is written in a language; what is no number stays as it is."""
+    found = _NUMBER.fullmatch(text)
+    if found is None:
+        return text
+    face, (sign, whole, part, unit) = face_in(language), found.groups("")
+    digits = whole.replace(",", face.group) + part.replace(".", face.decimal)
+    return face.percent.format(n=sign + digits) if unit else sign + digits
 
 
 @cache
@@ -74,6 +86,10 @@ def in_language(language: str, text: str, names: Collection[str] = ()) -> str:
     >>> in_language("de", "Tom and Jerry beat Bo 7:5 in W1.1.", ["Tom and Jerry", "Bo"])
     'Tom and Jerry schlägt Bo 7:5 in W1.1.'
     """
+    if isinstance(text, Sentence):
+        told: str = in_face(text, face_in(language))
+        if told != str(text):
+            return told
     there = sorted((name for name in names if name in text), key=len, reverse=True)
     opaque = [rf"(?<!\w){re.escape(name)}(?!\w)" for name in there if name]
     kept: list[str] = []
