@@ -15,5 +15,5 @@ from .league.season_tables import truth_frame as truth_frame
 from .league.season_tables import weeks_frame as weeks_frame
 from .league.sheet import Sheet as Sheet
 from .league.sheet import summary_frame as summary_frame
+from .league.validate import validate_answer as validate_answer
 from .league.why import why_answer as why_answer
-from .validate import validate_answer as validate_answer

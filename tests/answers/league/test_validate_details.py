@@ -1,14 +1,9 @@
 """The statistics of a validated season: every figure where a person looks for it."""
 
-from dataclasses import replace
-
-import numpy as np
-
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.validate_details import details
-from evenbreak.answers.validate_judgement import scored_of
+from evenbreak.answers.league.validate_findings import details
+from evenbreak.answers.league.validate_judgement import scored_of
 from evenbreak.ratings import Results, scale_of, validate
-from evenbreak.ratings.levels import Levels
 
 NPL, FARGO = scale_of("npl"), scale_of("fargo")
 
@@ -37,7 +32,7 @@ def test_every_kind_of_prediction_has_its_losses(chosen):
 
 
 def test_the_tests_stand_beside_what_was_expected(demo):
-    tests = parts_of(demo)[0][2]
+    tests = parts_of(demo)[0][1]
     rows = {row[0]: row[1:] for row in tests.rows}
     spread, first = demo.dispersion, demo.first_breaks
     assert rows["spread of scores"] == (
@@ -51,11 +46,9 @@ def test_the_tests_stand_beside_what_was_expected(demo):
     assert "runs of racks" not in rows  # the demo league does not list its racks
 
 
-def test_matches_and_spots_have_a_row_a_bin(demo):
-    _, _, _, shapes, matches, spots, starts, experience = parts_of(demo)[0]
-    assert [row.of for row in shapes.rows] == ["deciders", "sweeps", "games"]
+def test_starts_have_a_row_a_size(demo):
+    _, _, spots, starts, experience = parts_of(demo)[0]
     assert [row[0] for row in experience.rows] == ["1 to 20", "21 to 50", "51 to 200"]
-    assert [row[1] for row in matches.rows] == [one.matches for one in demo.matches]
     assert [row[0] for row in spots.rows] == [1, 2, 3, 4, 5, "all"]
     assert list(starts.rows) == list(demo.starts.groups)
 
@@ -81,30 +74,3 @@ def test_a_given_prior_has_no_cost(demo):
 def test_few_matches_have_no_slope(play_season):
     scored = parts_of(validate(play_season(6, matches=60), prior_sd=0.01))[0][0]
     assert [row[-1] for row in scored.rows] == [None] * 4
-
-
-def test_newcomers_are_counted(demo):
-    assert f"In {int(demo.forecasts.new.sum())} matches" in parts_of(demo)[1]
-
-
-def test_how_even_handicaps_make_the_matches_is_what_the_season_shows(demo, play_season):
-    even = tuple(row._replace(predicted=0.54) for row in demo.matches)
-    text = parts_of(replace(demo, matches=even))[1]
-    assert "One player gave games in 89% of the matches" in text
-    assert "favourite 54% on average: nearly even" in text
-    season = play_season(5, skills=1.0)
-    few = np.arange(len(season)) < 20
-    some = replace(season, race_b=np.where(few, season.race_b, season.race_a))
-    handicapped = replace(some, race_a=np.where(few, 9, some.race_a))
-    wins = np.where(few & (season.score_a > season.score_b), 9, season.score_a)
-    text = parts_of(validate(replace(handicapped, score_a=wins), prior_sd=1.0))[1]
-    assert "One player gave games in 2.2% of the matches" in text
-    assert "nearly even" not in text
-
-
-def test_two_factors_of_the_races_are_not_taken_for_one(demo):
-    """What is taken before any result and what all results show are said apart, in one unit."""
-    known = replace(demo, forecasts=replace(demo.forecasts, levels=Levels(race=1.88)))
-    text = parts_of(known)[1]
-    assert f"The {demo.starts.share.value:.2f} is what all results show" in text
-    assert "The 1.88 that is taken before any result" in text

@@ -3,8 +3,7 @@
 import pytest
 
 from evenbreak.answers.faces.to_text import to_text
-from evenbreak.answers.validate import validate_answer
-from evenbreak.answers.validate_verdict import verdict
+from evenbreak.answers.league.validate import validate_answer, verdict
 from evenbreak.files.results.results_file import ResultsFile, read_results
 from evenbreak.ratings import scale_of
 from places import DATA
@@ -55,17 +54,6 @@ def test_json_holds_everything(demo_answer, demo):
     assert data["skill"] == demo.skill._asdict()
     assert [one["spot"] for one in data["spots"]] == [1, 2, 3, 4, 5, None]
     assert (data["streaks"], data["seed"]) == (None, 1)
-
-
-def test_scores_that_vary_more_are_explained_and_others_are_not(demo_answer, demo, chosen):
-    more = 100 * (demo.dispersion.seen / demo.dispersion.by_chance - 1)
-    (text,) = [one for one in demo_answer.sentences if one.startswith("Match scores")]
-    assert f"{more:.0f}%" in text
-    assert "winner breaks" in text
-    assert "races" not in text  # under handicaps favourites of matches say nothing
-    file = ResultsFile(chosen.forecasts.results, "r.csv", (), (), "")
-    sentences = validate_answer(file, chosen, NPL).sentences
-    assert not any(one.startswith("Match scores") for one in sentences)
 
 
 def test_the_prior_is_named_only_where_the_default_is_wrong(chosen, alike):

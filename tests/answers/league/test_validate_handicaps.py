@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from click.testing import CliRunner
 
-from evenbreak.answers.validate_handicaps import handicap_remarks
+from evenbreak.answers.league.validate_handicaps import handicap_remarks
 from evenbreak.cli.program import program
 from evenbreak.handicaps import league_chart
 from evenbreak.ratings import scale_of, validate
@@ -41,11 +41,6 @@ def test_a_scale_that_is_off_comes_with_a_chart_that_fits(too_easy):
     assert made.exit_code == 0, made.output
 
 
-def test_the_chart_is_named_with_the_places_that_differ(too_easy):
-    (text,) = [text for text in too_easy if "npl_10" in text]
-    assert "7:4 instead of 6:3 at 29 to 36 points apart" in text
-
-
 def test_a_class_has_its_worth_beside_what_a_start_takes_back():
     fair, worth = said(by_class(1, matches=800))
     assert "too little" in fair
@@ -65,12 +60,11 @@ def by_the_book():
 
 
 def test_only_the_largest_start_is_unfair_in_a_league_that_plays_by_its_chart(by_the_book):
-    fair, scale, chart = remarks(*by_the_book)
+    fair, scale = remarks(*by_the_book)
     assert fair.startswith("A start of 5 games gives too little")
     assert "No start is larger" in fair
     assert "All together the starts are fair" in fair
     assert "agree" in scale
-    assert "but for" not in chart
 
 
 def test_a_league_without_handicaps_hears_nothing(chosen):

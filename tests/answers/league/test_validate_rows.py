@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from evenbreak.answers.validate_judgement import scored_of
-from evenbreak.answers.validate_rows import COLUMNS, findings_table
+from evenbreak.answers.league.validate_findings import COLUMNS, findings_table
+from evenbreak.answers.league.validate_judgement import scored_of
 
 
 def rows_of(found):

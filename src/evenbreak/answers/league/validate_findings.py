@@ -1,25 +1,128 @@
-"""The statistics of a validated season: how good predictions were, and every test."""
+"""What a validated season shows in figures: a table for files, and the statistics as details."""
 
 import math
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-
 from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import count_of, decimals, percent, range_words
-from evenbreak.answers.validate_handicaps import starts_table
-from evenbreak.answers.validate_judgement import points_text
-from evenbreak.ratings.advantages import ByExperience
-from evenbreak.ratings.calibration import END_ERROR, REPLICAS, Estimate
+from evenbreak.answers.kit.wording import decimals, percent
+from evenbreak.answers.league.validate_handicaps import handicap_rows, starts_table
+from evenbreak.answers.league.validate_judgement import points_text
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.advantages import ByExperience, known_breaks
+from evenbreak.ratings.calibration import END_ERROR, REPLICAS, Estimate, Scored
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validate import Validation
-from evenbreak.ratings.within_matches import MatchForm
 
-NEARLY_EVEN = 0.56
-"""Favourites with less than this chance, on average, are hardly any."""
+COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")
+
+_RIGHT = {"log_loss": math.log(2.0), "brier": 0.25, "slope": 1.0}
+"""What a coin has, and the slope that is right."""
+
+
+def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table:
+    """Return everything that was found, a figure a row."""
+    forecasts = found.forecasts
+    counts = {"game": int(forecasts.games.sum()), "match": int((forecasts.race_a > 0).sum())}
+    rows: list[tuple[Any, ...]] = [*_prior_rows(found)]
+    for row in found.scored:
+        head = (row.of, row.how, counts[row.of])
+        rows.append(("prior_sd", *head, None, row.prior_sd, None, None, None))
+        rows += _goodness(row, head)
+    for row in found.usual:
+        rows += _goodness(row, (row.of, "usual", counts[row.of]))
+    rows += [
+        ("gain", of, "integrated", counts[of], 0.0, *gain, None) for of, gain in found.gain.items()
+    ]
+    rows += [
+        ("half_life", "game", f"{one.half_life:g}", counts["game"], 0.0, *one.gain, None)
+        for one in found.half_lives
+    ]
+    for part, of, bins in (
+        ("calibration", "game", found.games),
+        ("calibration", "match", found.matches),
+        ("calibration_plug_in", "match", found.matches_plug_in),
+    ):
+        rows += [(part, of, f"{b.p_from:.2f}-{b.p_to:.2f}", *b[3:], None) for b in bins]
+    rows += [("no_favourite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
+    rows += _test_rows(found, counts["game"])
+    rows += handicap_rows(found, chart or LeagueChart())
+    return Table("findings", [Column(name) for name in COLUMNS], rows)
+
+
+def _prior_rows(found: Validation) -> Iterator[tuple[Any, ...]]:
+    """Yield how the prior was chosen, and what levels gain; nothing where it was given."""
+    choice = found.choice
+    if choice is None:
+        return
+    for sd, loss in zip(choice.tried, choice.log_loss, strict=True):
+        yield ("prior", "game", f"{sd:.6f}", choice.predicted, None, loss, None, None, None)
+    head = ("game", "plug-in", choice.predicted, None)
+    yield ("prior_range", *head, found.prior_sd, choice.low, choice.high, None)
+    yield ("log_loss_as_it_went", *head, choice.as_it_went, None, None, None)
+    for one in choice.evidence:
+        if one.of != "half_life":
+            yield ("level", "game", one.of, choice.predicted, 0.0, *one.gain, None)
+
+
+def _goodness(row: Scored, head: tuple[str, str, int]) -> list[tuple[Any, ...]]:
+    estimates = [(part, getattr(row, part), right) for part, right in _RIGHT.items()]
+    return [
+        (part, *head, right, *estimate, None)
+        for part, estimate, right in estimates
+        if estimate is not None
+    ]
+
+
+def _test_rows(found: Validation, games: int) -> list[tuple[Any, ...]]:
+    rows: list[tuple[Any, ...]] = []
+    spread, runs, first = found.dispersion, found.streaks, found.first_breaks
+    if spread is not None:
+        figures = (spread.races, spread.by_chance, spread.seen)
+        rows.append(("dispersion", "match", "scores", *figures, None, None, spread.p_value))
+    if found.form is not None:
+        rows.append(("form", "game", "variance", found.form.races, 0.0, *found.form.variance, None))
+        for shape in found.form.shapes:
+            head = ("score", "match", shape.of, found.form.races)
+            rows.append((*head, shape.said, *shape.seen, None))
+            rows.append(("score_with_form", *head[1:], shape.said_with_form, *shape.seen, None))
+    if runs is not None:
+        figures = (runs.matches, runs.expected, float(runs.runs))
+        rows.append(("streaks", "match", "runs", *figures, None, None, runs.p_value))
+    if first is not None:
+        figures = (first.matches, first.expected, float(first.won))
+        rows.append(("first_break", "match", "won", *figures, None, None, first.p_value))
+    column = found.first_column
+    if column is not None:
+        figures = (column.matches, column.expected, float(column.won))
+        rows.append(("first_column", "match", "won", *figures, None, None, None))
+        figures = (column.dates, column.dates_expected, float(column.dates_won))
+        rows.append(("first_column_dates", "match", "won", *figures, None, None, None))
+        head = ("first_column_varies", "match", "p", column.matches)
+        rows.append((*head, None, None, None, None, column.varies))
+    for name, estimate, count in (
+        ("side", found.side, games),
+        ("breaker", found.breaker, known_breaks(found.forecasts)),
+    ):
+        if estimate is not None:
+            rows.append((name, "game", "log_odds", count, 0.0, *estimate, None))
+    for row in found.spots:
+        spot = "all" if row.spot is None else row.spot
+        figures = (row.matches, row.expected, row.share)
+        rows.append(("spot", "match", spot, *figures, row.low, row.high, None))
+    for one in found.experience:
+        before = f"{one.fewest}-{'' if one.most is None else one.most}"
+        rows.append(("experience", "game", before, one.games, 0.0, *one.stronger, None))
+    for half in found.lengths:
+        figures = (half.matches, half.predicted, half.share)
+        ends = f"{half.shortest}-{half.longest}"
+        rows.append(("race_length", "match", ends, *figures, half.low, half.high, None))
+    return rows
+
+
+# The details: how good predictions were, and every test.
 
 _EXPLAINED = (
     "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
@@ -45,53 +148,16 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
     yield _EXPLAINED
     yield _scored(found, scale)
     yield _prior(found, scale)
-    yield _integrated(found)
-    if found.half_lives:
-        yield _half_lives(found)
     tests = list(_tests(found))
     if tests:
         yield _TESTS_EXPLAINED
         yield Table("", _TEST_COLUMNS, tests)
-    if found.form is not None:
-        yield _form(found.form, scale)
-        yield _shapes(found.form)
-    if found.lengths:
-        yield _lengths(found)
-    if found.matches:
-        yield _matches(found)
-        if found.spots:
-            yield _evenness(found)
-            yield _by_spot(found)
+    if found.spots:
+        yield _by_spot(found)
     if found.starts is not None:
         yield starts_table(found.starts, scale)
-        if race := found.forecasts.levels.race:
-            yield (
-                f"The {found.starts.share.value:.2f} is what all results show. The {race:.2f} that "
-                "is taken before any result is what predicts later games best; the players' own "
-                "results then add to it."
-            )
     if found.experience:
         yield _experience(found, scale)
-    new = int(found.forecasts.new.sum())
-    if new:
-        yield f"In {count_of(new, 'match', 'matches')} one of the players had not played before."
-
-
-def _evenness(found: Validation) -> str:
-    """Return how many matches had a start, and how even that leaves the matches."""
-    matches = np.array([row.matches for row in found.matches])
-    favourite = float(matches @ [row.predicted for row in found.matches] / matches.sum())
-    spots = found.spots[-1].matches / int((found.forecasts.race_a > 0).sum())
-    text = (
-        f"One player gave games in {percent(spots)} of the matches, and the ratings give their "
-        f"favourite {percent(favourite)} on average"
-    )
-    if favourite > NEARLY_EVEN:
-        return f"{text}, starts included."
-    return (
-        f"{text}: nearly even, so the favourite is picked mostly by the ratings' own errors, and "
-        "predictions of matches are of little use."
-    )
 
 
 def _scored(found: Validation, scale: Scale) -> Table:
@@ -137,29 +203,6 @@ def _prior(found: Validation, scale: Scale) -> str:
     )
 
 
-def _half_lives(found: Validation) -> Table:
-    """Return what it gains to let old games count less."""
-    columns = [
-        Column("half_life", "half-life", lambda days: f"{days:g} days"),
-        Column("gain", "log-loss saved a game", lambda one: _span(one, 4, " to ")),
-    ]
-    title = "What it would gain to let old games count less; below 0, it predicts worse:"
-    return Table("", columns, found.half_lives, title)
-
-
-def _integrated(found: Validation) -> str:
-    # Under handicaps chances of matches are mostly noise, so games are used.
-    of = "match" if "match" in found.gain and not found.spots else "game"
-    gain = found.gain[of]
-    effect = "makes no clear difference"
-    if gain.low > 0.0 or gain.high < 0.0:
-        effect = f"predicts {'better' if gain.low > 0.0 else 'worse'}"
-    return (
-        f"Averaging over the uncertainty of the ratings {effect}: log-loss falls by "
-        f"{gain.value:z.4f} a {of} ({gain.low:z.4f} to {gain.high:z.4f})."
-    )
-
-
 def _range(ends: tuple[float, float]) -> str:
     return f"{ends[0]:.3f} to {ends[1]:.3f}"
 
@@ -202,51 +245,6 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
             )
 
 
-def _form(form: MatchForm, scale: Scale) -> str:
-    v, low, high = form.variance
-    points = scale.points_per_log_odds
-    end = "This is established." if form.established else "This may be luck."
-    return (
-        f"Form of the day: the difference between two players varies from match to match with a "
-        f"standard deviation of {points * form.sd:.0f} points (variance {v:.3f} in squared "
-        f"log-odds, {low:z.3f} to {high:z.3f}), besides the uncertainty of the ratings. {end} It "
-        f"is estimated from {count_of(form.races, 'match', 'matches')} to two games or more, "
-        "without those of the first date."
-    )
-
-
-def _shapes(form: MatchForm) -> Table:
-    """Return deciders, sweeps and lengths, seen and expected."""
-    columns = [
-        Column("of", "", left=True),
-        Column("seen", "seen", lambda one: _span(one, 3, " to ")),
-        Column("said", "expected", decimals(3)),
-        Column("said_with_form", "with form", decimals(3)),
-    ]
-    title = "Scores, with 95% intervals, beside what the ratings expect without and with form:"
-    return Table("", columns, form.shapes, title)
-
-
-def _lengths(found: Validation) -> Table:
-    """Return how often favourites won short and long races."""
-    columns = [
-        Column("length", "race to"),
-        Column("matches", "matches"),
-        Column("predicted", "predicted", decimals(3)),
-        Column("share", "won", decimals(3)),
-        Column("range", "95% interval", _range),
-    ]
-    rows = [
-        (
-            range_words(half.shortest, half.longest),
-            *(half.matches, half.predicted, half.share, (half.low, half.high)),
-        )
-        for half in found.lengths
-    ]
-    title = "Matches with a favourite that the favourite won, by the length of the race:"
-    return Table("", columns, rows, title)
-
-
 def _experience(found: Validation, scale: Scale) -> Table:
     """Return how the less experienced player of a match fared, by the games played before."""
     points = scale.points_per_log_odds
@@ -280,18 +278,6 @@ def _games_before(one: ByExperience) -> str:
     if one.most is None:
         return f"{one.fewest} or more"
     return "none" if one.most == 0 else f"{one.fewest} to {one.most}"
-
-
-def _matches(found: Validation) -> Table:
-    """Return how often favourites won matches."""
-    columns = [
-        Column("predicted", "predicted", decimals(3)),
-        Column("matches", "matches"),
-        Column("seen", "won", decimals(3)),
-        Column("range", "95% interval", _range),
-    ]
-    rows = [(row.predicted, row.matches, row.seen, (row.low, row.high)) for row in found.matches]
-    return Table("", columns, rows, "Matches that the favourite won:")
 
 
 def _by_spot(found: Validation) -> Table:

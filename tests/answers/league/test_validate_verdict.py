@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from evenbreak.answers.validate_verdict import verdict
+from evenbreak.answers.league.validate import verdict
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, scale_of, validate
 from evenbreak.ratings.calibration import Estimate

@@ -8,7 +8,6 @@ from scipy.special import ndtri
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.calibration import Estimate, Of, Scored
 from evenbreak.ratings.race_fairness import HandicapFairness
-from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validate import Validation
 
@@ -106,20 +105,6 @@ def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
         way = int(clearly_off(share, 1.0 + NEAR) > 0) - int(clearly_off(share, 1.0 - NEAR) < 0)
     by_matches = clearly_off(share_of(found.spots[-1]), 0.5) if found.spots else 0
     return 0 if way == -by_matches else way
-
-
-def best_half_life(found: Validation) -> float | None:
-    """Return the half-life that predicts best, None where none clearly helps."""
-    if not found.half_lives:
-        return None
-    best = max(found.half_lives, key=lambda one: one.gain.value)
-    return best.half_life if clearly_off(best.gain, 0.0) > 0 else None
-
-
-def any_winner_breaks(found: Validation) -> bool:
-    """Return whether any race was played with winner breaks, as far as the file says."""
-    breaks = found.forecasts.results.break_format
-    return breaks is not None and bool((breaks == FORMATS.index("winner")).any())
 
 
 def scale_way(chart: LeagueChart) -> int:

@@ -1,11 +1,11 @@
-"""Whether handicaps were fair, what a start is worth, and which chart the races come from."""
+"""Whether handicaps were fair, what a start is worth, and the scale that fits."""
 
 from collections.abc import Iterator
 from typing import Any
 
 from evenbreak.answers.kit.parts import Column, Table
 from evenbreak.answers.kit.wording import count_of, listed, percent, race
-from evenbreak.answers.validate_judgement import (
+from evenbreak.answers.league.validate_judgement import (
     clearly_off,
     more_or_less,
     percents,
@@ -16,7 +16,6 @@ from evenbreak.answers.validate_judgement import (
     unfair_starts,
 )
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
-from evenbreak.handicaps.charts.played_chart import PlayedCell, PlayedChart
 from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.race_fairness import HandicapFairness
 from evenbreak.ratings.scale import Scale, scale_of
@@ -31,9 +30,6 @@ SURE = 0.1
 
 MOST_SIZES = 4
 """Sizes of starts that are listed."""
-
-MOST_CHANGED = 4
-"""Places of a chart that are listed; the others are counted."""
 
 
 def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Iterator[str]:
@@ -51,8 +47,6 @@ def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Ite
         yield fair
     if command:
         yield command
-    if chart.nearest is not None:
-        yield _nearest(chart.nearest)
 
 
 def _fairness(found: Validation, by_games: int, scale: Scale) -> str:
@@ -215,51 +209,6 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
         f"evenbreak chart design --games {low}..{high} --least {race(fair.least)} "
         f"--scale {points.value:.1f}",
     )
-
-
-def _nearest(found: PlayedChart) -> str:
-    """Return which known chart the races come from."""
-    others = found.matches - found.agree - sum(cell.matches for cell in found.changed)
-    slips = ""
-    if others > 0:
-        slips = f" Other races were played in {count_of(others, 'match', 'matches')}."
-    if found.same:
-        return f"The races are those of the chart {found.title} ({found.name}).{slips}"
-    if found.by == "race" and not any(cell.played for cell in found.changed):
-        never = [race(cell.chart) for cell in found.changed if cell.chart is not None]
-        return (
-            f"All races are in the chart {found.title} ({found.name}); its {listed(never)} "
-            f"{'was' if len(never) == 1 else 'were'} never played."
-        )
-    if found.by == "race":
-        return f"The races are nearest to the chart {found.title} ({found.name}). {_races(found)}"
-    places = count_of(len(found.changed), "place")
-    return (
-        f"The races are those of the chart {found.title} ({found.name}) but for {places}: "
-        f"{listed(_some(found.changed))}.{slips}"
-    )
-
-
-def _some(changed: tuple[PlayedCell, ...]) -> list[str]:
-    shown = [
-        f"{race(cell.played)} instead of {race(cell.chart)} at {cell.where}"
-        for cell in changed[:MOST_CHANGED]
-        if cell.played is not None and cell.chart is not None
-    ]
-    more = len(changed) - MOST_CHANGED
-    return shown + ([f"{more:,} more"] if more > 0 else [])
-
-
-def _races(found: PlayedChart) -> str:
-    never = [race(cell.chart) for cell in found.changed if cell.chart is not None]
-    own = [
-        f"{race(cell.played)} ({count_of(cell.matches, 'match', 'matches')})"
-        for cell in found.changed
-        if cell.played is not None
-    ]
-    said = [f"never plays {listed(never, 'or')}"] if never else []
-    said += [f"plays {listed(own)}, which the chart does not have"] if own else []
-    return f"The league {listed(said)}."
 
 
 def starts_table(starts: Starts, scale: Scale) -> Table:

@@ -1,0 +1,368 @@
+"""Whether a league can trust its ratings: the verdict, and what else changes what one does."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.league.prior import evidence_rows, levels_data
+from evenbreak.answers.league.validate_findings import details, findings_table
+from evenbreak.answers.league.validate_handicaps import handicap_remarks
+from evenbreak.answers.league.validate_judgement import (
+    UNLIKELY,
+    VAGUE,
+    clearly_off,
+    more_or_less,
+    percents,
+    points_text,
+    scored_of,
+    share_of,
+    starts_way,
+    wrong_chances,
+)
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.advantages import FEWEST_ON_A_DATE
+from evenbreak.ratings.calibration import Estimate
+from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.validate import Validation
+
+
+def validate_answer(
+    file: ResultsFile,
+    found: Validation,
+    scale: Scale,
+    *,
+    seed: int = 1,
+    chart: LeagueChart | None = None,
+) -> Answer:
+    """Return whether a league can trust its ratings.
+
+    Parameters
+    ----------
+    file, found
+        the results, and what `validate` made of them.
+    scale
+        the scale in whose points priors are given.
+    seed
+        of the intervals and simulated seasons.
+    chart
+        what `league_chart` found in the same results.
+
+    >>> from evenbreak.files.results.results_file import ResultsFile
+    >>> from evenbreak.ratings import Results, scale_of, validate
+    >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],
+    ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
+    >>> file = ResultsFile(season, "r.csv", (), (), "")
+    >>> print(validate_answer(file, validate(season), scale_of("npl")).sentences[0])
+    There are too few matches to say whether these ratings can be trusted.
+    """
+    chart = chart or LeagueChart()
+    text = verdict(found, scale, chart)
+    parts: list[Part] = [text, _games(found), *remarks(found, scale, chart)]
+    return Answer(
+        _heading(file, found),
+        parts,
+        details=list(details(found, scale)),
+        warnings=[*file.warnings, *file.ties],
+        data={
+            "verdict": text,
+            "rows_left_out": file.skipped,
+            **_figures(found, scale),
+            **_chart(chart),
+            "seed": seed,
+        },
+        csv=findings_table(found, chart),
+    )
+
+
+def _heading(file: ResultsFile, found: Validation) -> str:
+    forecasts = found.forecasts
+    forfeits = count_of(forecasts.forfeits, "forfeit")
+    left = {
+        f"{forecasts.undated:,} without a date": forecasts.undated,
+        forfeits: forecasts.forfeits,
+        f"{forecasts.empty:,} at 0-0": forecasts.empty,
+        f"{forecasts.unscored:,} without scores": forecasts.unscored,
+        count_of(file.skipped, "bad row"): file.skipped,
+    }
+    out = ", ".join(words for words, count in left.items() if count)
+    return (
+        f"{file.source}: {count_of(len(forecasts), 'match', 'matches')} on "
+        f"{count_of(_dates(found), 'date')}, each date predicted from the earlier ones"
+        + (f" (left out: {out})" if out else "")
+    )
+
+
+def _dates(found: Validation) -> int:
+    return int(found.forecasts.date_of[-1]) + 1
+
+
+def _games(found: Validation) -> Table:
+    """Return how often favourites won games, beside the chances that they had been given."""
+    columns = [
+        Column("predicted", "predicted", percent),
+        Column("games", "games"),
+        Column("seen", "won", percent),
+        Column("range", "95% range", percents),
+    ]
+    rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
+    title = (
+        "How often favourites won single games. The ratings are right where the prediction lies in "
+        "the range."
+    )
+    return Table("", columns, rows, title)
+
+
+def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
+    """Return what JSON holds besides the findings."""
+    forecasts = found.forecasts
+    return {
+        "matches_read": len(forecasts),
+        "dates": _dates(found),
+        **{name: getattr(forecasts, name) for name in _LEFT_OUT},
+        "newcomers": int(forecasts.new.sum()),
+        "prior_sd": found.prior_sd,
+        "prior_points": found.prior_sd * scale.points_per_log_odds,
+        "half_life": forecasts.half_life,
+        **_choice(found),
+        "levels": levels_data(replace(found.ratings, scale=scale), found.choice),
+        "evidence": evidence_rows(found.choice),
+        **{name: getattr(found, name) for name in _AS_FOUND},
+    }
+
+
+def _choice(found: Validation) -> dict[str, Any]:
+    """Return how the prior was chosen, None for each figure where it was given."""
+    choice = found.choice
+    if choice is None:
+        return {"priors": [], **dict.fromkeys(_OF_CHOICE)}
+    tried = zip(choice.tried, choice.log_loss, strict=True)
+    figures = choice.learnt, [choice.low, choice.high], choice.as_it_went
+    return {
+        "priors": [{"prior_sd": sd, "log_loss": loss} for sd, loss in tried],
+        **dict(zip(_OF_CHOICE, figures, strict=True)),
+    }
+
+
+def _chart(chart: LeagueChart) -> dict[str, Any]:
+    """Return which chart the races come from, and the scale that fits the results."""
+    return {"chart": chart.nearest, "fair_scale": chart.scale}
+
+
+_OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
+_LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
+_AS_FOUND = (
+    *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
+    *("skill", "form", "dispersion", "streaks", "side", "first_column", "breaker", "first_breaks"),
+    *("half_lives", "lengths", "experience", "starts", "drawn"),
+)
+
+
+# The verdict: a sentence or two that say what to do.
+
+TOO_SPREAD = 1.5
+"""How many times as much as expected scores must vary for chances of matches to be given up."""
+
+PLENTY = 100.0
+"""Games a player, on average, from which different strengths would show."""
+
+
+def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> str:
+    """Return whether the ratings can be trusted, and what to do."""
+    slope = scored_of(found, "game").slope
+    if found.skill.low <= 0.0 or slope is None:
+        return _no_skill(found, slope, scale)
+    faults = list(_faults(found, chart))
+    wrong = wrong_chances(found.scored, found)
+    if wrong:
+        more = f" Also, {listed(faults)}." if faults else ""
+        return _do_not(found, wrong, scale) + more
+    spread = found.dispersion
+    if spread is not None and spread.p_value < UNLIKELY:
+        times = spread.seen / spread.by_chance
+        if times > TOO_SPREAD:
+            return f"{_good_and_bad_days(times)} {_corrected(found)}"
+    default = _default_is_wrong(found, scale)
+    if faults:
+        held = f"You can trust the ratings for single games, but {listed(faults)}."
+    elif slope.high - slope.low > VAGUE:
+        held = "Nothing speaks against the ratings, but there are too few matches to be sure."
+    else:
+        held = "You can trust these ratings: players win as often as they predict."
+    return f"{held} {default}" if default else held
+
+
+def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
+    season = found.forecasts.results
+    players = {*season.player_a.tolist(), *season.player_b.tolist()}
+    games_each = 2.0 * float(found.forecasts.games.sum()) / len(players)
+    turned = slope is not None and clearly_off(slope, 0.0) < 0
+    plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
+    if plenty and found.choice is None:
+        return (
+            f"With a prior of {points_text(found.prior_sd, scale)} points the ratings predict no "
+            "better than a coin; leave --prior out to find the best."
+        )
+    if plenty:
+        return (
+            "The ratings predict no better than a coin: these players are too equal for ratings to "
+            "separate them."
+        )
+    if found.skill.high < 0.0:
+        return "Do not trust these ratings: for this league they predict worse than a coin."
+    return "There are too few matches to say whether these ratings can be trusted."
+
+
+def _too_sure(wrong: Mapping[str, int]) -> str:
+    """Return which favourites win too little or too much.
+
+    >>> _too_sure({"game": -1, "match": -1})
+    'favourites win games and matches less often than predicted'
+    """
+    plural = {"game": "games", "match": "matches"}
+    if len(set(wrong.values())) == 1:
+        often = more_or_less(next(iter(wrong.values())) > 0)
+        return f"favourites win {listed([plural[of] for of in wrong])} {often} often than predicted"
+    return "favourites win " + listed(
+        [f"{plural[of]} {more_or_less(way > 0)} often than predicted" for of, way in wrong.items()]
+    )
+
+
+def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
+    if found.choice is None:
+        size = "smaller" if -1 in wrong.values() else "larger"
+        return (
+            f"Do not use a prior of {points_text(found.prior_sd, scale)} points: "
+            f"{_too_sure(wrong)}. Use a {size} --prior, or leave the option out to find the best."
+        )
+    even = "even with the best prior"
+    if not found.choice.learnt:
+        even = "and there are too few results to choose a better prior"
+    text = f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
+    return f"{text} {_corrected(found)}"
+
+
+def _corrected(found: Validation) -> str:
+    """Return what the other commands correct where chances are off, and what they do not."""
+    if found.form is None or not found.form.established:
+        return "No command corrects this."
+    return (
+        "In the chances of matches and in fair races, report allows for good and bad days, and so "
+        "do odds, fair, live and matchups with the ratings that rate writes. The chances of single "
+        "games are not corrected."
+    )
+
+
+def _good_and_bad_days(times: float) -> str:
+    return (
+        f"Do not rely on the chances of whole matches: scores vary {times:.1f} times as much as "
+        "expected."
+    )
+
+
+def _default_is_wrong(found: Validation, scale: Scale) -> str:
+    """Return what the default prior would do where it is clearly wrong, '' where it is not."""
+    wrong = wrong_chances(found.usual, found)
+    if not wrong or found.choice is None or found.prior_sd == PRIOR_SD:
+        return ""
+    use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
+    return (
+        f"All of this is for a prior of {use} points, which rate and report use too if --prior is "
+        f"left out. With a prior of {default} points, {_too_sure(wrong)}."
+    )
+
+
+def _faults(found: Validation, chart: LeagueChart | None) -> Iterator[str]:
+    """Yield what speaks against the model behind the ratings."""
+    spread, runs, first = found.dispersion, found.streaks, found.first_breaks
+    if spread is not None and spread.p_value < UNLIKELY:
+        yield f"match scores vary {more_or_less(spread.seen > spread.by_chance)} than expected"
+    if runs is not None and runs.p_value < UNLIKELY:
+        yield (
+            "games are won in streaks" if runs.z < 0 else "wins alternate more often than by chance"
+        )
+    if first is not None and first.p_value < UNLIKELY:
+        more = more_or_less(first.won > first.expected)
+        yield f"players who break first win {more} often than predicted"
+    if found.breaker is not None and (way := clearly_off(found.breaker, 0.0)):
+        yield f"the breaker has {'an advantage' if way > 0 else 'a disadvantage'}"
+    if found.spots:
+        share = share_of(found.spots[-1])
+        if way := clearly_off(share, 0.5) or starts_way(found, chart):
+            yield f"the handicaps give too {'little' if way > 0 else 'much'}"
+        if way := clearly_off(share, found.spots[-1].expected):
+            yield f"players who give games win {more_or_less(way > 0)} often than predicted"
+
+
+# What there is to say besides the verdict.
+
+
+def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> list[str]:
+    """Return what there is to say about handicaps, newcomers and the order of the columns."""
+    chart = chart or LeagueChart()
+    every = (*handicap_remarks(found, chart, scale), _newcomers(found, scale))
+    texts = [text for text in (*every, _first_column(found)) if text]
+    if chart.scale is None and any(" points" in text for text in texts):
+        texts.append(
+            f"Points are such that {scale.points_per_doubling:.4g} double the odds of winning a "
+            "game; --scale sets others."
+        )
+    return texts
+
+
+def _newcomers(found: Validation, scale: Scale) -> str:
+    """Return which players with little experience are overrated or underrated, '' if none are."""
+    for one in found.experience:
+        way = clearly_off(one.stronger, 0.0, tests=len(found.experience))
+        if way and one.most is not None:
+            who = "before their first game"
+            if one.most:
+                who = f"after {one.fewest} to {one.most} games"
+            return (
+                f"Players are {'under' if way > 0 else 'over'}rated {who}: against more "
+                f"experienced opponents they won {percent(one.seen)} of their games "
+                f"({percent(one.predicted)} predicted), as if they were "
+                f"{abs(one.stronger.value) * scale.points_per_log_odds:.0f} points "
+                f"{'stronger' if way > 0 else 'weaker'} than rated."
+            )
+    return ""
+
+
+def _first_column(found: Validation) -> str:
+    """Return why players in the first column win more or less than predicted, '' if they do not."""
+    column = found.first_column
+    if column is None:
+        return ""
+    won = f"Players in the first column won {percent(column.won / column.matches)} of the matches"
+    if column.winners_first:
+        return f"{won}: the file seems to list winners first. That does not change the ratings."
+    if column.winners_first_on_some_dates:
+        return (
+            f"On {column.dates_won:,} of {count_of(column.dates, 'date')} with "
+            f"{FEWEST_ON_A_DATE} matches or more, the player in the first column won every match: "
+            "the file seems to list winners first there. That does not change the ratings."
+        )
+    way = 0 if found.side is None else clearly_off(found.side, 0.0)
+    if not way:
+        return ""
+    said = f"{won} ({percent(column.expected / column.matches)} predicted)."
+    if column.varies < UNLIKELY:
+        return (
+            f"{said} This differs too much from date to date to be an advantage, so it shows only "
+            "how the file was written."
+        )
+    if way == column.stronger_first:
+        place = "first" if way > 0 else "second"
+        return (
+            f"{said} The file tends to list the stronger player {place}, so this is hardly an "
+            "advantage."
+        )
+    player = "home player" if way > 0 else "visitor"
+    return (
+        f"{said} If the first column is the {player}, it may be home advantage, which the ratings "
+        "do not know. If the order has no meaning, ignore it."
+    )
