@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: catalogues check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
+.PHONY: catalogues option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -24,6 +24,9 @@ lint:
 
 types:
 	$(PYTHON) -m mypy
+
+option-tables:    ## the tables of options in docs/reference, from the questions themselves
+	$(PYTHON) docs/option_tables.py
 
 test:             ## the tests that are not slow
 	$(PYTHON) -m pytest -q -n logical -m "not slow"
@@ -48,7 +51,7 @@ layers:           ## imports in one direction, files and terminal only at the en
 	$(PYTHON) -m pytest -q tests/test_layers.py
 
 # What is said with these is translated.
-SAID = say say_as:1c,2 say_count:1,2 EvenbreakError InputError DataError GameError ChainError AccuracyError \
+SAID = say refuse worded say_as:1c,2 say_count:1,2 EvenbreakError InputError DataError GameError ChainError AccuracyError \
 	WorkerError RefusalError MovedOnError TakenBeforeError
 
 catalogues:       ## collect the sentences that pages show into each language's catalogue

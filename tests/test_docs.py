@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+import option_tables
 import pytest
 
 from catalogued import said_on_pages
@@ -200,9 +201,17 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         if text.startswith("--")
     }
     common = described(commands_page())
-    assert common == {"--text", "--csv", "--json", "--html", "--verbose"}
+    assert common == {"--text", "--csv", "--json", "--html", "--verbose", "--help-all"}
     section = page_of_each_command()[name][1]
     assert options - {"--help"} - common <= described(section) <= options
+
+
+@pytest.mark.parametrize(
+    "page", sorted(option_tables.PAGES.glob("*.md")), ids=lambda page: page.stem
+)
+def test_the_tables_of_options_are_those_of_the_questions(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert option_tables.with_tables(text) == text, "run make option-tables"
 
 
 def test_every_command_is_described_and_no_other() -> None:

@@ -25,6 +25,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "words",
         "errors arrays",
         "checks",
+        "fields",
         "game",
         "games chains stats physics",
         "matches",
@@ -36,6 +37,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "league",
         "teams tournaments",
         "files",
+        "questions",
         "answers",
         "plots",
         "sheets",
@@ -45,7 +47,17 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
     )
 )
 DEPTH = {room: depth for depth, row in enumerate(LAYERS) for room in row}
-FACES_OUTWARD = {"files", "answers", "plots", "sheets", "source_text", "cli", "web", "__main__"}
+FACES_OUTWARD = {
+    "files",
+    "questions",
+    "answers",
+    "plots",
+    "sheets",
+    "source_text",
+    "cli",
+    "web",
+    "__main__",
+}
 OUTWARD_MODULES = {"click", "fileinput", "jinja2", "matplotlib", "pathlib", "rich", "tempfile"}
 OUTWARD_CALLS = {"input", "open", "print"}
 OUTWARD_STREAMS = {"stdin", "stdout", "stderr"}

@@ -12,14 +12,18 @@ import click
 import pytest
 from click.testing import CliRunner
 
+from evenbreak.cli.kit.asked import AskedCommand
 from evenbreak.cli.league.report import command as report
-from evenbreak.cli.match.fair import command as fair
 from evenbreak.cli.program import program
 from evenbreak.cli.team.lineup import command as lineup
 from evenbreak.cli.tournament.new import command as new
+from evenbreak.fields.kinds import Choice, Whole
+from evenbreak.fields.question import declaration
 from evenbreak.files.store.tournament import read_tournament
+from evenbreak.questions.match import Fair
+from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.scale import DEFAULT_SCALE
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 from web.phones import Phone, running
 
 
@@ -59,6 +63,9 @@ def option(command: click.Command, name: str) -> click.Parameter:
 
 def usual(command: click.Command, name: str) -> str:
     """Return the default of an option as a form writes it; '' if it has none, or is off."""
+    if isinstance(command, AskedCommand):
+        field = declaration(command.question, name)
+        return "" if field.default is None else field.usual
     default: Any = option(command, name).default
     return default if isinstance(default, str) else ""
 
@@ -78,10 +85,10 @@ def test_a_tournament_has_the_same_defaults_on_the_page(director: Phone, name: s
 
 @pytest.mark.parametrize("name", ["form", "seeding", "discipline"])
 def test_a_tournament_has_the_same_choices_on_the_page(director: Phone, name: str) -> None:
-    kind = option(new, name).type
-    assert isinstance(kind, click.Choice)
+    kind = declaration(NewTournament, name).kind
+    assert isinstance(kind, Choice)
     shown = set(Fields(director.open("/new").text).choices[NAMED_BY_THE_PAGE.get(name, name)])
-    assert shown - {""} == set(kind.choices) - {"drawn"}  # a draw on paper has rows for byes
+    assert shown - {""} == set(kind.of) - {"drawn"}  # a draw on paper has rows for byes
 
 
 @pytest.mark.parametrize(
@@ -89,8 +96,8 @@ def test_a_tournament_has_the_same_choices_on_the_page(director: Phone, name: st
     ["race", "losers_race", "final_race", "tables", "qualifiers", "groups", "rounds"],
 )
 def test_a_tournament_has_the_same_limits_on_the_page(director: Phone, name: str) -> None:
-    kind = option(new, name).type
-    assert isinstance(kind, click.IntRange)
+    kind = declaration(NewTournament, name).kind
+    assert isinstance(kind, Whole)
     form = {
         "qualifiers": "groups",
         "groups": "groups",
@@ -109,13 +116,15 @@ def test_a_tournament_has_the_same_limits_on_the_page(director: Phone, name: str
     refused = director.send("/new", **asked | {name: 10**6}).words
     found = re.search(r"from ([\d,]+) to ([\d,]+)", refused)
     assert found, refused
-    assert [int(end.replace(",", "")) for end in found.groups()] == [kind.min, kind.max]
+    assert [int(end.replace(",", "")) for end in found.groups()] == [kind.low, kind.high]
 
 
 def test_a_race_has_the_same_limits_on_the_page(director: Phone) -> None:
-    ends = [option(one, "race_to").type for one in (report, fair)]
-    assert ends[0].to_info_dict() == ends[1].to_info_dict()
-    allowed = f"from {ends[0].min} to {ends[0].max}"  # type: ignore[attr-defined]
+    ends: Any = option(report, "race_to").type
+    kind = declaration(Fair, "race_to").kind
+    assert isinstance(kind, Whole)
+    assert (ends.min, ends.max) == (kind.low, kind.high)
+    allowed = f"from {kind.low} to {kind.high}"
     page = director.open("/fair", a="612", b="540", scale="fargo", race=10**6)
     assert f"from 1 to {LONGEST_RACE}" in page.words  # as tonight's races: guests ask it
     results = "player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n"

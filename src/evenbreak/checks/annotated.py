@@ -63,7 +63,8 @@ def made(kind: type[Kind], data: Any, name: str = "") -> Kind:
 def _value(kind: Any, data: Any, name: str, limits: Between | None = None) -> Any:
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated:
-        return _value(parts[0], data, name, parts[1])
+        limits = next((said for said in parts[1:] if isinstance(said, Between)), None)
+        return _value(parts[0], data, name, limits)
     if origin in (Union, UnionType):
         return _one_of(parts, data, name)
     if kind in (int, float):

@@ -7,30 +7,28 @@ from dataclasses import dataclass
 
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
+from evenbreak.fields.kinds import BETWEEN as BETWEEN
+from evenbreak.fields.kinds import LONGEST as LONGEST
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 
-BETWEEN = r"[:/\-–—−]"
-"""What may stand between the two numbers of a race or a score, as a regular expression."""
-
-LONGEST = 1000
-"""The most games that a race, a lead or a score can have."""
-
 _WAYS = (
     "9:5, 'race to 7', '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', "
     "perhaps followed by 'winner breaks'"
 )
-_BREAKS = {
+WHO_BREAKS = {
     "winner": "winner",
     "loser": "loser",
     "alternate": "alternate",
     "a": "player 1",
     "b": "player 2",
 }
-WORDS = ("ahead", "best", "breaks", "by", "first", "of", "race", "to", "win", *_BREAKS)
+"""Break formats as people name them, with the names that `evenbreak.games` has for them."""
+
+WORDS = ("ahead", "best", "breaks", "by", "first", "of", "race", "to", "win", *WHO_BREAKS)
 """The words of a match format."""
 
 _BEST_OF = re.compile(r"\bbest of (\d{1,9})\b", re.ASCII)
@@ -43,7 +41,7 @@ _JOINED = re.compile(r"(?<!\d)[_\-–—−]|[_\-–—−](?!\d)")
 _NUMBERS = (("m", "m"), ("n", "m"), ("by", "by"))
 """The numbers of a format, each with the one that stands for it where it is left out."""
 
-_TAIL = re.compile(rf",? ({'|'.join(_BREAKS)}) breaks$")
+_TAIL = re.compile(rf",? ({'|'.join(WHO_BREAKS)}) breaks$")
 
 
 class NotAFormatError(InputError):
@@ -145,7 +143,7 @@ class MatchFormat:
             text += f" of {self.set_}"
         if self.breaks is None:
             return text
-        shown = {name: word for word, name in _BREAKS.items()}[self.breaks]
+        shown = {name: word for word, name in WHO_BREAKS.items()}[self.breaks]
         return f"{text} {shown.upper() if len(shown) == 1 else shown} breaks"
 
 
@@ -198,7 +196,7 @@ def match_format(text: str) -> MatchFormat:
     words = _BEST_OF.sub(lambda found: _half(int(found[1])), words)
     breaks = None
     if tail := _TAIL.search(words):
-        words, breaks = words[: tail.start()], _BREAKS[tail[1]]
+        words, breaks = words[: tail.start()], WHO_BREAKS[tail[1]]
     parts = [_ONE.fullmatch(part) for part in words.split(" of ")]
     found: MatchFormat | None = None
     for part in reversed(parts):

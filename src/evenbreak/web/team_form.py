@@ -19,7 +19,7 @@ from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
 from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError

@@ -5,14 +5,26 @@ import pytest
 
 from evenbreak.cli.kit.players import players_of
 from evenbreak.errors import InputError
+from evenbreak.fields.question import AskedError
 from evenbreak.games import Rack, loser_breaks, player_2_breaks
+from evenbreak.questions.match import Players
 from evenbreak.ratings.scale import SCALES
 
 
 def players(
     *ratings: str, from_file=None, scale=None, p=None, p1=None, p2=None, breaks=None, first=None
 ):
-    return players_of(ratings, scale, p, p1, p2, breaks, first, from_file)
+    asked = Players(
+        ratings=ratings,
+        scale=scale,
+        p=p,
+        p1=p1,
+        p2=p2,
+        breaks=breaks,
+        first_break=first,
+        from_file=from_file,
+    )
+    return players_of(asked)
 
 
 def test_by_ratings() -> None:
@@ -49,7 +61,7 @@ def test_by_a_chance_for_each_breaker(breaks: str, first: str | None, breaker: i
     ],
 )
 def test_options_that_contradict_are_refused(given) -> None:
-    with pytest.raises(click.UsageError):
+    with pytest.raises(AskedError):
         players(**given)
 
 
@@ -82,7 +94,7 @@ def test_by_name_with_the_ratings_scale_and_errors_of_a_list(listed) -> None:
         (("Ann Lee", "Cy"), {}, "chain of opponents"),
         (("Ann Lee", "Di"), {}, "no rating"),
         (("Ann Lee", "Bo Diaz"), {"scale": SCALES["npl"]}, "--scale"),
-        ((), {"p": 0.6}, "--from"),
+        ((), {"p": 0.6}, "from_file"),
     ],
 )
 def test_names_that_cannot_be_used_are_refused(listed, names, more, named) -> None:
@@ -92,5 +104,5 @@ def test_names_that_cannot_be_used_are_refused(listed, names, more, named) -> No
 
 @pytest.mark.parametrize("ratings", [("612",), ("1", "2", "3"), ("1e308", "-1e308")])
 def test_two_ratings_of_a_size_to_calculate_with(ratings: tuple[str, ...]) -> None:
-    with pytest.raises(click.UsageError):
+    with pytest.raises((click.UsageError, AskedError)):
         players(*ratings)

@@ -1,22 +1,20 @@
 """The options that describe the match, as `odds` takes them."""
 
 import pytest
-from click import UsageError
 
 from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.cli.match.what_is_played import match_of
+from evenbreak.fields.question import AskedError
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
-
-NOTHING = {"race": None, "ahead": None, "set_": None, "score": None, "win_by": None}
-WHO = dict.fromkeys(("scale", "p1", "p2", "breaks", "first_break")) | {"ratings": (), "p": 0.6}
+from evenbreak.questions.match import Odds
 
 
 def match(**options):
-    return match_of(**(NOTHING | WHO | options))[1]
+    return match_of(Odds(**{"p": 0.6} | options))[1]
 
 
 def test_the_players_come_with_the_match():
-    assert match_of(**(NOTHING | WHO | {"race": (7, 5)}))[0] == TwoPlayers(Rack(0.6))
+    assert match_of(Odds(p=0.6, race=(7, 5)))[0] == TwoPlayers(Rack(0.6))
 
 
 def test_a_race_perhaps_from_a_score_and_won_by_two():
@@ -41,12 +39,12 @@ def test_sets_carry_the_break_on():
 @pytest.mark.parametrize(
     ("options", "named"),
     [
-        ({}, "--race"),
-        ({"race": (7, 7), "ahead": (2, 2)}, "--ahead"),
-        ({"race": (7, 7), "set_": (2, 2), "win_by": 2}, "--set"),
-        ({"ahead": (7, 7), "win_by": 2}, "--ahead"),
+        ({}, "race"),
+        ({"race": (7, 7), "ahead": (2, 2)}, "ahead"),
+        ({"race": (7, 7), "set_": (2, 2), "win_by": 2}, "set_"),
+        ({"ahead": (7, 7), "win_by": 2}, "ahead"),
     ],
 )
 def test_what_contradicts_itself_is_refused(options, named):
-    with pytest.raises(UsageError, match=named):
+    with pytest.raises(AskedError, match=named):
         match(**options)

@@ -18,7 +18,7 @@ from evenbreak.cli.kit.options import (
 from evenbreak.cli.kit.starters import starter_options, with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.tournaments.evening.opening import MOST_PLAYERS
+from evenbreak.tournaments.evening.format import MOST_PLAYERS
 
 if TYPE_CHECKING:
     from evenbreak.answers.chips import ChipField

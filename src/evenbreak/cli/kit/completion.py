@@ -10,6 +10,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from evenbreak.errors import EvenbreakError
+from evenbreak.fields.kinds import File, Kind
 from evenbreak.ratings.scale import SCALES
 
 FILES = ("csv", "FILE")
@@ -50,6 +51,19 @@ def complete_files(command: click.Command) -> None:
             param.type = Completed(file_names)
 
 
+def offers(kind: Kind) -> Complete | None:
+    """Return what offers words for a kind of values, or None."""
+    if isinstance(kind, File):
+        return charts if kind.metavar in CHARTS_OR_FILES else file_names
+    functions: dict[str, Complete] = {
+        "files": file_names,
+        "players": players,
+        "scales": scales,
+        "systems": systems,
+    }
+    return functions.get(getattr(kind, "offers", ""))
+
+
 def file_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:  # noqa: ARG001
     """Let the shell offer its files."""
     return [CompletionItem(incomplete, type="file")]
@@ -57,21 +71,21 @@ def file_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> l
 
 def scales(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:  # noqa: ARG001
     """Return the names of scales."""
-    return _offered(SCALES, incomplete)
+    return offered(SCALES, incomplete)
 
 
 def systems(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:  # noqa: ARG001
     """Return the names of handicap systems."""
     from evenbreak.handicaps import SYSTEMS
 
-    return _offered(SYSTEMS, incomplete)
+    return offered(SYSTEMS, incomplete)
 
 
 def charts(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Return the names of charts, or files where no name begins like that."""
     from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, POINTS_CHARTS
 
-    found = _offered([*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS], incomplete)
+    found = offered([*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS], incomplete)
     return found or file_names(ctx, param, incomplete)
 
 
@@ -118,5 +132,6 @@ def _in_shell(name: str) -> str:
     return name if typed.startswith(('"', "'")) else f'"{name}"'
 
 
-def _offered(words: Iterable[str], incomplete: str) -> list[CompletionItem]:
+def offered(words: Iterable[str], incomplete: str) -> list[CompletionItem]:
+    """Return the words that begin like this."""
     return [CompletionItem(word) for word in words if word.startswith(incomplete)]

@@ -3,37 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.terminal import write_file
+from evenbreak.errors import InputError
+from evenbreak.questions.common import picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-KINDS = (".png", ".svg")
-
-
 def _picture(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    if value is None:
-        return None
-    folder = Path(value).parent
-    wrong = ""
-    if PurePath(value).suffix.lower() not in KINDS:
-        wrong = "name a file that ends in .png or .svg"
-    elif not folder.exists():
-        wrong = f"there is no folder {str(folder)!r}; make it first, or name another"
-    elif not folder.is_dir():
-        wrong = f"{str(folder)!r} is a file, so no picture can be in it; name a folder"
-    elif Path(value).is_dir():
-        wrong = "that is a folder; name a file in it"
-    if wrong:
-        raise click.BadParameter(f"{value!r}; {wrong}", ctx=ctx, param=param)
-    return value
+    try:
+        return None if value is None else picture(value)
+    except InputError as error:
+        raise click.BadParameter(str(error), ctx=ctx, param=param) from None
 
 
 def plot_option_for(only: str = "") -> Callable[[Command], Command]:

@@ -14,7 +14,7 @@ from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.ratings.scale import unstated_scale
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 
 if TYPE_CHECKING:
     from evenbreak.files.lists.teams import TeamList

@@ -8,7 +8,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import Whole
 from evenbreak.cli.tournament.evening import add, answer_of, at_option, file_option
-from evenbreak.tournaments.evening.opening import LONGEST_RACE, MOST_TABLES
+from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES
 
 EXAMPLES = """\b
 Examples:

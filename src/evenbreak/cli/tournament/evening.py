@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from functools import update_wrapper
-from inspect import signature
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
-from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.times import TimeOfDay
 
 if TYPE_CHECKING:
     from evenbreak.answers.kit.answer import Answer
+    from evenbreak.questions.tournament import OfEntrants
     from evenbreak.tournaments.evening.events import Event, What
     from evenbreak.tournaments.evening.fold import Evening
     from evenbreak.tournaments.evening.outlook import Outlook
 
 _HALF_A_DAY = timedelta(hours=12)
 _AT = "When it happened.  [default: now]"
-_FACES = ("face", "verbose", "page_file")
 
 
 def file_option(command: Command) -> Command:
@@ -49,7 +47,7 @@ def at_option(command: Command) -> Command:
     def run(*, at: int | None, file: str | None = None, **rest: Any) -> Any:
         if file is not None:
             rest["file"] = file
-        return command(at=_moment(at, file), **rest)
+        return command(at=moment(at, file), **rest)
 
     wrapped: Any = update_wrapper(run, command)
     return with_options(  # type: ignore[no-any-return]
@@ -63,56 +61,17 @@ def at_option(command: Command) -> Command:
     )
 
 
-def or_under_way(under_way: Callable[..., Answer]) -> Callable[[Any], Any]:
-    """Return what makes a command about ENTRANTS.csv also one about the tournament under way.
-
-    Parameters
-    ----------
-    under_way
-        answers if ENTRANTS.csv is left out; gets `file`, `at` and those options of the command
-        that it names.
-    """
-
-    def decorate(command: Any) -> Any:
-        shown = faces()(under_way)
-        own = [name for name in signature(under_way).parameters if name not in ("file", "at")]
-
-        def run(*, entrants: str | None, file: str, at: int | None, **rest: Any) -> Any:
-            ctx = click.get_current_context()
-            given = {
-                param.name: param.opts[0]
-                for param in ctx.command.get_params(ctx)
-                if ctx.get_parameter_source(param.name or "") is ParameterSource.COMMANDLINE
-            }
-            if entrants is not None:
-                both = [given[name] for name in ("file", "at") if name in given]
-                if both:
-                    refuse(f"{both[0]} is for the tournament under way; leave out {entrants} or it")
-                return command(entrants=entrants, **rest)
-            wrong = [given[name] for name in given if name in rest and name not in (*own, *_FACES)]
-            if wrong:
-                refuse(
-                    f"{wrong[0]} is for a list of entrants; name one, or leave the option out to "
-                    f"ask about the tournament in {file}"
-                )
-            asked = {name: rest[name] for name in (*own, *_FACES)}
-            return shown(file=file, at=_moment(at, file), **asked)
-
-        return with_options(
-            update_wrapper(run, command),
-            click.option("--at", metavar="HH:MM", type=TimeOfDay(), help=_AT),
-            file_option,
-        )
-
-    return decorate
+def file_of(asked: OfEntrants) -> str:
+    """Return the file of the tournament under way."""
+    return asked.file or os.environ.get("EVENBREAK_TOURNAMENT") or "tonight.db"
 
 
-def _moment(at: int | None, file: str | None) -> str:
+def moment(at: int | None, file: str | None = None) -> str:
     """Return a time of day, in minutes, as a time such as 2025-03-01T19:30:00; None: now."""
-    moment = datetime.now().replace(microsecond=0)
+    when = datetime.now().replace(microsecond=0)
     if at is not None:
-        moment = _near(moment if file is None else _last(file), at, same_day=file is None)
-    return moment.isoformat()
+        when = _near(when if file is None else _last(file), at, same_day=file is None)
+    return when.isoformat()
 
 
 def _last(file: str) -> datetime:

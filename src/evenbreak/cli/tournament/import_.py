@@ -11,7 +11,7 @@ from evenbreak.cli.kit.paces import DISCIPLINES
 from evenbreak.cli.kit.values import Whole, refuse
 from evenbreak.cli.tournament.evening import answer_of, at_option
 from evenbreak.ratings.scale import Scale
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 
 EXAMPLES = """\b
 Examples:

@@ -4,70 +4,33 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.paces import DISCIPLINES
-from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.cli.tournament.evening import answer_of, at_option
-from evenbreak.cli.tournament.options import Entered, drawn_up, entry_options
-from evenbreak.tournaments.evening.opening import MOST_TABLES
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.tournament.evening import answer_of, moment
+from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in
+from evenbreak.questions.tournament import NewTournament
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
 
-EXAMPLES = """\b
-Examples:
-  evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4 --seeding blind
-  evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
-  evenbreak tournament new entrants.csv --format chips --chips hoboken --tables 4
-"""
 
-
-@click.command("new", epilog=EXAMPLES)
-@entry_options
-@click.option(
-    "--tables", type=Whole(1, MOST_TABLES), metavar="T", required=True, help="The number of tables."
-)
-@click.option(
-    "--discipline",
-    type=click.Choice(DISCIPLINES),
-    default="9-ball",
-    help="The game, for how long matches take.",
-)
-@click.option(
-    "--out",
-    metavar="FILE.db",
-    default="tonight.db",
-    show_default=True,
-    help="The file of the tournament, which must not exist yet.",
-)
-@at_option
-@faces()
-def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str) -> Answer:
-    """Begin a tournament: write its entrants and what is played to a new file.
-
-    Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
-    place of a bye, or in a chip tournament at the end of the line. The other commands read and
-    write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another
-    file.
-    """
+@command_of(NewTournament, "new")
+def command(asked: NewTournament) -> Answer:
+    """Start a tournament."""
     from dataclasses import replace
 
     import numpy as np
 
     from evenbreak.files.store.tournament import new_tournament
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
-    from evenbreak.tournaments.evening.fold import ELIMINATIONS, evening
+    from evenbreak.tournaments.evening.fold import evening
     from evenbreak.tournaments.evening.opening import opened
 
-    plan = replace(entered.plan, tables=tables, discipline=discipline)
-    roster, _, lines = entered.roster, "", None
-    if plan.seeding == "drawn":
-        if plan.form not in ELIMINATIONS:
-            refuse(f"--seeding drawn is for eliminations, not {plan.form}")
-        roster, _, lines = drawn_up(roster, plan.seeding, entered.seed)
+    entered, at = entered_in(asked), moment(asked.at)
+    plan = replace(entered.plan, tables=asked.tables, discipline=asked.discipline)
+    roster, lines = entered.roster, None
+    if asked.seeding == "drawn":
+        roster, _, lines = drawn_up(roster, asked.seeding, asked.seed)
     errors = np.nan_to_num(roster.standard_error).tolist()
     entrants = tuple(
         Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)
@@ -76,8 +39,8 @@ def command(*, entered: Entered, tables: int, discipline: str, out: str, at: str
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = evening(events)
-    answer = answer_of(out, state, at, _unrated(entered, state))
-    new_tournament(out, events)  # last, so that what cannot be shown is never written
+    answer = answer_of(asked.out, state, at, _unrated(entered, state))
+    new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
     return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
 
 

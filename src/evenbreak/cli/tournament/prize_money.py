@@ -9,7 +9,7 @@ import click
 
 from evenbreak.cli.kit.options import Command
 from evenbreak.cli.kit.values import numbers, refuse
-from evenbreak.tournaments.evening.opening import MOST_PLAYERS
+from evenbreak.tournaments.evening.format import MOST_PLAYERS
 
 
 def prizes_option(adds: str) -> Callable[[Command], Command]:

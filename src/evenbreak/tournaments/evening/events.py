@@ -15,18 +15,16 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
+from evenbreak.tournaments.evening.format import Discipline, Format, Race, Table, Tables
 
 Games: TypeAlias = Annotated[int, Between(0, 10_000)]
-Race: TypeAlias = Annotated[int, Between(1, 1_000)]
-Table: TypeAlias = Annotated[int, Between(1, 1_000)]
-Few: TypeAlias = Annotated[int, Between(1, 256)]
 Seat: TypeAlias = Annotated[int, Between(0, 255)]
 Points: TypeAlias = Annotated[float, Between(-1_000_000, 1_000_000)]
 Error: TypeAlias = Annotated[float, Between(0, 1_000_000)]
 
 
 @dataclass(frozen=True)
-class Plan:
+class Plan(Format):
     """What is played: the format, the races, the tables.
 
     Parameters
@@ -70,24 +68,14 @@ class Plan:
 
     form: str
     race: Race
-    final: str = "true"
-    qualifiers: Few | None = None
-    drops: str = "fewest rematches"
-    third_place: bool = False
     seeding: str = "listed"
-    losers_race: Race | None = None
-    final_race: Race | None = None
     handicapped: bool = False
     chart: Chart | None = field(default=None, hash=False)
     scale: str = DEFAULT_SCALE
     starter: Points = 0.0
     starter_error: Error = 0.0
-    tables: Table = 4
-    discipline: str = "9-ball"
-    placement: str = "half shift"
-    groups: Few | None = None
-    pod_size: Few = 8
-    rounds: Few | None = None
+    tables: Tables = 4
+    discipline: Discipline = "9-ball"
     layout: tuple[Draft, ...] = ()
     by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
     chips: ChipChart | None = field(default=None, hash=False)

@@ -31,9 +31,10 @@ from evenbreak.tournaments.evening.events import (
     Scored,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.later_draws import draw_later
 from evenbreak.tournaments.evening.losses import losses
-from evenbreak.tournaments.evening.opening import MOST_PLAYERS, refuse_bye
+from evenbreak.tournaments.evening.opening import refuse_bye
 
 
 def draw(state: Evening, rng: np.random.Generator) -> Drawn:

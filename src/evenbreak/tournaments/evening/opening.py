@@ -6,9 +6,11 @@ import re
 from collections.abc import Mapping, Sequence
 
 from evenbreak.errors import InputError
+from evenbreak.fields.question import declared
 from evenbreak.tournaments.brackets.swiss import swiss_round
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
+from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format
 from evenbreak.tournaments.evening.later_draws import swiss_of
 
 FORMATS = (
@@ -25,22 +27,10 @@ FORMATS = (
 """The formats that a tournament can be begun in."""
 
 FORMATS_WITH: Mapping[str, tuple[str, ...]] = {
-    "final": ("double",),
-    "qualifiers": ("double", "groups", "pods"),
-    "placement": ("double",),
-    "drops": ("double", "pods"),
-    "groups": ("groups",),
-    "pod_size": ("pods",),
-    "rounds": ("swiss",),
-    "third_place": ("single",),
-    "losers_race": ("double", "pods", "consolation"),
-    "final_race": ("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
+    **{one.name: one.field.formats for one in declared(Format) if one.field.formats},
     "chips": ("chips",),
 }
 """For the parts of a plan that only some formats have: which."""
-
-MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100
-"""How large a tournament or a team night may be."""
 
 
 def usual_seeding(form: str) -> str:

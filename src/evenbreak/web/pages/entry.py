@@ -16,27 +16,23 @@ from evenbreak.answers.league.players import games_words
 from evenbreak.answers.tournament.moves import entry_words
 from evenbreak.answers.tournament.tournament import unrated_words
 from evenbreak.errors import EvenbreakError
+from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up
 from evenbreak.files.store.tournament import add_events, new_tournament, read_events
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
+from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.opening import (
-    FORMATS,
-    FORMATS_WITH,
-    LONGEST_RACE,
-    MOST_PLAYERS,
-    MOST_TABLES,
-    opened,
-    usual_seeding,
-)
+from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
+from evenbreak.tournaments.evening.opening import FORMATS, opened
+from evenbreak.web.asked import asked_in, fields_named, form_fields
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.forms import CHOOSE_IT, EVEN, FAIR, RACES, Form, form_of, scale_in
 from evenbreak.web.league import League
@@ -48,23 +44,6 @@ from evenbreak.web.site import Site
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.words import say
 
-SEEDINGS = {
-    "": say("Default: as listed; chip tournaments at random"),
-    "listed": say("Seeded as listed"),
-    "rating": say("Seeded by rating"),
-    "blind": say("Blind draw"),
-}
-FORMAT_WORDS = {
-    "double": say("Double elimination"),
-    "single": say("Single elimination"),
-    "round-robin": say("Round robin"),
-    "groups": say("Groups, then knock-out"),
-    "consolation": say("Single elimination with consolation"),
-    "king-of-the-hill": say("King of the hill"),
-    "swiss": say("Swiss"),
-    "chips": say("Chip tournament"),
-    "pods": say("Pods: double elimination in small brackets, then single"),
-}
 NOT_WITH_FORMAT = {
     "losers_race": say("This format has no losers' side. Leave its race blank."),
     "final_race": say("This format has no final. Leave its race blank."),
@@ -79,8 +58,6 @@ NOT_WITH_FORMAT = {
 }
 """Why a field must be left blank in a format that does not have it."""
 
-DISCIPLINES = ("8-ball", "9-ball", "10-ball")
-
 
 async def ask(request: Request) -> Response:
     """Show the form that begins a tournament."""
@@ -92,12 +69,11 @@ async def _choices(site: Site) -> dict[str, Any]:
     """Return what there is to choose from, and the tournament that there is already."""
     return {
         "there": await asyncio.to_thread(_there, site),
-        "formats": {name: FORMAT_WORDS[name] for name in FORMATS},
-        "formats_with": FORMATS_WITH,
+        "fields": {one.name: one for one in form_fields(declared(NewTournament))},
+        "parts": form_fields(declared(Format)),
+        "formats": FORMATS,
         "races": RACES,
         "charts": CHARTS,
-        "seedings": SEEDINGS,
-        "disciplines": DISCIPLINES,
         "scales": NAMES,
         "chip_charts": CHIP_CHARTS,
         "league": site.league.sheet,
@@ -197,55 +173,60 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
 
 
 def _plan(form: Form, scale: Scale) -> Plan:
-    """Return what is played, by the fields of the form; those left empty are not set."""
+    """Return what is played, by the fields of the form; those left empty have their defaults."""
     kind = form.one_of("format", FORMATS)
     races = EVEN if kind == "chips" else form.one_of("races", (*RACES, *CHARTS))
-    given = _given(form)
-    for name in given:
-        if kind not in FORMATS_WITH[name]:
-            raise RefusalError(NOT_WITH_FORMAT[name])
-    if {"final", "qualifiers"} <= given.keys():
+    _refuse_of_other_formats(form, kind)
+    if form.text("qualifiers") and form.text("final") == "single":
         raise RefusalError(
             "A double elimination that ends with qualifiers has one final. Leave out one "
             "of the two choices."
         )
-    if races in CHARTS and given.keys() & {"losers_race", "final_race"}:
+    if races in CHARTS and (form.text("losers_race") or form.text("final_race")):
         raise RefusalError(
             "The chart sets all races. Leave the races of the losers' side and of the final blank."
         )
+    has_race = kind != "chips" and races not in CHARTS
+    length = form.whole("race", 1, LONGEST_RACE) if has_race else None
+    asked = asked_in(
+        NewTournament,
+        form,
+        [*declared(Format), *fields_named(NewTournament, "form", "seeding", "discipline")],
+        entrants="",
+        race=length if races == EVEN else None,
+        race_to=length if races == FAIR else None,
+        chart=races if races in CHARTS else None,
+        chips=form.one_of("chips", tuple(CHIP_CHARTS)) if kind == "chips" else None,
+        tables=form.whole("tables", 1, MOST_TABLES),
+    )
     return Plan(
-        kind,
-        1 if kind == "chips" or races in CHARTS else form.whole("race", 1, LONGEST_RACE),
-        handicapped=races == FAIR,
-        chart=_chart(races) if races in CHARTS else None,
-        seeding=form.one_of("seeding", tuple(SEEDINGS)) or usual_seeding(kind),
+        asked.form,
+        length or 1,
+        **asked.of_format,
+        handicapped=asked.race_to is not None,
+        chart=None if asked.chart is None else _chart(asked.chart),
+        seeding=asked.seeded,
         scale=scale.text,
         starter=scale.centre,
         starter_error=scale.points_per_doubling,
-        tables=form.whole("tables", 1, MOST_TABLES),
-        discipline=form.one_of("discipline", DISCIPLINES),
-        chips=CHIP_CHARTS[form.one_of("chips", tuple(CHIP_CHARTS))] if kind == "chips" else None,
-        **given,
+        tables=asked.tables,
+        discipline=asked.discipline,
+        chips=None if asked.chips is None else CHIP_CHARTS[asked.chips],
     )
+
+
+def _refuse_of_other_formats(form: Form, kind: str) -> None:
+    """Refuse a field that was filled in and that the format does not have."""
+    for one in declared(Format):
+        is_given = form.text(one.name) not in ("", one.usual)
+        if is_given and kind not in one.field.formats and one.name in NOT_WITH_FORMAT:
+            raise RefusalError(NOT_WITH_FORMAT[one.name])
 
 
 def _chart(name: str) -> Chart:
     found = find_chart(name)
     assert isinstance(found, Chart)  # noqa: S101
     return found
-
-
-def _given(form: Form) -> dict[str, Any]:
-    """Return the parts of a plan that only some formats have, if they were filled in."""
-    numbers = {
-        **dict.fromkeys(("losers_race", "final_race"), LONGEST_RACE),
-        **dict.fromkeys(("groups", "pod_size", "qualifiers", "rounds"), MOST_PLAYERS),
-    }
-    parts: dict[str, Any] = {
-        name: form.whole(name, 1, most, default=0) for name, most in numbers.items()
-    }
-    parts |= {"final": form.text("final"), "third_place": bool(form.text("third_place"))}
-    return {name: value for name, value in parts.items() if value}
 
 
 def _entrants(filled: Roster, league: League | None) -> tuple[Entrant, ...]:

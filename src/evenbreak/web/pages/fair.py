@@ -15,8 +15,8 @@ from evenbreak.handicaps.charts.fair import FairRace, fair_races
 from evenbreak.handicaps.charts.given_ratings import nearest_races_given_ratings
 from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of, unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.tournaments.evening.moves import known_player
-from evenbreak.tournaments.evening.opening import LONGEST_RACE
 from evenbreak.web.forms import CHOOSE_IT, Form
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of

@@ -1,0 +1,83 @@
+"""The tables of options in the reference, made from the questions that the commands ask.
+
+`python docs/option_tables.py` (`make option-tables`) writes them between their marks:
+`<!-- options: fair -->` and `<!-- end of options -->`. `<!-- options: NAME, not OTHER -->` has
+those that the other command does not have, `<!-- options: NAME, as OTHER -->` those it has too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from evenbreak.cli.kit.asked import spelled
+from evenbreak.cli.kit.said import said
+from evenbreak.cli.program import program
+from evenbreak.fields.question import Declared, declared, worded
+
+PAGES = Path(__file__).parent / "reference" / "commands"
+TABLE = re.compile(r"(<!-- options: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of options -->)", re.DOTALL)
+
+
+def question_of(name: str) -> type:
+    """Return the question that a command asks, by the words of the command."""
+    command: Any = program
+    for word in name.split():
+        command = command.get_command(click.Context(command), word)
+    question: type = command.question
+    return question
+
+
+def table_of(question: type, fields: Iterable[Declared] | None = None) -> str:
+    """Return the table of the options of a question, or of some of them."""
+    rows = list(declared(question) if fields is None else fields)
+    sections = ["", *(one.field.section for one in rows)]
+    rows.sort(key=lambda one: sections.index(one.field.section))
+    lines = [_row(question, one) for one in rows if not one.field.argument]
+    return "\n".join(["| option | meaning |", "|---|---|", *lines, ""])
+
+
+def _row(question: type, one: Declared) -> str:
+    typed = f"{one.option} {one.metavar}".strip().replace("|", "\\|")
+    short = f", `{one.short}`" if one.short else ""
+    notes = [f"{'from ' * bool(one.kind.limits)}{one.kind.limits}"] if one.kind.limits else []
+    if one.field.formats:
+        notes.append("formats: " + ", ".join(one.field.formats))
+    if one.required:
+        notes.append("required")
+    elif one.usual:
+        notes.append(f"default: {one.usual}")
+    if one.field.many and not one.field.argument:
+        notes.append("can be repeated")
+    note = f" ({'; '.join(notes)})" if notes else ""
+    meaning = said(worded(one.field.help.removesuffix(".") + note + "."), _spell(question))
+    meaning += f" {one.field.more}" if one.field.more else ""
+    return f"| `{typed}`{short} | {meaning.replace('|', chr(92) + '|')} |"
+
+
+def _spell(question: type):
+    return lambda name: f"`{spelled(question, name)}`"
+
+
+def with_tables(text: str) -> str:
+    """Return a page with its tables as they are now."""
+
+    def table(mark: re.Match[str]) -> str:
+        name, *which = re.split(r", (as|not) ", mark[2])
+        question = question_of(name)
+        rows = list(declared(question))
+        for how, other in zip(which[::2], which[1::2], strict=True):
+            names = {one.name for one in declared(question_of(other))}
+            rows = [one for one in rows if (one.name in names) == (how == "as")]
+        return mark[1] + table_of(question, rows) + mark[3]
+
+    return TABLE.sub(table, text)
+
+
+if __name__ == "__main__":
+    for page in sorted(PAGES.glob("*.md")):
+        page.write_text(with_tables(page.read_text("utf-8")), "utf-8")

@@ -1,0 +1,264 @@
+"""A question as a command: its options, its help, and what is asked read from what is typed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, TypeVar
+
+import click
+from click.core import ParameterSource
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.cli.kit import completion
+from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.said import said
+from evenbreak.cli.kit.terminal import say
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import NUMBER, Choice, Flag, Kind
+from evenbreak.fields.question import AskedError, Declared, declared, worded
+
+Asked = TypeVar("Asked")
+
+ALL_HELP = "--help-all"
+
+
+class Typed(click.ParamType):  # type: ignore[type-arg]
+    """The click type of a kind: it reads what is typed, and shows what a shell may offer."""
+
+    def __init__(self, kind: Kind) -> None:
+        self.kind, self.name = kind, type(kind).__name__.lower()
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the value of a text."""
+        try:
+            return self.kind.read(value)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[click.shell_completion.CompletionItem]:
+        """Return what a shell may offer here."""
+        if isinstance(self.kind, Choice):
+            return completion.offered(self.kind.of, incomplete)
+        offers = completion.offers(self.kind)
+        return offers(ctx, param, incomplete) if offers else []
+
+
+def spelled(question: type, name: str) -> str:
+    """Return how the terminal spells a parameter of a question."""
+    every = {one.name: one.option for one in declared(question)}
+    return every.get(name, "--" + name.replace("_", "-"))
+
+
+def params_of(question: type) -> list[click.Parameter]:
+    """Return the arguments and options of a question."""
+    words = [one for one in declared(question) if one.field.argument and one.field.many]
+    params = [_param(one, question) for one in declared(question) if one not in words[1:]]
+    if len(words) > 1:  # they are told apart by `Question.split`
+        joint = next(param for param in params if param.name == words[0].name)
+        joint.metavar = " ".join(one.metavar for one in words)
+    return params
+
+
+def _param(one: Declared, question: type) -> click.Parameter:
+    field = one.field
+    if field.argument:
+        return click.Argument(
+            [one.name],
+            type=Typed(one.kind),
+            nargs=-1 if field.many else 1,
+            required=one.required,
+            metavar=one.metavar,
+        )
+    words = [one.name, one.option, *([one.short] if one.short else [])]
+    more: dict[str, Any] = {
+        "help": help_of(one, question),
+        "required": one.required,
+        "is_eager": field.eager,
+    }
+    if isinstance(one.kind, Flag):
+        return click.Option(words, is_flag=True, show_default=False, **more)
+    return click.Option(
+        words,
+        type=Typed(one.kind),
+        multiple=field.many,
+        metavar=one.metavar,
+        show_default=False,
+        **more,
+    )
+
+
+def help_of(one: Declared, question: type) -> str:
+    """Return the help of an option: what it is, its limits, and what applies without it."""
+    notes = [one.kind.limits] if one.kind.limits else []
+    if one.required:
+        notes.append("required")
+    elif one.usual:
+        notes.append(f"default: {one.usual}")
+    text = one.field.help + (f"  [{'; '.join(notes)}]" if notes else "")
+    return _worded(text, question)
+
+
+def _worded(text: str, question: type) -> str:
+    return said(worded(text), _spelling(question))
+
+
+def _spelling(question: type) -> Callable[[str], str]:
+    return lambda parameter: spelled(question, parameter)
+
+
+class AskedCommand(click.Command):
+    """A command that asks a question.
+
+    It reads -20 as a number, where click alone sees an unknown option; it takes old spellings with
+    a note; and its help fits a screen: options that are rarely needed come with --help-all.
+    """
+
+    def __init__(self, *args: Any, question: type, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self.question = question
+        self._old = {
+            f"--{name}": one.option for one in declared(question) for name in one.field.old
+        }
+        self.params.append(
+            click.Option(
+                [ALL_HELP],
+                is_flag=True,
+                is_eager=True,
+                expose_value=False,
+                callback=_show_all,
+                help="Show all options and exit.",
+            )
+        )
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments, and refuse words that only begin like a number."""
+        args = list(self._as_now(args))
+        ctx.ignore_unknown_options = any(
+            word.startswith("-") and NUMBER.fullmatch(word) for word in args
+        )
+        rest = super().parse_args(ctx, args)
+        if ctx.ignore_unknown_options and not ctx.resilient_parsing:
+            for param in self.params:
+                if isinstance(param, click.Argument) and param.nargs == -1:
+                    self._refuse_options(ctx, ctx.params.get(param.name or "") or ())
+        return rest
+
+    def _refuse_options(self, ctx: click.Context, words: Any) -> None:
+        for word in words:
+            if isinstance(word, str) and word[:1] == "-" != word and not NUMBER.fullmatch(word):
+                options = [name for param in self.params for name in param.opts]
+                raise click.NoSuchOption(word.split("=")[0], possibilities=options, ctx=ctx)
+
+    def _as_now(self, args: list[str]) -> Iterator[str]:
+        """Yield the words with old spellings of options as they are spelled now."""
+        words = iter(args)
+        for word in words:
+            if word == "--":
+                yield from (word, *words)
+                return
+            name, sign, value = word.partition("=")
+            if name in self._old:
+                say(f"Note: {name} is now called {self._old[name]}.")
+                name = self._old[name]
+            yield name + sign + value
+
+    def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write what the command does: the first paragraph alone unless all is asked for."""
+        text = self.help or ""
+        with formatter.indentation():
+            formatter.write_paragraph()
+            formatter.write_text(text if ctx.meta.get(ALL_HELP) else text.partition("\n\n")[0])
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options by sections; unless all is asked for, those of sections by name only.
+
+        So the help fits a screen, with what is needed most.
+        """
+        every = bool(ctx.meta.get(ALL_HELP))
+        sections: dict[str, list[click.Parameter]] = {"": []}
+        fields = {one.name: one.field for one in declared(self.question)}
+        for param in self.get_params(ctx):
+            field = fields.get(param.name or "")
+            if field is None:
+                continue
+            if every or field.section or not field.rare:
+                sections.setdefault(field.section, []).append(param)
+        if every:
+            sections[_ANSWER] = [one for one in self.get_params(ctx) if one.name not in fields]
+        for section, params in sections.items():
+            records = [one.get_help_record(ctx) for one in params]
+            rows = [row for row in records if row is not None and row[1]]
+            if every or not section:
+                with formatter.section(section or "Options"):
+                    formatter.write_dl(rows)
+            else:
+                formatter.write_paragraph()
+                names = ", ".join(name for name, _ in rows)
+                formatter.write_text(f"{section}: {names}.")
+        if not every:
+            formatter.write_paragraph()
+            formatter.write_text(f"{_ANSWER}: {_COMMON}.")
+            formatter.write_text("All of them are explained by --help-all.")
+
+
+_ANSWER = "Answer and help"
+_COMMON = "--text, --csv, --json, --html FILE, -v (--verbose)"
+
+
+def _show_all(ctx: click.Context, param: click.Parameter, value: bool) -> None:  # noqa: ARG001
+    if value and not ctx.resilient_parsing:
+        ctx.meta[ALL_HELP] = True
+        click.echo(ctx.get_help())
+        ctx.exit()
+
+
+def command_of(
+    question: type[Asked], name: str | None = None, **options: Any
+) -> Callable[[Callable[[Asked], Answer]], click.Command]:
+    """Return a decorator that makes a command of the function that answers a question.
+
+    Parameters
+    ----------
+    question
+        what is asked; its docstring is the help of the command, and its `examples` end it.
+    name
+        the name of the command.
+    options
+        as for `faces`.
+    """
+
+    def decorate(answer: Callable[[Asked], Answer]) -> click.Command:
+        def run(**values: Any) -> Any:
+            ask_face = {"face": values.pop("face")} if options.get("ask_face") else {}
+            ctx = click.get_current_context()
+            try:
+                return answer(asked_of(question, values, ctx), **ask_face)
+            except AskedError as error:
+                message = said(error.sentence, _spelling(question))
+                raise click.UsageError(message, ctx=ctx) from None
+
+        lines = getattr(question, "examples", "")
+        shown: Any = faces(**options)(run)
+        own = getattr(shown, "__click_params__", [])
+        return AskedCommand(
+            name,
+            question=question,
+            callback=shown,
+            params=[*params_of(question), *reversed(own)],
+            help=_worded(question.__doc__ or "", question),
+            epilog=f"\b\nExamples:\n{lines}" if lines else None,
+        )
+
+    return decorate
+
+
+def asked_of(question: type[Asked], values: dict[str, Any], ctx: click.Context) -> Asked:
+    """Return the question with the values that were typed; the others have their defaults."""
+    typed = {
+        name: value
+        for name, value in values.items()
+        if ctx.get_parameter_source(name) is not ParameterSource.DEFAULT and value is not None
+    }
+    return question(**question.split(typed))  # type: ignore[attr-defined]

@@ -1,0 +1,265 @@
+"""The kinds of values that a field can have: numbers, pairs such as 7:5, choices, files.
+
+A kind reads a text, or refuses it and says how to write it; it also says what a JSON schema has
+for it. The terminal and the page read by the same kinds, so they have the same limits.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.errors import InputError
+
+LONGEST = 1000
+"""The most games that a race, a lead or a score can have."""
+
+BETWEEN = r"[:/\-–—−]"
+"""What may stand between the two numbers of a race or a score, as a regular expression."""
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+"""A finite number, as text."""
+
+_WHOLE = re.compile(r"[+-]?\d{1,18}", re.ASCII)
+
+
+class Kind:
+    """A kind of values."""
+
+    metavar: str
+    """What stands for a value in help texts."""
+
+    def read(self, text: str) -> Any:
+        """Return the value of a text, or raise an `InputError` that says how to write it."""
+        return text
+
+    def words(self, value: Any) -> str:
+        """Return a value as it is typed."""
+        return f"{value:g}" if isinstance(value, float) else str(value)
+
+    @property
+    def limits(self) -> str:
+        """The limits in words, such as '1 to 100', or ''."""
+        return ""
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "string"}
+
+
+@dataclass(frozen=True)
+class Text(Kind):
+    """Any text."""
+
+    metavar: str = "TEXT"
+
+
+@dataclass(frozen=True)
+class File(Kind):
+    """The name of a file, or of a chart where the metavar has NAME|FILE."""
+
+    metavar: str = "FILE"
+
+
+@dataclass(frozen=True)
+class Folder(Kind):
+    """The name of a folder."""
+
+    metavar: str = "DIR"
+
+    def read(self, text: str) -> str:
+        """Return the name; refuse an empty one."""
+        if not text.strip():
+            raise InputError("the name is empty; name a folder, or . for this one")
+        return text
+
+
+@dataclass(frozen=True)
+class Flag(Kind):
+    """Yes or no; no unless it is there."""
+
+    metavar: str = ""
+
+    def read(self, text: str) -> bool:
+        """Return yes, unless a text is empty or says no."""
+        return text.strip().lower() not in ("", "0", "no", "off", "false")
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class Whole(Kind):
+    """A whole number from `low` to `high`."""
+
+    low: int = 1
+    high: int = LONGEST
+    metavar: str = "N"
+
+    def read(self, text: str) -> int:
+        """Return the number."""
+        typed = text.strip()
+        if _WHOLE.fullmatch(typed) and self.low <= int(typed) <= self.high:
+            return int(typed)
+        raise InputError(f"{text!r}; give a whole number from {self.low} to {self.high}")
+
+    @property
+    def limits(self) -> str:
+        """The limits in words."""
+        return f"{self.low} to {self.high}"
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class Number(Kind):
+    """A number from `low` to `high`; `wanted` completes the message that refuses a value."""
+
+    low: float = 0.0
+    high: float = 1.0
+    wanted: str = "; give a number from 0 to 1"
+    metavar: str = "X"
+
+    def read(self, text: str) -> float:
+        """Return the number; -0 is 0."""
+        typed = text.strip()
+        number = float(typed) + 0.0 if NUMBER.fullmatch(typed) else math.nan
+        if not self.low <= number <= self.high:
+            raise InputError(f"{text!r}{self.wanted}{meant(text, self.low, self.high)}")
+        return number
+
+    @property
+    def limits(self) -> str:
+        """The limits in words; those so wide that they hardly limit are left out."""
+        is_plain = (self.low, self.high) == (0.0, 1.0) or abs(self.high) >= 1e5
+        return "" if is_plain else f"{self.low:g} to {self.high:g}"
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "number", "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class TwoWhole(Kind):
+    """Two whole numbers with a sign between them, such as 7:5.
+
+    Parameters
+    ----------
+    sign
+        what stands between them, as a regular expression.
+    low, high
+        the limits of each.
+    wanted
+        how to write them, which completes the message that refuses a value.
+    one
+        whether one number may stand for both.
+    rising
+        whether the second may not be below the first.
+    """
+
+    sign: str = BETWEEN
+    low: int = 1
+    high: int = LONGEST
+    wanted: str = ""
+    metavar: str = "M:N"
+    one: bool = False
+    rising: bool = False
+
+    def read(self, text: str) -> tuple[int, int]:
+        """Return the two numbers."""
+        pattern = rf"\s*(\d{{1,9}})\s*(?:{self.sign}\s*(\d{{1,9}}))?\s*"
+        match = re.fullmatch(pattern, text, re.ASCII)
+        m, n = (int(match[1]), int(match[2] or match[1])) if match else (-1, -1)
+        both = match is not None and (self.one or match[2] is not None)
+        within = self.low <= min(m, n) and max(m, n) <= self.high
+        if not (both and within) or (self.rising and m > n):
+            raise InputError(f"{text!r}; {self.wanted}")
+        return m, n
+
+    def words(self, value: tuple[int, int]) -> str:
+        """Return a value as it is typed."""
+        m, n = value
+        return f"{m}..{n}" if self.rising else f"{m}:{n}"
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        limits = {"type": "integer", "minimum": self.low, "maximum": self.high}
+        return {"type": "array", "items": limits, "minItems": 2, "maxItems": 2}
+
+
+@dataclass(frozen=True)
+class Choice(Kind):
+    """One of several words; with a mapping, what each of them means to the program."""
+
+    of: tuple[str, ...] | Mapping[str, Any] = ()
+    metavar: str = ""
+
+    def read(self, text: str) -> Any:
+        """Return the word, or what it means."""
+        word = text.strip()
+        if word not in self.of:
+            words = ", ".join(map(repr, self.of))
+            raise InputError(f"{text!r} is not one of {words}")
+        return self.of[word] if isinstance(self.of, Mapping) else word
+
+    def words(self, value: Any) -> str:
+        """Return a value as it is typed."""
+        if isinstance(self.of, Mapping):
+            return next((word for word, meaning in self.of.items() if meaning == value), str(value))
+        return str(value)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "string", "enum": list(self.of)}
+
+
+@dataclass(frozen=True)
+class Named(Kind):
+    """What a function reads, such as a scale or a system by its name.
+
+    Parameters
+    ----------
+    reader
+        returns the value of a text, or raises an `InputError`.
+    offers
+        what a shell offers for it: the name of a function of `cli.kit.completion`.
+    spelled
+        returns a value as it is typed.
+    """
+
+    reader: Callable[[str], Any] = str
+    metavar: str = "NAME"
+    offers: str = ""
+    spelled: Callable[[Any], str] = str
+
+    def read(self, text: str) -> Any:
+        """Return the value of a text."""
+        return self.reader(text)
+
+    def words(self, value: Any) -> str:
+        """Return a value as it is typed."""
+        return self.spelled(value)
+
+
+def meant(text: str, low: float, high: float) -> str:
+    """Return how to write a number typed with a decimal comma or as a percentage, or nothing.
+
+    >>> meant("80%", 0, 1), meant("95", 0, 1), meant("24,5", 0, 100), meant("half", 0, 1)
+    (' (80% is 0.8)', ' (95% is 0.95)', ' (with a decimal point: 24.5)', '')
+    """
+    typed = text.strip().replace(",", ".")
+    plain = typed.removesuffix("%").rstrip()
+    if not NUMBER.fullmatch(plain):
+        return ""
+    number = float(plain)
+    if (low, high) == (0.0, 1.0) and (plain != typed or number >= 10.0):
+        return f" ({number:.12g}% is {number / 100.0:.12g})" if 0.0 <= number <= 100.0 else ""
+    if "," in text and plain == typed and low <= number <= high:
+        return f" (with a decimal point: {plain})"
+    return ""

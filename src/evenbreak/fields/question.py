@@ -1,0 +1,263 @@
+"""What a question asks: a frozen dataclass whose annotations say all about each of its fields.
+
+How to declare a question
+-------------------------
+
+::
+
+    Seed = Annotated[int, Field(Whole(0, 2**32 - 1), "The seed of all random draws.")]
+
+    @dataclass(frozen=True, kw_only=True)
+    class Fair(Players, RaceLimits, Question):
+        \"\"\"Find the fairest races for two players, the fairest first.\"\"\"
+
+        target: Annotated[float, Field(CHANCE, "The chance that A should have.")] = 0.5
+        top: Annotated[int, Field(Whole(1, 300), "How many races to list.")] = 5
+        seed: Annotated[Seed, Says("The seed of the draw.")] = 1
+
+        def check(self) -> None:
+            if self.games is None and self.race_to is None:
+                self.refuse("the length is missing; give {games} LO..HI or {race_to} N")
+
+The docstring is the help of the command. A field without a default must be given; None is the
+default of what may be left out, and `usual` says in words what applies then. A field of several
+questions is a name (`Seed`), declared once in `evenbreak.questions.common`; `Says` changes what
+it says in one question. Fields that go together are a dataclass that questions inherit. Fields
+are listed in the order of the bases, then those of the question itself, by `section`: `--help`
+explains those without a section and names the others; `rare` ones without a section come with
+`--help-all` only. `check` refuses what does not go together: in `refuse` and in helps, a name in
+braces that has no value is a parameter, which a face writes as its option or its label. The
+terminal makes a command of it with `@command_of(Fair)` (`evenbreak.cli.kit.asked`), a page reads
+it from a form with `asked_in` (`evenbreak.web.asked`), and the reference has a table of it
+between the marks `<!-- options: fair -->` (`docs/option_tables.py`).
+"""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
+from functools import cache
+from typing import Annotated, Any, ClassVar, NoReturn, get_args, get_origin, get_type_hints
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, Flag, Kind
+from evenbreak.words import Parameter, Sentence, say
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """What an annotation says of a field.
+
+    Parameters
+    ----------
+    kind
+        the kind of its values, with their limits.
+    help
+        what it is, in a sentence or two.
+    usual
+        what applies if it is left out, in words, where the default does not say so.
+    metavar
+        what stands for a value in help texts; that of the kind if left out.
+    section
+        the heading under which help texts list it; those without come first.
+    rare
+        whether only `--help-all` lists it.
+    formats
+        the tournament formats that have it; all if left out.
+    argument
+        whether its values are typed on the terminal without the name of an option.
+    many
+        whether it takes several values: all that are typed, or an option that is repeated.
+    option
+        how the terminal calls it, where that is not its name; a short form may follow a slash.
+    old
+        the names of options it had before: accepted for one version, with a note.
+    label
+        what a form calls it: a sentence; the help if left out.
+    titles
+        what a form calls the words of a choice, '' being the one that leaves it out.
+    more
+        what the reference adds, in Markdown.
+    eager
+        whether it is read before the others, because they go by it.
+    """
+
+    kind: Kind
+    help: str = ""
+    usual: str = ""
+    metavar: str = ""
+    section: str = ""
+    rare: bool = False
+    formats: tuple[str, ...] = ()
+    argument: bool = False
+    many: bool = False
+    option: str = ""
+    old: tuple[str, ...] = ()
+    label: str = ""
+    titles: Mapping[str, str] = field(default_factory=dict)
+    more: str = ""
+    eager: bool = False
+
+
+class Says:
+    """What a field says in one question in place of what its declaration says."""
+
+    def __init__(self, help: str | None = None, **changes: Any) -> None:  # noqa: A002
+        self.changes = changes if help is None else {"help": help, **changes}
+
+
+@dataclass(frozen=True)
+class Declared:
+    """A field of a question: its name, what is said of it, and its default."""
+
+    name: str
+    field: Field
+    default: Any
+
+    @property
+    def required(self) -> bool:
+        """Whether it has no default."""
+        return self.default is MISSING
+
+    @property
+    def kind(self) -> Kind:
+        """The kind of its values."""
+        return self.field.kind
+
+    @property
+    def option(self) -> str:
+        """The option that sets it, or for an argument its name."""
+        if self.field.argument:
+            return self.metavar.strip("[]")
+        return "--" + (self.field.option or self.name).partition("/")[0].replace("_", "-")
+
+    @property
+    def short(self) -> str:
+        """The short form of the option, or ''."""
+        return self.field.option.partition("/")[2]
+
+    @property
+    def metavar(self) -> str:
+        """What stands for a value in help texts."""
+        if self.field.metavar:
+            return self.field.metavar
+        return "|".join(self.kind.of) if isinstance(self.kind, Choice) else self.kind.metavar
+
+    @property
+    def usual(self) -> str:
+        """What applies if it is left out, as it is typed or in words; '' if nothing does."""
+        if self.field.usual or self.required or self.default is None or self.default == ():
+            return self.field.usual
+        return "" if isinstance(self.kind, Flag) else self.kind.words(self.default)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of it."""
+        one: dict[str, Any] = self.kind.schema()
+        said = {"type": "array", "items": one} if self.field.many else dict(one)
+        said["description"] = self.field.help
+        if self.usual and not self.field.usual:
+            said["default"] = self.usual if said["type"] == "string" else self.default
+        return said
+
+
+class AskedError(InputError):
+    """What is asked contradicts itself, or lacks something."""
+
+
+def worded(template: str, **values: Any) -> Sentence:
+    """Return a text in which each name in braces that has no value is a parameter.
+
+    >>> worded("{games} is {n}", n=7).values["games"]
+    'games'
+    """
+    names = [name for _, name, _, _ in string.Formatter().parse(template) if name]
+    return say(template, **{name: values.get(name, Parameter(name)) for name in names})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """The base of all questions; see the head of this module."""
+
+    examples: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        for check in _checks(type(self)):
+            check(self)
+
+    @classmethod
+    def split(cls, typed: dict[str, Any]) -> dict[str, Any]:
+        """Return what is typed, where words of several arguments were typed as one."""
+        return typed
+
+    @staticmethod
+    def refuse(template: str, **values: Any) -> NoReturn:
+        """Refuse what is asked; a name in braces without a value is a parameter."""
+        raise AskedError(worded(template, **values))
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The fields that differ from their defaults."""
+        question: Any = type(self)
+        return {
+            one.name: getattr(self, one.name)
+            for one in declared(question)
+            if getattr(self, one.name) != one.default
+        }
+
+
+def _checks(question: Any) -> Iterator[Callable[[Any], None]]:
+    """Yield the checks of the bases, then that of the question itself."""
+    seen: dict[Any, None] = {}
+    for base in question.__bases__:
+        seen |= dict.fromkeys(_checks(base))
+    if check := vars(question).get("check"):
+        seen[check] = None
+    yield from seen
+
+
+@cache
+def declared(question: Any) -> tuple[Declared, ...]:
+    """Return the fields of a question in their order; those without a `Field` are no part of it."""
+    hints = get_type_hints(question, include_extras=True)
+    defaults = {one.name: one.default for one in fields(question)}
+    every = [(name, field_in(hints[name])) for name in dict.fromkeys(_names(question))]
+    return tuple(Declared(name, said, defaults[name]) for name, said in every if said is not None)
+
+
+def declaration(question: type, name: str) -> Declared:
+    """Return the field of a question that has this name."""
+    return next(one for one in declared(question) if one.name == name)
+
+
+def _names(question: type) -> Iterator[str]:
+    for base in question.__bases__:
+        yield from _names(base)
+    if is_dataclass(question):
+        yield from (one.name for one in fields(question))
+
+
+def field_in(hint: Any) -> Field | None:
+    """Return the `Field` in an annotation, with what `Says` changes, or None."""
+    if get_origin(hint) is Annotated:
+        inner, *said = get_args(hint)
+        result = field_in(inner)
+        for one in said:
+            if isinstance(one, Field):
+                result = one
+            elif isinstance(one, Says) and result is not None:
+                result = replace(result, **one.changes)
+        return result
+    return next(filter(None, map(field_in, get_args(hint))), None)
+
+
+def schema_of(question: type) -> dict[str, Any]:
+    """Return the JSON schema of a question."""
+    every = declared(question)
+    return {
+        "title": question.__name__,
+        "type": "object",
+        "properties": {one.name: one.schema() for one in every},
+        "required": [one.name for one in every if one.required],
+        "additionalProperties": False,
+    }

@@ -1,0 +1,107 @@
+"""Fields that several questions have, each declared once."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePath
+from typing import Annotated, TypeAlias
+
+from evenbreak.chains.ways import WAYS, Way
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import LONGEST, Choice, File, Named, Number, TwoWhole, Whole
+from evenbreak.fields.question import Field
+from evenbreak.ratings.scale import Scale, scale_of
+
+HIGHEST_SEED = 2**32 - 1
+
+CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1", metavar="P")
+SHARE = Number(0.0, 1.0, "; give a number from 0 to 1", metavar="SHARE")
+RACE = TwoWhole(
+    wanted=f"give a whole number from 1 to {LONGEST}, such as 7, "
+    "or one for each player with a colon between them, such as 7:5",
+    metavar="N|M:N",
+    one=True,
+)
+"""The games that each player needs: 7:5, 7-5 or 7/5; 7 alone means 7:7."""
+SCORE = TwoWhole(
+    low=0,
+    wanted=f"give two whole numbers from 0 to {LONGEST} with a colon between them, such as 3:0",
+    metavar="I:J",
+)
+SPAN = TwoWhole(
+    r"\.\.",
+    wanted=f"give the least and the most games, from 1 to {LONGEST}, "
+    "with two dots between them, such as 7..13",
+    metavar="LO..HI",
+    rising=True,
+)
+SCALE = Named(
+    scale_of, "npl|fargo|elo|POINTS", offers="scales", spelled=lambda scale: str(scale.text)
+)
+
+SCALE_OF_LIST = "the one that the file states, else the only one that the ratings can be on"
+"""What applies without a scale to a list of ratings."""
+
+ScaleOf: TypeAlias = Annotated[
+    Scale | None,
+    Field(
+        SCALE,
+        "The scale of the ratings: POINTS double the odds of winning a game.",
+        usual="what the ratings show",
+        more="Unless given, [the one that the ratings show]"
+        "(../files.md#the-scale-of-a-list), or that the list states in its column `scale`.",
+    ),
+]
+Seed: TypeAlias = Annotated[
+    int, Field(Whole(0, HIGHEST_SEED), "The seed of all random draws.", rare=True)
+]
+ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
+FormOfDay: TypeAlias = Annotated[
+    float | None,
+    Field(
+        Number(0.0, 3.0, "; give a number from 0 to 3, such as 0.35", metavar="SD"),
+        "Form of the day: how much the log-odds of a game vary from match to match.",
+        usual="what the list of ratings states, else 0",
+        section="Details",
+        more="A standard deviation, as `evenbreak rate` finds it; see [form of the day]"
+        "(../../explanation/ratings.md#form-of-the-day).",
+    ),
+]
+ByWay: TypeAlias = Annotated[
+    Way | None,
+    Field(
+        Choice(tuple(WAYS)),
+        "The way to the answer: a formula, or the game's graph and matrix.",
+        section="Details",
+        rare=True,
+        more="The fast formula (kernel), elimination of states, or eigenvectors; they are "
+        "compared. See [the same answer by another way]"
+        "(../../how-to/your-own-chain.md#the-same-answer-by-another-way).",
+    ),
+]
+
+
+def picture(text: str) -> str:
+    """Return the name of a picture that can be written."""
+    folder = Path(text).parent
+    wrong = ""
+    if PurePath(text).suffix.lower() not in (".png", ".svg"):
+        wrong = "name a file that ends in .png or .svg"
+    elif not folder.exists():
+        wrong = f"there is no folder {str(folder)!r}; make it first, or name another"
+    elif not folder.is_dir():
+        wrong = f"{str(folder)!r} is a file, so no picture can be in it; name a folder"
+    elif Path(text).is_dir():
+        wrong = "that is a folder; name a file in it"
+    if wrong:
+        raise InputError(f"{text!r}; {wrong}")
+    return text
+
+
+PlotFile: TypeAlias = Annotated[
+    str | None,
+    Field(
+        Named(picture, "FILE", offers="files"),
+        "Write a picture: PNG or SVG, by the ending of FILE.",
+        section="Details",
+    ),
+]

@@ -1,0 +1,387 @@
+"""Questions about one match of two players."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import NUMBER, Choice, File, Flag, Named, Text, Whole, meant
+from evenbreak.fields.question import Field, Question
+from evenbreak.matches.formats import LONGEST, WHO_BREAKS, match_format
+from evenbreak.questions.common import (
+    CHANCE,
+    RACE,
+    SCORE,
+    SPAN,
+    ByWay,
+    FormOfDay,
+    PlotFile,
+    ScaleOf,
+)
+
+_BY_CHANCE = "Chances instead of ratings"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Players(Question):
+    """Who plays: two ratings, two names on a list, a chance in a game, or one for each breaker."""
+
+    ratings: Annotated[
+        tuple[str, ...], Field(Named(str, "[A B]", offers="players"), argument=True, many=True)
+    ] = ()
+    from_file: Annotated[
+        str | None,
+        Field(
+            File("RATINGS.csv"),
+            "Take A and B as names on this list of ratings, with its scale and errors.",
+            option="from",
+            more="A [list](../files.md#roster). Everything is averaged over the errors that it "
+            "states, as in [matchups](league.md#evenbreak-matchups); JSON has `player_a` and "
+            "`player_b` too.",
+        ),
+    ] = None
+    scale: ScaleOf = None
+    p: Annotated[float | None, Field(CHANCE, "Chance that A wins a game.", section=_BY_CHANCE)] = (
+        None
+    )
+    p1: Annotated[
+        float | None, Field(CHANCE, "Chance that A wins a game that A breaks.", section=_BY_CHANCE)
+    ] = None
+    p2: Annotated[
+        float | None, Field(CHANCE, "Chance that B wins a game that B breaks.", section=_BY_CHANCE)
+    ] = None
+    breaks: Annotated[
+        str | None,
+        Field(
+            Choice(tuple(WHO_BREAKS)),
+            "Who breaks: winner, loser, in turn, or always A or B.",
+            section=_BY_CHANCE,
+        ),
+    ] = None
+    first_break: Annotated[
+        str | None,
+        Field(
+            Choice(("a", "b")),
+            "Who breaks the next game.",
+            usual="a; b with {breaks} b",
+            section=_BY_CHANCE,
+            rare=True,
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse players that are missing, or given in two ways."""
+        remedy = (
+            "give two ratings A B, or two names with {from_file}, or {p}, or {p1} and {p2} with "
+            "{breaks}"
+        )
+        self._check_ratings()
+        by_break = self.p1 is not None or self.p2 is not None
+        ways = bool(self.ratings) + (self.p is not None) + by_break
+        if not ways:
+            self.refuse(f"the players are missing; {remedy}")
+        if ways > 1:
+            self.refuse(f"the players are given twice; {remedy}")
+        if self.from_file is not None and not self.ratings:
+            self.refuse("{from_file} is for two players by name, but none are named; leave it out")
+        if self.scale is not None and not self.ratings:
+            self.refuse("{scale} is for ratings, but none are given; leave it out")
+        if by_break and None in (self.p1, self.p2, self.breaks):
+            self.refuse("{p1}, {p2} and {breaks} go together; give all three")
+        if not by_break and (self.breaks is not None or self.first_break is not None):
+            self.refuse(
+                "the break matters only with {p1} and {p2}; leave {breaks} and {first_break} out"
+            )
+        if self.from_file is not None and len(self.ratings) != 2:
+            self.refuse(
+                "{from_file} needs two players, and {n} are named; quote a name with blanks",
+                n=len(self.ratings),
+            )
+        if len(self.ratings) == 1:
+            self.refuse("only one rating is given, {rating}; " + remedy, rating=self.ratings[0])
+        if len(self.ratings) > 2:
+            self.refuse(
+                "{n} ratings are given, {ratings}; " + remedy,
+                n=len(self.ratings),
+                ratings=" ".join(self.ratings),
+            )
+
+    def _check_ratings(self) -> None:
+        """Refuse words that are no ratings."""
+        for word in self.ratings:
+            if self.from_file is not None or NUMBER.fullmatch(word):
+                continue
+            wanted = "give two numbers, such as 612 521, or say with {from_file} where it stands"
+            values: dict[str, Any] = {}
+            with suppress(InputError):
+                match = match_format(word)
+                if hasattr(self, "race"):
+                    wanted += (
+                        f"; a match goes with {{{'ahead' if match.ahead else 'race'}}} {{m}}:{{n}}"
+                    )
+                    values = {"m": match.m, "n": match.n}
+            wanted += "{hint}"
+            hint = meant(word, -math.inf, math.inf)
+            self.refuse("{word} is not a rating; " + wanted, word=repr(word), hint=hint, **values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lengths(Question):
+    """How long the races may be that are looked at."""
+
+    games: Annotated[
+        tuple[int, int] | None,
+        Field(
+            SPAN,
+            "Races whose longest possible match has LO to HI games.",
+            more="The longest possible match of a race m:n has m + n − 1 games.",
+        ),
+    ] = None
+    race_to: Annotated[
+        int | None,
+        Field(Whole(1, LONGEST), "Races in which the stronger player needs N games."),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse two limits."""
+        if self.games is not None and self.race_to is not None:
+            self.refuse("{games} and {race_to} cannot be combined; leave one out")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Played(Question):
+    """The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
+
+    race: Annotated[
+        tuple[int, int] | None, Field(RACE, "A needs M games, B needs N; 7 means 7:7.")
+    ] = None
+    ahead: Annotated[
+        tuple[int, int] | None, Field(RACE, "A wins by leading by M games, B by leading by N.")
+    ] = None
+    set_: Annotated[
+        tuple[int, int] | None,
+        Field(RACE, "Play sets, each of them a race M:N; {race} then counts sets.", option="set"),
+    ] = None
+    score: Annotated[
+        tuple[int, int] | None,
+        Field(
+            SCORE,
+            "The score so far: I for A, J for B.",
+            more="Games on the wire, or a match under way; sets with `--set`.",
+        ),
+    ] = None
+    win_by: Annotated[
+        int | None,
+        Field(
+            Whole(1, LONGEST),
+            "The race goes on until one player leads by K, counted from what each needs.",
+            metavar="K",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a match that is missing, or two in one."""
+        if self.race is not None and self.ahead is not None:
+            self.refuse("{race} and {ahead} cannot be combined; leave one out")
+        if self.win_by is not None and self.ahead:
+            self.refuse("{win_by} cannot be combined with {ahead}; leave it out")
+        if self.win_by is not None and self.set_:
+            self.refuse("{win_by} cannot be combined with {set_}; leave it out")
+        if self.race is None and self.ahead is None:
+            self.refuse("the match is missing; give {race} M:N or {ahead} M:N")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Odds(Players, Played):
+    """Give the odds of a match, and how long it lasts.
+
+    Describe the players by two ratings A B, by two names with {from_file}, by {p}, or by {p1}, {p2}
+    and {breaks}; the match by {race} or {ahead}, perhaps in sets.
+    """
+
+    examples = """\
+  evenbreak odds 612 521 --scale fargo --race 7:5
+  evenbreak odds "Ann Lee" "Bo Diaz" --from ratings.csv --race 7:5
+  evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
+"""
+    form: FormOfDay = None
+    exact: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Also give the chances of winning as fractions; needs {p}, or {p1} and {p2}.",
+            section="Details",
+        ),
+    ] = False
+    via: ByWay = None
+
+    def check(self) -> None:
+        """Refuse ways to the answer that do not go with the players."""
+        if self.exact and self.ratings:
+            self.refuse(
+                "{exact} needs the chances themselves: give {p}, or {p1} and {p2}, not ratings"
+            )
+        if self.exact and self.via is not None:
+            self.refuse("{exact} has a way of its own; leave {via} out")
+        if self.exact and self.form:
+            self.refuse("{exact} has no fractions with {form}; leave one out")
+        if self.form and self.breaks is not None and any(self.score or ()):
+            self.refuse(
+                "the games played show the form of the day, but not without who broke them; leave "
+                "{score} out, or {form}"
+            )
+
+
+MOST_RACES = 300
+"""The most races that are listed, so that every answer takes seconds."""
+
+MOST_GRAPHS, MOST_GAMES = 20, 99
+"""The most races whose graph is built with `via`, and the most games in them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fair(Players, Lengths):
+    """Find the fairest races for two players, the fairest first.
+
+    Describe the players by two ratings A B, by two names with {from_file}, by {p}, or by {p1}, {p2}
+    and {breaks}; limit the length by {games} or {race_to}.
+    """
+
+    examples = """\
+  evenbreak fair 612 521 --scale fargo --race-to 7
+  evenbreak fair "Ann Lee" "Bo Diaz" --from ratings.csv --race-to 7
+  evenbreak fair 85 40 --games 7..13 --top 3
+"""
+    target: Annotated[float, Field(CHANCE, "The chance of winning that A should have.")] = 0.5
+    top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.", metavar="K")] = 5
+    form: FormOfDay = None
+    via: ByWay = None
+
+    def check(self) -> None:
+        """Refuse races without a limit, and more graphs than can be built in seconds."""
+        if self.games is None and self.race_to is None:
+            self.refuse("the length of the race is missing; give {games} LO..HI or {race_to} N")
+        longest = self.games[1] if self.games is not None else 2 * (self.race_to or 1) - 1
+        if self.via is not None and (longest > MOST_GAMES or self.top > MOST_GRAPHS):
+            self.refuse(
+                "{via} builds the graph of each race listed; ask for at most {graphs} races of "
+                "at most {most} games",
+                graphs=MOST_GRAPHS,
+                most=MOST_GAMES,
+            )
+
+
+def winners(text: str) -> list[int]:
+    """Return the winner of each game, 1 or 2.
+
+    >>> winners("ab, b")
+    [1, 2, 2]
+    """
+    letters = "".join(text.lower().replace(",", " ").split())
+    for letter in letters:
+        if letter not in "ab":
+            raise InputError(
+                f"{letter!r} is neither a nor b; write one of them for each rack, such as abbab"
+            )
+    return ["ab".index(letter) + 1 for letter in letters]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Live(Players, Played):
+    """Follow a match under way: the odds now, the worth of the next game, the turning point.
+
+    Describe the players and the match as for `odds`, and the score by {racks}, by {score},
+    or by both: the racks are then those played since that score.
+    """
+
+    examples = """\
+  evenbreak live 612 521 --scale fargo --race 7:5 --racks abbab
+  evenbreak live --p 0.6 --race 9:7 --score 4:6
+  evenbreak live --p 0.6 --race 3:3 --set 4:3 --score 1:0 --set-score 2:2
+"""
+    set_score: Annotated[
+        tuple[int, int] | None,
+        Field(SCORE, "The score of the set under way, before the games of {racks}."),
+    ] = None
+    racks: Annotated[
+        list[int] | tuple[int, ...],
+        Field(Named(winners, "abbab..."), "Who won each game since {score}."),
+    ] = ()
+    table: Annotated[
+        bool, Field(Flag(), "Add the comeback table: the odds at each score to come.")
+    ] = False
+    form: FormOfDay = None
+    plot: PlotFile = None
+
+    def check(self) -> None:
+        """Refuse what needs something else."""
+        if self.set_score is not None and self.set_ is None:
+            self.refuse("{set_score} is the score of a set, but there is no {set_}; leave it out")
+        if self.plot is not None and not self.racks:
+            self.refuse("{plot} draws the match as it went; give {racks}, such as abbab")
+
+
+MOST_FORMATS = 7
+"""As many formats as a picture has lines for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compare(Players):
+    """Compare match formats for two players: which is better for whom.
+
+    A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or "3:1 of 3:3"
+    (sets), and may end in a break format, such as "winner breaks". Describe the players by two
+    ratings A B, by two names with {from_file}, by {p}, or by {p1}, {p2} and {breaks}.
+    """
+
+    examples = """\
+  evenbreak compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3"
+  evenbreak compare 612 521 --scale fargo 7:5 "7:7 win by 2" --plot formats.png
+  evenbreak compare --p1 0.6 --p2 0.55 --breaks winner 9:7 "9:7 alternate breaks"
+"""
+    formats: Annotated[
+        tuple[str, ...], Field(Text(), metavar="FORMAT...", argument=True, many=True)
+    ] = ()
+    hold: Annotated[
+        str | None,
+        Field(
+            Choice(("p2", "break")),
+            "What stays fixed as P1 varies: P2, or the advantage of the break.",
+            usual="p2",
+            section="Details",
+        ),
+    ] = None
+    plot: PlotFile = None
+
+    @classmethod
+    def split(cls, typed: dict[str, Any]) -> dict[str, Any]:
+        """Separate what is typed into ratings, which are numbers, and formats, which are not."""
+        words = typed.get("ratings", ())
+        if "from_file" in typed:
+            return typed | {"ratings": words[:2], "formats": words[2:]}
+        ratings = tuple(word for word in words if NUMBER.fullmatch(word))
+        said = not typed.keys().isdisjoint({"p", "p1", "p2"})
+        if ratings and (said or len(ratings) > 2):
+            word = ratings[0 if said else 2]
+            race = word if word.isdecimal() else "7"
+            cls.refuse(
+                "{word} was read as a rating; write {race}:{race} for a race to {race}",
+                word=word,
+                race=race,
+            )
+        formats = tuple(word for word in words if not NUMBER.fullmatch(word))
+        return typed | {"ratings": ratings, "formats": formats}
+
+    def check(self) -> None:
+        """Refuse too few or too many formats."""
+        if not self.formats:
+            self.refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
+        if len(self.formats) > MOST_FORMATS:
+            self.refuse(
+                "{n} formats are given; compare {most} at most",
+                n=len(self.formats),
+                most=MOST_FORMATS,
+            )

@@ -1,0 +1,420 @@
+"""Questions about a tournament: its plan and who enters, before its first match or under way."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, fields
+from typing import Annotated, Any, ClassVar, TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Flag, Named, Number, Text, Whole
+from evenbreak.fields.question import Field, Question, Says, declared
+from evenbreak.questions.common import CHANCE, ChartName, ScaleOf, Seed
+from evenbreak.tournaments.evening.fold import ELIMINATIONS
+from evenbreak.tournaments.evening.format import LONGEST_RACE, Discipline, Format, Tables
+from evenbreak.tournaments.evening.opening import FORMATS, usual_seeding
+from evenbreak.words import say
+
+SEEDINGS = ("listed", "rating", "blind", "drawn")
+
+FORMAT_TITLES = {
+    "double": say("Double elimination"),
+    "single": say("Single elimination"),
+    "round-robin": say("Round robin"),
+    "groups": say("Groups, then knock-out"),
+    "consolation": say("Single elimination with consolation"),
+    "king-of-the-hill": say("King of the hill"),
+    "swiss": say("Swiss"),
+    "chips": say("Chip tournament"),
+    "pods": say("Pods: double elimination in small brackets, then single"),
+}
+
+_RACE = Whole(1, LONGEST_RACE)
+
+
+def minutes_of_day(text: str) -> int:
+    """Return a time of day in minutes after midnight.
+
+    >>> minutes_of_day("19:30")
+    1170
+    """
+    match = re.fullmatch(r"\s*(\d{1,2})[:.h](\d{2})\s*", text)
+    hours, minutes = (int(match[1]), int(match[2])) if match else (24, 0)
+    if hours > 23 or minutes > 59:
+        raise InputError(f"{text!r}; give a time of day from 0:00 to 23:59, such as 19:30")
+    return 60 * hours + minutes
+
+
+TIME_OF_DAY = Named(minutes_of_day, "HH:MM")
+
+At: TypeAlias = Annotated[
+    int | None, Field(TIME_OF_DAY, "When it happened.", usual="now", section="File")
+]
+Evening: TypeAlias = Annotated[
+    str | None,
+    Field(
+        File("FILE.db"),
+        "The file of the tournament under way.",
+        usual="tonight.db",
+        section="File",
+        more="Also in the environment: `EVENBREAK_TOURNAMENT`.",
+    ),
+]
+Prizes: TypeAlias = Annotated[
+    str | None,
+    Field(
+        Text("MONEY,..."),
+        "The money for first place, second, ..., such as 500,300,150.",
+        more="Adds each player's average prize.",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Starters(Question):
+    """How strong a new player is."""
+
+    starter: Annotated[
+        float | None,
+        Field(
+            Number(-1e6, 1e6, " is not a number of rating points; give one such as 80"),
+            "The rating of a new player.",
+            usual="the middle of the scale",
+            metavar="RATING",
+            section="Ratings",
+            rare=True,
+        ),
+    ] = None
+    starter_sd: Annotated[
+        float | None,
+        Field(
+            Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30"),
+            "How far off that may be (standard deviation).",
+            usual="what doubles the odds",
+            metavar="POINTS",
+            section="Ratings",
+            rare=True,
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TournamentPlan(Format, Question):
+    """What is played: the format and the races."""
+
+    form: Annotated[
+        str,
+        Field(
+            Choice(FORMATS),
+            "The kind of tournament: " + ", ".join(FORMATS) + ".",
+            option="format",
+            label=say("Format"),
+            titles=FORMAT_TITLES,
+            metavar="FORMAT",
+            more="`double` elimination, `single` elimination, `pods` (double elimination in pods, "
+            "then single), `groups` (round robin in groups, then knock-out), `swiss` (needs "
+            "`pip install 'evenbreak[swiss]'`), `round-robin`, `consolation` (those who lose their "
+            "first match play a second event), `king-of-the-hill` (the first two of the list "
+            "play, the winner meets the third, and so on), or `chips`, which only "
+            "`tournament new` takes: it [runs a chip night]"
+            "(../../how-to/run-a-chip-tournament.md#run-the-night). For its odds before the first "
+            "rack, see [evenbreak chips](#evenbreak-chips).",
+        ),
+    ] = "double"
+    race: Annotated[int | None, Field(_RACE, "Even races to N games.")] = None
+    race_to: Annotated[
+        int | None,
+        Field(
+            _RACE,
+            "Handicapped races instead: the stronger player needs N games, the weaker as many as "
+            "is fairest.",
+        ),
+    ] = None
+    chart: Annotated[ChartName, Says("Races by this chart of rating differences instead.")] = None
+    seeding: Annotated[
+        str | None,
+        Field(
+            Choice(SEEDINGS),
+            "The order of the seeds: as the file lists them, by rating, or drawn at random.",
+            usual="listed; blind in a chip tournament",
+            label=say("Draw"),
+            titles={
+                "": say("Default: as listed; chip tournaments at random"),
+                "listed": say("Seeded as listed"),
+                "rating": say("Seeded by rating"),
+                "blind": say("Blind draw"),
+            },
+            more="`blind` is drawn at random. `drawn`: the draw has been made, and the first two "
+            "rows of the file meet, then the next two, and so on; it has 2, 4, 8, 16 … rows, some "
+            "of which may be named `bye 1`, `bye 2` …",
+        ),
+    ] = None
+    chips: Annotated[
+        str | None,
+        Field(
+            File("NAME|FILE.csv"),
+            "The chips at the start of a chip tournament: hoboken, pharaohs, or a file.",
+            section="Format",
+            formats=("chips",),
+            more="A [file](../files.md#chip-charts) has the columns rating_from and chips. Ratings "
+            "are then on the Fargo scale unless the file or `--scale` says otherwise, and there "
+            "are no races.",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse parts of a plan that do not go together, when there is a plan."""
+        if not self.planned:
+            return
+        self._check_races()
+        for one in declared(TournamentPlan):
+            if one.field.formats and one.name in self.given and self.form not in one.field.formats:
+                self.refuse(
+                    "{" + one.name + "} is for {form} {formats}, not {asked}",
+                    formats=" or ".join(one.field.formats),
+                    asked=self.form,
+                )
+        if self.qualifiers is not None:
+            self._check_qualifiers(self.qualifiers)
+        elif "placement" in self.given:
+            self.refuse("{placement} is for qualifiers; give {qualifiers} M, or leave it out")
+
+    @property
+    def planned(self) -> bool:
+        """Whether there is a plan; a tournament under way has its own."""
+        return True
+
+    def _check_races(self) -> None:
+        races = [one for one in (self.race, self.race_to, self.chart) if one is not None]
+        apart = self.losers_race is not None or self.final_race is not None
+        if self.form == "chips":
+            if races or apart:
+                self.refuse("a chip tournament is played by the rack; leave out the races")
+            if self.chips is None:
+                self.refuse("the chip chart is missing; give it with {chips}, such as hoboken")
+        elif len(races) != 1:
+            missing = "the races are given twice" if races else "the races are missing"
+            self.refuse(missing + "; give one of {race} N, {race_to} N and {chart} NAME")
+        elif self.chart is not None and apart:
+            self.refuse("{chart} sets all races; leave out {losers_race} and {final_race}")
+
+    def _check_qualifiers(self, qualifiers: int) -> None:
+        if "final" in self.given:
+            self.refuse("{qualifiers} leads to one final; leave out {final}")
+        if self.form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
+            self.refuse("{qualifiers} is {m}; give 2, 4, 8 or another power of 2", m=qualifiers)
+        if self.form == "pods" and qualifiers > 2:
+            self.refuse("{qualifiers} is {m}; 1 or 2 go on from a pod", m=qualifiers)
+
+    @property
+    def seeded(self) -> str:
+        """How the seeds are ordered."""
+        return self.seeding or usual_seeding(self.form)
+
+    @property
+    def of_format(self) -> dict[str, Any]:
+        """What the plan has for its format, by name."""
+        return {one.name: getattr(self, one.name) for one in fields(Format)}
+
+
+_DRAW = "The seed of the draw, and of what is simulated."
+Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewTournament(TournamentPlan, Starters):
+    """Start a tournament: write its entrants and what is played to a new file.
+
+    Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
+    place of a bye, or in a chip tournament at the end of the line. The other commands read and
+    write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another
+    file.
+    """
+
+    examples = """\
+  evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4
+  evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
+  evenbreak tournament new entrants.csv --format chips --chips hoboken
+"""
+    entrants: Annotated[str, Field(File("ENTRANTS.csv"), argument=True)]
+    tables: Tables = 4
+    discipline: Discipline = "9-ball"
+    scale: ScaleOf = None
+    seed: Draw = 0
+    out: Annotated[
+        str,
+        Field(File("FILE.db"), "The file of the tournament, which must not exist yet."),
+    ] = "tonight.db"
+    at: At = None
+
+    def check(self) -> None:
+        """Refuse a draw on paper where there is none."""
+        refuse_lines(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfEntrants(TournamentPlan, Starters):
+    """A question about a list of entrants, or about the tournament under way."""
+
+    entrants: Annotated[
+        str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
+    ] = None
+    scale: ScaleOf = None
+    file: Evening = None
+    at: At = None
+    seed: Draw = 0
+    under_way: ClassVar[tuple[str, ...]] = ()
+    """What can be asked about the tournament under way."""
+
+    @property
+    def planned(self) -> bool:
+        """Whether there is a list of entrants."""
+        return self.entrants is not None
+
+    def check(self) -> None:
+        """Refuse options of a list for the tournament under way, and the other way round."""
+        if self.entrants is not None:
+            for name in ("file", "at"):
+                if name in self.given:
+                    self.refuse(
+                        "{" + name + "} is for the tournament under way; leave out {list} or it",
+                        list=self.entrants,
+                    )
+            if self.form == "chips":
+                self.refuse(
+                    "for a chip tournament before its first rack, ask evenbreak chips odds; for "
+                    "one under way leave out ENTRANTS.csv"
+                )
+            return refuse_lines(self)
+        for name in self.given:
+            if name not in ("file", "at", *self.under_way):
+                self.refuse(
+                    "{" + name + "} is for a list of entrants; name one, or leave the option out "
+                    "to ask about the tournament in {place}",
+                    place=self.file or "tonight.db",
+                )
+        return None
+
+
+def refuse_lines(asked: TournamentPlan) -> None:
+    """Refuse a draw made on paper for a format that draws otherwise."""
+    if asked.seeding == "drawn" and asked.form not in ELIMINATIONS:
+        asked.refuse("{seeding} drawn is for eliminations, not {asked}", asked=asked.form)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TournamentOdds(OfEntrants):
+    """Find each player's odds of winning the tournament, and of each other place.
+
+    ENTRANTS.csv has a row for each entrant, with the columns player and rating and, if you have
+    them, standard_error and games. Without it, the answer is about the tournament under way in
+    {file}: its results so far, and the scores of the matches in play.
+    """
+
+    examples = """\
+  evenbreak tournament odds entrants.csv --race 7 --losers-race 5 --scale fargo
+  evenbreak tournament odds entrants.csv --race-to 5 --prizes 500,300,150
+  evenbreak tournament odds --file tonight.db
+"""
+    under_way = ("sure", "walkovers", "prizes")
+    sure: Annotated[
+        bool, Field(Flag(), "Take the ratings as right, even if they have standard errors.")
+    ] = False
+    before_draw: Annotated[
+        bool,
+        Field(Flag(), "The odds before a blind draw: every draw is equally likely."),
+    ] = False
+    fairest: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "With {race_to} or {chart}: also list fairer races of about the same length.",
+            more="The races by side, and by round, that make the tournament fairest for about as "
+            "many games.",
+        ),
+    ] = False
+    walkovers: Annotated[
+        float,
+        Field(
+            CHANCE,
+            "The chance that a match is a walkover; in real double eliminations it is 0.047.",
+        ),
+    ] = 0.0
+    prizes: Prizes = None
+
+    def check(self) -> None:
+        """Refuse what a draw that has not been made cannot have."""
+        if not self.before_draw or self.entrants is None:
+            return
+        if self.seeded not in ("listed", "blind"):
+            self.refuse(
+                "{before_draw} is for a blind draw; leave out {seeding} {order}", order=self.seeded
+            )
+        if self.form in ("round-robin", "swiss"):
+            self.refuse("{before_draw} is for formats with a draw, not {asked}", asked=self.form)
+        if self.placement == "redraw":
+            self.refuse("{before_draw} takes {placement} half-shift, not redraw")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pace(Question):
+    """How fast matches are played."""
+
+    discipline: Discipline | None = None
+    minutes_per_game: Annotated[
+        float | None,
+        Field(
+            Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5"),
+            "How long a game takes on average, instead of the usual time of the discipline.",
+            metavar="MINUTES",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse two paces."""
+        if self.discipline is not None and self.minutes_per_game is not None:
+            self.refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TournamentTime(OfEntrants, Pace):
+    """Find when the tournament ends, and when each match starts.
+
+    ENTRANTS.csv has a row for each entrant, with the columns player and rating; a plain list of
+    names is taken as equal players. Without it, the answer is about the tournament under way in
+    {file}: its results, the matches on its tables and its pace so far. JSON and CSV have minutes
+    from the start of the tournament.
+    """
+
+    examples = """\
+  evenbreak tournament time entrants.csv --race 5 --tables 4 --discipline 9-ball
+  evenbreak tournament time entrants.csv --race 7 --tables 6 --discipline 8-ball --start 19:00
+  evenbreak tournament time --file tonight.db
+"""
+    under_way = ("tables", "turnover")
+    tables: Tables | None = None
+    turnover: Annotated[
+        float | None,
+        Field(
+            Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0"),
+            "The time between two matches on a table, on average.",
+            usual="as in real events",
+            metavar="MINUTES",
+            more="In real events most matches start at once, and the average is 4.",
+        ),
+    ] = None
+    start: Annotated[
+        int | None, Field(TIME_OF_DAY, "When the tournament starts: shows times of day.")
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a list without tables or a pace."""
+        if self.entrants is None:
+            return
+        if self.tables is None:
+            self.refuse("the number of tables is missing; give it with {tables}, such as 4")
+        if self.discipline is None and self.minutes_per_game is None:
+            self.refuse(
+                "say how long games take; give {discipline}, such as 9-ball, or "
+                "{minutes_per_game}, such as 8"
+            )

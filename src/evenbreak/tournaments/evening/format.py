@@ -1,0 +1,165 @@
+"""What a plan has for its format: each part with its limits, as every face asks for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from evenbreak.checks import Between
+from evenbreak.fields.kinds import Choice, Flag, Whole
+from evenbreak.fields.question import Field
+from evenbreak.words import say
+
+Race: TypeAlias = Annotated[int, Between(1, 1_000)]
+Table: TypeAlias = Annotated[int, Between(1, 1_000)]
+Few: TypeAlias = Annotated[int, Between(1, 256)]
+
+DISCIPLINES = ("8-ball", "9-ball", "10-ball")
+MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100
+"""How large a tournament or a team night may be."""
+
+Tables: TypeAlias = Annotated[
+    Table, Field(Whole(1, MOST_TABLES), "The number of tables.", metavar="T", label=say("Tables"))
+]
+Discipline: TypeAlias = Annotated[
+    str, Field(Choice(DISCIPLINES), "The game, for how long matches take.", label=say("Game"))
+]
+
+_FORMAT, _RACES = "Format", "Races"
+_PLAYERS = Whole(1, MOST_PLAYERS)
+_RACE = Whole(1, LONGEST_RACE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Format:
+    """What a plan has for its format, all of which the terminal and the page ask for.
+
+    A field added here is one of the plan, and of every question about a tournament.
+    """
+
+    final: Annotated[
+        str,
+        Field(
+            Choice(("true", "single")),
+            "The final of a double elimination: must the undefeated player lose twice (true), or "
+            "once (single)?",
+            label=say("Final of a double elimination"),
+            titles={
+                "true": say("The unbeaten player must lose twice"),
+                "single": say("One match decides"),
+            },
+            section=_FORMAT,
+            formats=("double",),
+        ),
+    ] = "true"
+    third_place: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Single elimination with a match for third place.",
+            label=say("A match for third place (single elimination)"),
+            section=_FORMAT,
+            formats=("single",),
+        ),
+    ] = False
+    qualifiers: Annotated[
+        Few | None,
+        Field(
+            _PLAYERS,
+            "How many go on: from a double elimination to a single one (2, 4, 8 ...), or from each "
+            "group or pod.",
+            usual="2 from a group, 1 from a pod",
+            metavar="M",
+            label=say("Players advancing from each group, pod or side (blank: default)"),
+            section=_FORMAT,
+            formats=("double", "groups", "pods"),
+            more="Half of the qualifiers of a double elimination come from each side.",
+        ),
+    ] = None
+    placement: Annotated[
+        str,
+        Field(
+            Choice({"half-shift": "half shift", "redraw": "redraw"}),
+            "How the losers' side's qualifiers meet the winners' side's: the halves crossed, or "
+            "drawn.",
+            label=say("How those from the losers' side meet the others"),
+            titles={"half-shift": say("The halves crossed"), "redraw": say("Drawn again")},
+            section=_FORMAT,
+            rare=True,
+            formats=("double",),
+        ),
+    ] = "half shift"
+    drops: Annotated[
+        str,
+        Field(
+            Choice(
+                {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
+            ),
+            "Where losers of the winners' side drop to, in a double elimination or in pods.",
+            metavar="NAME",
+            label=say("Where losers of the winners' side drop to"),
+            titles={
+                "fewest-rematches": say("Fewest rematches"),
+                "usual": say("As in most programs"),
+                "straight": say("Straight across"),
+            },
+            section=_FORMAT,
+            rare=True,
+            formats=("double", "pods"),
+            more="`fewest-rematches`, `usual` (as most programs do) or `straight`.",
+        ),
+    ] = "fewest rematches"
+    groups: Annotated[
+        Few | None,
+        Field(
+            _PLAYERS,
+            "The number of groups.",
+            usual="groups of 4, or of 3 and 4",
+            label=say("Number of groups (blank: groups of 3 and 4)"),
+            section=_FORMAT,
+            formats=("groups",),
+        ),
+    ] = None
+    pod_size: Annotated[
+        Few,
+        Field(
+            Choice({"4": 4, "8": 8, "16": 16}, "N"),
+            "The lines of a pod: 4, 8 or 16.",
+            label=say("Players in a pod"),
+            section=_FORMAT,
+            formats=("pods",),
+        ),
+    ] = 8
+    rounds: Annotated[
+        Few | None,
+        Field(
+            _PLAYERS,
+            "The rounds of a Swiss.",
+            usual="as many as a single elimination has",
+            label=say("Rounds of a Swiss (blank: as many as in a single elimination)"),
+            section=_FORMAT,
+            formats=("swiss",),
+        ),
+    ] = None
+    losers_race: Annotated[
+        Race | None,
+        Field(
+            _RACE,
+            "Races on the losers' side, and in a consolation event.",
+            usual="as the others",
+            label=say("Race on the losers' side (blank: the same)"),
+            section=_RACES,
+            formats=("double", "pods", "consolation"),
+        ),
+    ] = None
+    final_race: Annotated[
+        Race | None,
+        Field(
+            _RACE,
+            "Races of the final, and of a second final.",
+            usual="as the others",
+            label=say("Race in the final (blank: the same)"),
+            section=_RACES,
+            formats=("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
+        ),
+    ] = None
