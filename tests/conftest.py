@@ -2,6 +2,7 @@
 
 import os
 import signal
+from collections import Counter
 
 import pytest
 from hypothesis import is_hypothesis_test, settings
@@ -22,7 +23,8 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 @pytest.hookimpl(tryfirst=True)  # before marks select
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what is thorough as slow, and what is drawn at random as such."""
+    """Mark what follows from other marks, and what is drawn at random."""
+    rows = Counter[tuple[str, str]]()
     for item in items:
         if item.get_closest_marker("thorough"):
             item.add_marker("slow")
@@ -30,3 +32,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             continue
         if hasattr(item.module, "tries") or is_hypothesis_test(item.obj):
             item.add_marker("drawn")
+        if mark := item.get_closest_marker("slow_after"):
+            test = (item.parent.nodeid if item.parent else "", item.originalname)
+            if rows[test] >= mark.args[0]:
+                item.add_marker("slow")
+            rows[test] += 1

@@ -129,6 +129,7 @@ def test_the_page_has_a_section_for_each_kind() -> None:
     assert set(SECTIONS) == {"Add a game", "Add a chart", "Add a handicap system"}
 
 
+@pytest.mark.slow
 def test_what_there_was_still_holds(followed: Followed) -> None:
     assert followed.count("test_layers") > 50
     assert followed.count("test_lazy") > 5
@@ -142,6 +143,7 @@ def test_a_game(followed: Followed) -> None:
     assert followed.checkout.run("-c", code) == f"{place}/src/evenbreak/games/__init__.py 2\n"
 
 
+@pytest.mark.slow
 def test_a_chart(followed: Followed) -> None:
     assert followed.count("example_7") > 2
     shown = followed.checkout.asks("chart list")
@@ -149,6 +151,7 @@ def test_a_chart(followed: Followed) -> None:
     assert '"example_7"' in followed.checkout.asks("ladder --chart example_7 --json")
 
 
+@pytest.mark.slow
 def test_a_system(followed: Followed) -> None:
     assert followed.count("test_systems", "shutout") > 5
     assert '"shutout"' in followed.checkout.asks("ladder --system shutout --json")

@@ -33,6 +33,13 @@ PACKAGES = (
 )
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 LONG_NUMBER = re.compile(r"\d*\.\d{12,}(e-?\d+)?")
+GOLDEN = {
+    " ".join(line.split()).removeprefix("$ "): answer
+    for path in sorted((ROOT / "tests" / "golden").glob("*.txt"))
+    for line, _, answer in [path.read_text(encoding="utf-8").partition("\n")]
+}
+"""The text of an answer, by its command."""
+
 FENCE = re.compile(r"^```(?P<language>[^\n`]*)\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -107,18 +114,44 @@ def shortened(text: str) -> str:
     return LONG_NUMBER.sub(lambda number: f"{float(number[0]):.12g}", text.rstrip()) + "\n"
 
 
+def words_of(command: str) -> str:
+    """Return a command in one line, its words parted by one blank."""
+    return " ".join(command.replace("\\\n", " ").split())
+
+
+def console_examples(page: Path, *, kept: bool) -> Iterator[tuple[str, str, str]]:
+    """Yield place, command and output of the examples whose answer is kept in `golden`, or not."""
+    for block in blocks(page.read_text(encoding="utf-8")):
+        for command, wanted in commands_of(block.body) if block.language == "console" else ():
+            # An answer that is kept is without what goes to stderr.
+            warns = re.search(r"^(Warning|Note): ", wanted, re.MULTILINE)
+            if (words_of(command) in GOLDEN and not warns) is kept:
+                yield f"{name_of(page)}:{block.line}", command, wanted
+
+
+def differs(wanted: str, got: str) -> bool:
+    return not doctest.OutputChecker().check_output(shortened(wanted), shortened(got), FLAGS)
+
+
+def test_examples_whose_answers_are_kept_show_them() -> None:
+    """`test_faces.py` asks these, so that they need not be asked here again."""
+    examples = [one for page in PAGES for one in console_examples(page, kept=True)]
+    assert len(examples) > 30
+    wrong = [
+        f"{place}: $ {command}\n{GOLDEN[words_of(command)]}"
+        for place, command, wanted in examples
+        if differs(wanted, GOLDEN[words_of(command)])
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.slow
 @pytest.mark.usefixtures("desk")
 @pytest.mark.parametrize("page", pages_with("console"), ids=name_of)
 def test_console_examples(page: Path) -> None:
-    checker = doctest.OutputChecker()
-    for block in blocks(page.read_text(encoding="utf-8")):
-        if block.language != "console":
-            continue
-        for command, wanted in commands_of(block.body):
-            got = on_a_terminal(command)
-            assert checker.check_output(shortened(wanted), shortened(got), FLAGS), (
-                f"{name_of(page)}:{block.line}: $ {command}\n{got}"
-            )
+    for place, command, wanted in console_examples(page, kept=False):
+        got = on_a_terminal(command)
+        assert not differs(wanted, got), f"{place}: $ {command}\n{got}"
 
 
 def test_readme_begins_with_the_two_commands_that_set_up() -> None:

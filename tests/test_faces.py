@@ -165,6 +165,13 @@ ASKED = {
 }
 """A question for each command, and for each kind of answer that it has."""
 
+SLOW = (
+    *("graph_ladder", "lineup", "graph_race", "matchups_both", "report_lengths", "rate_asked"),
+    *("why_begin", "why", "simulate", "tournament_odds_large", "caps", "ladder_drift"),
+    *("validate_prior", "rate_pair", "ladder_compare"),
+)
+"""Questions that take long, beside a quicker one of the same command or kind."""
+
 NO_PAGE = ("report", "matchups", "reproduce", "graph")
 """Commands without --html, or whose --html writes another page; theirs is made from the answer."""
 
@@ -280,7 +287,10 @@ def command_of(name: str) -> str:
     return " ".join(words[: 2 if isinstance(command, click.Group) else 1])
 
 
-@pytest.fixture(scope="module", params=ASKED)
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in ASKED],
+)
 def faces(request):
     """The answer to one question, asked once."""
     return faces_of(request.param)

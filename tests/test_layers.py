@@ -194,6 +194,7 @@ def circles(modules: dict[str, ast.Module]) -> list[list[str]]:
     return [sorted(circle) for circle in found if len(circle) > 1]
 
 
+@pytest.mark.slow
 def test_no_modules_import_each_other() -> None:
     modules = {
         ".".join(("evenbreak", *module_of(path))).removesuffix(".__init__"): ast.parse(
@@ -317,6 +318,7 @@ def test_starting_up_loads_nothing_heavy(statement: str) -> None:
     assert modules_loaded_by(statement) & heavy == set()
 
 
+@pytest.mark.slow
 def test_the_page_starts_without_what_only_leagues_need() -> None:
     heavy = {"pandas", "networkx", "matplotlib", "scipy.optimize", "scipy.stats"}
     assert modules_loaded_by("import evenbreak.web.app") & heavy == set()

@@ -15,6 +15,7 @@ from places import SRC
 STUBS = sorted(SRC.rglob("__init__.pyi"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", ["evenbreak.ratings.fit", "evenbreak.ratings"])
 def test_a_function_wins_over_the_module_of_its_name(first: str) -> None:
     code = f"import {first}\nfrom evenbreak.ratings import fit\nprint(callable(fit))"

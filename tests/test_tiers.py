@@ -7,7 +7,7 @@ from itertools import product
 import pytest
 
 from places import ROOT
-from tiers import SHARES, examples, slow_after
+from tiers import SHARES, examples
 
 RULES = {"parametrize", "skipif", "skip", "xfail", "usefixtures", "filterwarnings"}
 """Marks of pytest that take no test out of a run without a word."""
@@ -83,14 +83,12 @@ def test_marks_choose_a_tier_or_come_from_pytest() -> None:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "pytest.mark":
                 used.add(node.attr)
-    assert used <= RULES | {"slow", "thorough"}
+    assert used <= RULES | {"slow", "slow_after", "thorough"}
 
 
-@pytest.mark.parametrize(
-    "row", [1, (1, 2), pytest.param(1, id="one"), pytest.param(1, marks=pytest.mark.slow)]
-)
-def test_only_rows_after_the_first_ones_are_slow(row: object) -> None:
-    first, second = slow_after(1, [row, row])
-    assert first is row
-    assert "slow" in {mark.name for mark in second.marks}
-    assert second.values == pytest.param(*(row if isinstance(row, tuple) else (1,))).values
+@pytest.mark.slow_after(2)
+@pytest.mark.parametrize("row", [(k, name) for k in range(2) for name in "ab"])
+def test_rows_after_the_first_ones_are_slow(
+    row: tuple[int, str], request: pytest.FixtureRequest
+) -> None:
+    assert (request.node.get_closest_marker("slow") is not None) == (row[0] > 0)

@@ -6,14 +6,11 @@
 | CI | `.ci/run` | `slow` too |
 | release | `make thorough` | `thorough`; and whatever is `drawn` at random, with more of each |
 
+Of a parametrized test marked `slow_after(n)`, the first n rows stand for the rest, which are slow.
 EVENBREAK_TIER is `first` unless a command says `ci` or `thorough`.
 """
 
 import os
-from collections.abc import Iterable
-from typing import Any
-
-import pytest
 
 SHARES = {"first": 0.4, "ci": 1.0, "thorough": 20.0}
 """How many examples a tier makes, to one of CI."""
@@ -28,18 +25,3 @@ def examples(usual: int) -> int:
     True
     """
     return max(3, round(SHARE * usual))
-
-
-def slow_after(count: int, rows: Iterable[Any]) -> list[Any]:
-    """Mark all rows of a parametrized test slow but the first ones, which stand for them.
-
-    >>> [bool(getattr(row, "marks", ())) for row in slow_after(1, ["a", "b"])]
-    [False, True]
-    """
-    return [row if k < count else _slow(row) for k, row in enumerate(rows)]
-
-
-def _slow(row: Any) -> Any:
-    if hasattr(row, "marks"):
-        return row._replace(marks=(*row.marks, pytest.mark.slow))
-    return pytest.param(*(row if isinstance(row, tuple) else (row,)), marks=pytest.mark.slow)

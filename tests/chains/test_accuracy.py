@@ -68,6 +68,7 @@ def exact(chain: Chain, start: int) -> list[Fraction]:
     return oracle.limit(oracle.columns_of(chain), {chain.index(start): ONE})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(6))
 def test_random_chains(block: int) -> None:
     worst = 0.0
@@ -80,6 +81,7 @@ def test_random_chains(block: int) -> None:
     assert worst <= TOLERANCE
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("block", range(3))
 def test_absorption_and_visits_of_random_chains(block: int) -> None:
     worst = 0.0
@@ -415,6 +417,7 @@ def random_tree(
     return chain, in_order(chain, [x / total for x in law])
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("decades", [10, 60, 300])
 @pytest.mark.parametrize("reach", [1, 4], ids=["line", "tree"])
 @pytest.mark.parametrize("n", [40, 150])

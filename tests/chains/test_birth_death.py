@@ -31,6 +31,7 @@ def random_line(draw):
     return Chain(range(n), csc_array(matrix), 0)
 
 
+@pytest.mark.slow_after(50)
 @pytest.mark.parametrize("seed", range(80))
 def test_limit_from_every_state(seed):
     chain = random_line(random.Random(seed))
@@ -44,6 +45,7 @@ def test_limit_from_every_state(seed):
         assert limit.period == max(oracle.period(chain, states) for states in reached)
 
 
+@pytest.mark.slow_after(55)
 @pytest.mark.parametrize("seed", range(80))
 def test_limits_from_all_states_at_once(seed):
     chain = random_line(random.Random(seed))
@@ -63,6 +65,7 @@ def ruin(n, p):
     return chain_from_arrays(range(n + 1), sources, targets, np.repeat([p, 1 - p], n - 1))
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("p", [0.5, 0.4921875, 0.1015625])  # p and 1 - p are exact floats
 def test_ruin_from_every_stake(p):
     n = 1_000

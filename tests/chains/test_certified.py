@@ -53,6 +53,7 @@ def error(found, right):
     return max(float(abs(Fraction(x) / y - 1)) for x, y in pairs)
 
 
+@pytest.mark.slow
 @BOTH
 def test_every_entry_is_within_its_bound(factored):
     refused, least = 0, 1.0
@@ -101,6 +102,7 @@ def test_a_wrong_answer_is_never_within_its_bound(monkeypatch, factored):
             assert error(x[:, 0], right) <= solve.error
 
 
+@pytest.mark.slow_after(13)
 @BOTH
 @pytest.mark.parametrize("good", range(1, 9))
 def test_a_correction_that_makes_an_answer_worse_is_not_returned(monkeypatch, factored, good):

@@ -17,6 +17,7 @@ def dense(size, decades, seed=1):
     return chain_of(P / P.sum(axis=1, keepdims=True), rows="from", start=0)
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("decades", [1, 14, 60])
 @pytest.mark.parametrize("size", [2, 5, 30])
 def test_every_entry_is_right(monkeypatch, size, decades):

@@ -62,6 +62,7 @@ def compare(game_of: Callable[..., Any], *, within: float = 1e-14, **chances: An
         assert set(limit.states) <= set(found.states)
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_game_of_the_catalogue_has_its_own_limits_edges_included(name: str) -> None:
     compare(lambda p1, p2: kind(p1, p2, CATALOGUE[name]), p1=SIDE[:, None], p2=SIDE)
@@ -74,6 +75,7 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(families, "_BATCH", 50)
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.usefixtures("short")
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_what_is_repeated_is_what_would_have_been_done(name: str) -> None:
@@ -174,6 +176,7 @@ class Moody:
         return {"won": 1, "lost": 2}.get(state)
 
 
+@pytest.mark.slow_after(9)
 @pytest.mark.parametrize(
     "way",
     [

@@ -49,6 +49,7 @@ def test_drawn_chances_have_the_moments_of_a_dirichlet_law() -> None:
     assert drawn.var(axis=0) == pytest.approx(variance, rel=0.12)
 
 
+@pytest.mark.slow
 def test_the_spread_of_a_limit_covers_the_truth() -> None:
     """The truth lies within two standard deviations in about 95% of 60 experiments."""
     truth = Chain("ab", np.array([[0.75, 0.5], [0.25, 0.5]]), "a")

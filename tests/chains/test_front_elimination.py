@@ -44,6 +44,7 @@ def of_kind(kind, rng):
     return csc_array(np.roll(ring, 1, axis=0) * 0.9 + np.roll(ring, 7, axis=0) * 0.05)
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize("small", [True, False])
 @pytest.mark.parametrize("kind", ["grid", "dense", "one direction"])
 def test_equal_to_plain_elimination(monkeypatch, kind, small):

@@ -31,6 +31,7 @@ def part(n, draw, common):
     return arcs, leaks
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("common", COMMON, ids=["1", "97", "decimals", "subnormal"])
 def test_both_solves_agree_with_elimination(common):
     for seed in range(tries("exact systems", 3, parts=len(COMMON))):

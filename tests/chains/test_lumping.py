@@ -159,6 +159,7 @@ def test_fractions_are_kept() -> None:
     assert stochastic_limit(two, exact=True)["ab"] == Fraction(3, 10)
 
 
+@pytest.mark.slow
 def test_a_long_ring_of_twins() -> None:
     """Around 3,000 places in two lanes, with one end: the lanes are one, the places are not."""
     n = 3000

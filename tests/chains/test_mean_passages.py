@@ -76,6 +76,7 @@ def exact_means(columns: oracle.Columns, target: int) -> list[Fraction | None]:
     return [found.get(j) for j in range(len(columns))]
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("few", [1, 2, 3, 16])
 def test_random_chains_against_fractions(few: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Rare steps, blocks that hardly mix, periods, several ends; halved down to `few` states."""

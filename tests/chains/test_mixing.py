@@ -95,6 +95,7 @@ class TestGap:
         gap = spectral_gap(chain_from_arrays(list(range(n)), j, i, M[i, j]))
         assert 0.4 < gap < 0.8
 
+    @pytest.mark.slow_after(1)
     @pytest.mark.parametrize(("period", "size"), [(1, 40), (2, 40), (7, 30), (2, 600), (20, 60)])
     def test_what_goes_round_settles_as_a_whole_period_does(self, period, size):
         """From each state to three of the next phase: M^d is within one of the phases."""

@@ -66,6 +66,7 @@ def eigenpairs_in_extended_precision(chain: Chain) -> tuple[mpmath.matrix, mpmat
         return mpmath.eigsy(S)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "chain",
     [walk(41, 30.0), walk(41, 2.0), *(chain_of(Ladder(chart(c), widest=15)) for c in CHARTS)],
@@ -103,6 +104,7 @@ def test_the_national_pool_leagues_ladders(name: str) -> None:
     np.testing.assert_allclose(np.sort(found.values), values, rtol=0, atol=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "points", "widest"),
     [*((name, 30, 60) for name in CHARTS), ("npl_20", 120, 960)],

@@ -59,6 +59,7 @@ CHAINS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", CHAINS)
 @pytest.mark.parametrize("weights", [{"W": 1}, {"W": 2, "L": -3}])
 def test_exact(name, weights):
@@ -142,6 +143,7 @@ def value(n, j, i, p, c):
     return stochastic_limit(chain_from_arrays(list(range(n)), j, i, p), 0).probability @ c
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(50), deadline=None)
 @given(problems())
 def test_central_differences(problem):

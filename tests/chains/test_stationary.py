@@ -30,6 +30,7 @@ def two_step_walk(n, up, down, shuffle):
     return Chain(range(n), matrix, 0), np.argsort(place)
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("plain", [True, False])
 @pytest.mark.parametrize("shuffle", range(4))
 @pytest.mark.parametrize("shape", ["slope", "hill", "valley", "cliffs"])

@@ -64,6 +64,7 @@ def test_a_state_with_many_arcs(count: int) -> None:
     assert math.fsum(propagate(chain)) == pytest.approx(1.0, abs=1e-15)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(("count", "back"), [(20_000, 0.0), (200_000, 0.0), (20_000, 0.25)])
 def test_a_state_with_many_arcs_into_it(count: int, back: float) -> None:
     """From s to `count` states, from each of these to t or back to s."""

@@ -79,6 +79,7 @@ AHEAD = {
 }
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("needed", AHEAD)
 def test_n_ahead(needed):
     """P5.27: the five ratios of polynomials."""

@@ -128,6 +128,7 @@ def exact_limit_of(chain: Chain, density: np.ndarray) -> list[Fraction]:
     return mass
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("breaks", [None, *BREAK_FORMATS])
 def test_a_race_to_150_is_answered_and_its_bound_does_not_grow(breaks) -> None:
     rack = Rack(0.55) if breaks is None else Rack(0.55, 0.5)

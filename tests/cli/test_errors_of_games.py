@@ -57,6 +57,7 @@ def run(words: str) -> Any:
     return json.loads(result.stdout)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_games_mean_the_same_error_in_every_command(tmp_path: Path, command: str) -> None:
     by_games = run(f"{command} --json".format(**written(tmp_path, "games", GAMES)))
@@ -65,6 +66,7 @@ def test_games_mean_the_same_error_in_every_command(tmp_path: Path, command: str
     assert numbers(by_games) == pytest.approx(numbers(by_errors), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_rating_without_a_number_of_games_is_none_that_rests_on_any_number(
     tmp_path: Path, command: str

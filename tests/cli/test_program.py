@@ -50,6 +50,7 @@ def test_help_imports_no_command():
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "content", "needed"),
     [
@@ -222,6 +223,7 @@ def test_python_m_runs_no_code_of_the_working_folder(tmp_path):
     assert "run" not in done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize(
@@ -237,6 +239,7 @@ def test_closed_streams_are_no_bug(tmp_path, words, closed):
         assert (tmp_path / "d.svg").read_bytes().endswith(b"</svg>\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "value"),
     [
@@ -258,6 +261,7 @@ def test_a_working_folder_that_is_gone_does_not_matter(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.slow
 def test_somebodys_matplotlibrc_changes_nothing(tmp_path):
     words = ("drill", "--p", "0.8", "--plot", "d.svg", "--text")
     pictures = []
@@ -269,6 +273,7 @@ def test_somebodys_matplotlibrc_changes_nothing(tmp_path):
     assert pictures[0] == pictures[1]
 
 
+@pytest.mark.slow
 def test_a_matplotlibrc_that_is_no_text_is_one_line(tmp_path):
     (tmp_path / "matplotlibrc").write_bytes(b"\xff\xfe")
     done = run_program("drill", "--p", "0.8", "--plot", "d.svg", "--text", cwd=tmp_path)
@@ -277,6 +282,7 @@ def test_a_matplotlibrc_that_is_no_text_is_one_line(tmp_path):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_a_reader_that_leaves_is_not_an_error(tmp_path):
     arcs = tmp_path / "arcs.csv"
     rows = (f"{i},{i + 1},1\n" for i in range(20_000))
@@ -300,12 +306,14 @@ def test_a_full_disk_is_one_line():
     assert done.stderr == "Error: standard output: No space left on device\n"
 
 
+@pytest.mark.slow
 def test_module_runs_as_a_program():
     done = run_program("chain", "-", input=ARCS)
     assert done.returncode == 0
     assert done.stdout == "state,probability\nS,0.0\nW,0.6\nL,0.4\n"
 
 
+@pytest.mark.slow
 def test_output_is_utf_8_in_any_locale():
     arcs = ARCS.replace("W", "Ærø")
     done = run_program(

@@ -46,6 +46,7 @@ def numbers(value):
         yield value
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("via", WAYS)
 @pytest.mark.parametrize("line", COMMANDS)
 def test_the_answer_is_the_same_by_every_way(ask, line, via) -> None:

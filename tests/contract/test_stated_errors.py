@@ -196,6 +196,7 @@ def figures(name: str, folder: Path) -> list[Figures]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_seeds_differ_by_the_error_stated(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

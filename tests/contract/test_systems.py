@@ -175,6 +175,7 @@ def test_a_rating_error_has_a_law_about_zero_where_the_system_is_conserving(syst
         assert law.mean > 1.0
 
 
+@pytest.mark.slow_after(4)
 @systems
 def test_the_law_of_a_ladder_is_the_limit_of_the_tables_moves(system):
     """A second route: many steps of the chain that the table's moves and chances make."""

@@ -172,6 +172,7 @@ def loaded(group: click.Group) -> click.Group:
     )
 
 
+@pytest.mark.slow_after(12)
 @pytest.mark.parametrize("line", [line for lines in LINES.values() for line in lines])
 def test_a_list_of_fargo_ratings_is_read_as_that_or_refused(
     line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

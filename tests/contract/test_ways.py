@@ -68,6 +68,7 @@ def test_a_match_of_the_catalogue(match, via) -> None:
             assert getattr(found, name) == pytest.approx(value, rel=EXACT, abs=EXACT), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("via", ROADS)
 @given(
     p=CHANCES, q=CHANCES, breaks=st.sampled_from([*BREAK_FORMATS]), first=st.sampled_from([1, 2])
@@ -87,6 +88,7 @@ def test_matches_of_any_players(via, p, q, breaks, first) -> None:
     assert found == pytest.approx(share, rel=0, abs=EXACT)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("via", ROADS)
 @given(p=CHANCES, q=CHANCES)
 @settings(max_examples=examples(40), deadline=None)
@@ -117,6 +119,7 @@ def test_shots_break_formats_and_drills(via) -> None:
         )
 
 
+@pytest.mark.slow_after(7)
 @pytest.mark.parametrize("via", ROADS)
 @pytest.mark.parametrize(
     "ladder",

@@ -33,6 +33,7 @@ def chain_in(file: ArcsFile, start: str | None) -> Chain:
     )
 
 
+@pytest.mark.slow_after(15)
 @pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
 @pytest.mark.parametrize("form", ["graphml", "json", "mtx"])
 def test_the_limit_is_the_same_when_read_back(tmp_path, game: Game, form: str) -> None:

@@ -53,6 +53,7 @@ def test_a_file_of_the_reader_is_never_replaced(tmp_path: Path, name: str) -> No
     assert (tmp_path / name).read_text() == "player\nAnn Lee\n"
 
 
+@pytest.mark.slow
 def test_the_commands_work_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))

@@ -168,6 +168,7 @@ def test_these_files_are_read(good: dict[str, str], tmp_path: Path) -> None:
         (tmp_path / "out.db").unlink(missing_ok=True)
 
 
+@pytest.mark.slow
 def test_a_tampered_file_is_read_or_refused_in_words(good: dict[str, str], tmp_path: Path) -> None:
     for seed in range(TAMPERED):
         luck = random.Random(seed)

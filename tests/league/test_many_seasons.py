@@ -92,6 +92,7 @@ def one_match(season: Season, before: tuple, law: dict, pair: tuple[int, int]) -
     return after
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize("play", ["matches", "racks"])
 @pytest.mark.parametrize(
     ("system", "by", "played"),
@@ -164,6 +165,7 @@ def spread_of_many(start: dict[int, float], weeks: int, since: int) -> float:
     return float(np.sqrt(np.mean(variances[since - 1 :])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("odd", "known"), [(True, 4.417), (False, 4.305)], ids=["both parities", "one parity"]
 )
@@ -351,6 +353,7 @@ def test_chunks_fit_the_cache_and_there_are_many_batches() -> None:
     assert batching_of(dataclasses.replace(season, weeks=10_000), 2000) == (100, 1)
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("play", ["matches", "racks"])
 @pytest.mark.parametrize("schedule", [RandomPairing(2), RoundRobin(7), None])
 def test_batches_side_by_side_are_leagues_of_their_own(play: str, schedule) -> None:

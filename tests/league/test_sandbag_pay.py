@@ -40,6 +40,7 @@ def wins_to_come(error, matches):
     )
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(("dumped", "start"), [(0, 0), (3, -4), (7, 2), (9, 0)])
 def test_extra_wins_are_those_of_the_tree(dumped, start):
     row = sandbagging(ladder(), dumped=dumped, earnest=12, start=start).rows[dumped]
@@ -48,6 +49,7 @@ def test_extra_wins_are_those_of_the_tree(dumped, start):
     assert row.given_away == pytest.approx(wins_to_come(start, dumped), abs=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(25), deadline=None)
 @given(st.sampled_from(NPL), st.integers(1, 25), st.integers(1, 60), st.integers(-6, 6))
 def test_at_equal_stakes_it_never_pays(name, dumped, earnest, start):
@@ -84,6 +86,7 @@ def test_profit_is_its_parts():
     assert found.best.profit == max(row.profit for row in found.rows)
 
 
+@pytest.mark.slow
 def test_a_law_of_errors_to_begin_with():
     law = ladder().law()
     found = sandbagging(ladder(), dumped=5, earnest=10, start=law)

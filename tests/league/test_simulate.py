@@ -46,6 +46,7 @@ def alone(small_chunks):  # noqa: ARG001
     return simulate(SEASON, replicas=205, seed=3)
 
 
+@pytest.mark.slow
 def test_the_bytes_do_not_depend_on_the_number_of_jobs(alone):
     assert as_bytes(simulate(SEASON, replicas=205, seed=3, jobs=3)) == as_bytes(alone)
 

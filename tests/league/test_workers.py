@@ -131,6 +131,7 @@ def alive(pid):
     return bool(state.stdout.strip()) and not state.stdout.startswith("Z")
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.skipif(not shutil.which("ps"), reason="who is alive is asked of ps")
 @pytest.mark.parametrize(("sign", "pause"), [("SIGINT", 0.0), ("SIGINT", 1.5), ("SIGKILL", 1.5)])
 def test_workers_end_with_their_parent(tmp_path, sign, pause):
@@ -227,6 +228,7 @@ def test_an_error_of_the_task_comes_through_a_cluster(client):
         list(in_order(operator.truediv, 1, [1, 0], executor=client))
 
 
+@pytest.mark.slow
 def test_a_league_comes_to_the_same_bytes_although_a_worker_is_killed(cluster, client):
     season = Season(LeaguePlayers.of(range(40, 104)), "npl", schedule=RandomPairing(), weeks=30)
     alone = simulate(season, replicas=4_000, seed=5)

@@ -76,6 +76,7 @@ def score_of(lead: int) -> tuple[int, int]:
     return max(lead, 0), max(-lead, 0)
 
 
+@pytest.mark.slow_after(2)
 @FORMATS
 def test_chances_are_right_to_the_last_digits(breaks: Any) -> None:
     draw = random.Random(f"ahead {breaks.__name__}")
@@ -123,6 +124,7 @@ def test_long_matches_with_a_break_are_chains_of_short_ones(breaks: Any) -> None
         assert whole == pytest.approx(win_probability(parts), rel=1e-13, abs=0)
 
 
+@pytest.mark.slow
 def test_any_break_format_of_ones_own() -> None:
     p1, p2 = np.array([[0.25, 0.0, 1.0, 1.0], [0.625, 0.5, 1.0, 0.0]])
     for breaks, (m, n), first in product(ALL_FORMATS, [(1, 2), (3, 2)], (1, 2)):

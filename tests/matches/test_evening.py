@@ -29,6 +29,7 @@ APART = [(f"a{k}", f"b{k}") for k in range(8)]
 RACES = [(7, 5, 0.6), (5, 5, 0.5), (9, 4, 0.7), (3, 2, 0.55), (7, 7, 0.45), (6, 3, 0.62)]
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("tables", "pairs"), [(1, APART), (6, APART), (2, APART), (3, APART), (1, ROUND), (2, ROUND)]
 )
@@ -112,6 +113,7 @@ def test_laws_of_races_will_do():
     assert evening([length] * 50, "9-ball", tables=50).exact
 
 
+@pytest.mark.slow
 def test_many_tables_are_simulated():
     law = race_odds(9, 9, 0.5)
     answer = evening([law] * 40, "9-ball", tables=9)

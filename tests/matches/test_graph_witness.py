@@ -119,6 +119,7 @@ def deuce_states(win_by: int) -> list[tuple[int, int]]:
     return sorted({race.fold(a, b) for a, b in scores if race.decided(a, b) is None})
 
 
+@pytest.mark.slow_after(2)
 @FORMATS
 @pytest.mark.parametrize("win_by", [2, 3])
 def test_races_won_by_more_than_one(breaks: Any, win_by: int) -> None:
@@ -135,6 +136,7 @@ def test_races_won_by_more_than_one(breaks: Any, win_by: int) -> None:
             )
 
 
+@pytest.mark.slow_after(1)
 @FORMATS
 def test_ahead_in_a_break_format(breaks: Any) -> None:
     for total in range(2, 2 * MOST + 1):
@@ -181,6 +183,7 @@ def test_every_catalogued_match(match: Match) -> None:
     assert odds.games_p90 == length.quantile(0.9) == passage.quantile(0.9)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("first", [1, 2])
 @pytest.mark.parametrize("outer", [None, alternate_breaks])
 def test_matches_of_sets(outer: Any, first: int) -> None:

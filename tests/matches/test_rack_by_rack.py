@@ -43,6 +43,7 @@ def test_a_geometric_wait(trials: int, leave: float) -> None:
         assert racks_within(moves, asked, {}) == [trials + 1, trials + 1, 0]
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("states", [1, 1_500])
 def test_a_wait_of_a_million_racks(states: int) -> None:
     # -log(.5) / 1e-6 racks to get out of the last state, after one rack in each of the others.

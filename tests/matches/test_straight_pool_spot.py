@@ -10,6 +10,7 @@ from evenbreak.matches import StraightPool, even_points, even_spot, straight_poo
 from tiers import examples
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(25))
 @given(
     st.integers(1, 30),

@@ -29,6 +29,7 @@ def test_with_nothing_in_the_way_the_middle_of_the_mouth_is_played_at():
     assert found.shot.object_leg.pocket == "foot-left"
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("start", "standing", "name"),
     [
@@ -48,6 +49,7 @@ def test_a_ball_at_a_cushion_goes_along_it_into_the_corner(start, standing, name
     assert beside @ [pocket.into_x, pocket.into_y] == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_throw_into_the_cushion_needs_outside_english():
     blocked = at((20, 10), (50, FROZEN), "foot-right")
     assert (blocked.shot.reached, blocked.shot.approach.ending) == (False, "cushion")
@@ -68,6 +70,7 @@ def test_a_mouth_that_is_too_flat_is_played_at_in_its_middle():
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(5))
 @given(st.floats(20.0, 60.0), st.floats(0.0, 1.0), st.floats(2.0, 10.0))
 def test_left_and_right_are_mirror_images(x, off, gap):

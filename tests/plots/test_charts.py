@@ -55,6 +55,7 @@ def test_a_gap_breaks_the_curve():
     assert (x[gap - 1], x[gap + 1]) == (4.5, 6.5)
 
 
+@pytest.mark.slow
 def test_a_single_row_and_odd_names_draw():
     for name in ("_hidden", "$x", "two$of$them"):
         figure = chart_figure(audit(ChartDraft(name, (ChartRow(0, None, 5, 5),)), scale="npl"))

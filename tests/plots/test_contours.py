@@ -46,6 +46,7 @@ def test_p1_runs_along_x() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("P(one)", "P(two)")
 
 
+@pytest.mark.slow
 def test_the_main_line_alone_is_thick() -> None:
     assert [width > 1.5 for width in drawn(share)[1].get_linewidths()] == [
         level == 0.5 for level in TENTHS

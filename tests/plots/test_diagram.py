@@ -42,6 +42,7 @@ def arrows(figure: Figure) -> list[FancyArrowPatch]:
     return [patch for patch in figure.axes[0].patches if isinstance(patch, FancyArrowPatch)]
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("game", READABLE.values(), ids=READABLE)
 def test_every_state_and_arc_is_drawn(game: Game) -> None:
     graph = graph_of(game)
@@ -104,6 +105,7 @@ def test_ends_differ_without_colour() -> None:
     assert len(greys) == 3
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("game", READABLE.values(), ids=READABLE)
 def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> None:
     figure = draw(game)
@@ -114,6 +116,7 @@ def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> Non
     assert all(hypot(a[0] - b[0], a[1] - b[1]) > 0.1 for a, b in itertools.combinations(spots, 2))
 
 
+@pytest.mark.slow
 def test_files_are_the_same_to_the_byte() -> None:
     code = (
         "import sys\nfrom evenbreak.games import OneBallLookAhead\n"

@@ -21,6 +21,7 @@ from evenbreak.plots.practice_scores import plot_two_lists
 from evenbreak.practice import ShotChoice, drill_statistics
 
 
+@pytest.mark.slow
 def test_a_picture_shows_itself_where_pyplot_was_never_imported():
     code = (
         "import sys\n"
@@ -34,6 +35,7 @@ def test_a_picture_shows_itself_where_pyplot_was_never_imported():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     "plot",
     [

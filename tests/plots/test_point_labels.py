@@ -5,6 +5,7 @@ import pytest
 from evenbreak.plots.picture import mark_points, new_axes, unit_axis
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("x", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("y", [0.0, 0.5, 1.0])
 def test_a_name_stays_inside_the_square(x: float, y: float) -> None:

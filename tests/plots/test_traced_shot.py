@@ -115,6 +115,7 @@ def test_the_key_has_only_what_is_drawn_ghost_balls_as_they_are_drawn():
     assert len({one.get_edgecolor() for one in ghosts}) == 2
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("cut", [-1.2, -0.5, 0.0, 0.5, 1.2])
 def test_the_word_on_an_end_stands_on_the_cloth(cut):
     whole = shot_on_table(shot(strike_for_speed(3.0), cut, 24 * INCH)).axes[0]

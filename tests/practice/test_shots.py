@@ -171,6 +171,7 @@ def test_regions_are_those_of_p5_22(p1, p2, region):
 SHOTS = st.lists(st.builds(ShotChoice, st.text(max_size=3), INNER, INNER), min_size=2, max_size=5)
 
 
+@pytest.mark.slow
 @given(SHOTS, BOTH)
 def test_the_best_shot_comes_first(shots, look_ahead):
     ranked = compare_shots(shots, look_ahead=look_ahead)

@@ -14,6 +14,7 @@ def test_a_season_of_the_model_shows_no_advantage(plain):
     assert known_breaks(plain) == plain.games.sum()
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("breaks", [3, 1], ids=["alternate", "winner"])
 def test_the_advantage_of_the_breaker_is_found(play_season, breaks):
     forecasts = walk_forward(

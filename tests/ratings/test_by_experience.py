@@ -23,6 +23,7 @@ def test_weak_newcomers_win_less_than_predicted():
     assert groups[-1].stronger.low < 0.0 < groups[-1].stronger.high
 
 
+@pytest.mark.slow
 def test_a_league_without_the_effect_shows_none():
     far = [group for seed in range(6) for group in newest(0.0, seed)]
     out = [one for one in far if not one.stronger.low <= 0.0 <= one.stronger.high]

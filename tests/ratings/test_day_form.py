@@ -17,6 +17,7 @@ def found(form_sd, seed, **how):
     return day_form(season, fit(season, prior_sd=0.5, **how))
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("form_sd", [0.0, 0.5])
 def test_the_interval_covers_the_truth(form_sd):
     forms = [found(form_sd, seed) for seed in range(10)]

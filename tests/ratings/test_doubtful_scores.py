@@ -46,6 +46,7 @@ def of_dispersion(results: Results) -> int:
     return found.races
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("counted", [of_match_form, of_day_form, of_dispersion])
 def test_scores_that_can_hardly_be_games_do_not_count(counted: Callable[[Results], int]) -> None:
     assert doubtful_scores(season(POINTS)).sum() == POINTS

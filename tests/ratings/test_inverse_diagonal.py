@@ -54,6 +54,7 @@ def islands(_, players=500):
 LEAGUES = [mixed, divisions, thin, star, path, islands]
 
 
+@pytest.mark.slow_after(13)
 @pytest.mark.parametrize("league", LEAGUES)
 @pytest.mark.parametrize("row_sum", [1e-2, 1.0, 30.0])
 def test_every_kind_of_league_equals_the_dense_inverse(league, row_sum):

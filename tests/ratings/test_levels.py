@@ -104,6 +104,7 @@ def test_estimated_levels_cover_the_truth():
     assert 0.9 <= covered.mean() <= 0.99
 
 
+@pytest.mark.slow
 def test_the_real_part_of_stated_races_is_covered():
     found = [race_covered(seed, 1.0) for seed in range(2)]
     known = [one for one in found if one is not None]
@@ -111,6 +112,7 @@ def test_the_real_part_of_stated_races_is_covered():
     assert known
 
 
+@pytest.mark.slow
 def test_a_league_without_levels_is_not_made_worse():
     costs = [harm(seed)[0] for seed in range(2)]
     assert np.mean(costs) <= 0.0002

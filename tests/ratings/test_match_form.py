@@ -28,6 +28,7 @@ def form(form_sd, seed):
     return match_form(walk, walk.date_of, np.random.default_rng(1))
 
 
+@pytest.mark.slow
 def test_the_variance_is_near_the_truth():
     for form_sd in (0.0, 0.5):
         found = [form(form_sd, seed).variance for seed in range(4)]

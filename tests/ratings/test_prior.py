@@ -25,6 +25,7 @@ def season(spread, rng, players=30, days=40, a_day=12):
     return Results(names, a, b, won, 9 - won, date=date)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("spread", [0.2, 0.7, 2.0])
 def test_the_width_is_near_the_one_that_skills_were_drawn_with(spread):
     choice = best_prior(season(spread, np.random.default_rng(1)))
@@ -127,6 +128,7 @@ def test_forfeits_need_no_day():
     assert best_prior(results).predicted == 12
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season():
     choice = best_prior(read_results(SEASON).results)

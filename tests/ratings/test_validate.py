@@ -31,6 +31,7 @@ def found():
     return validate(season(0.6))
 
 
+@pytest.mark.slow
 def test_the_prior_is_about_the_spread_of_the_skills(found):
     assert 0.4 < found.prior_sd < 0.9
     assert found.choice == best_prior(season(0.6))
@@ -43,6 +44,7 @@ def test_a_notebook_shows_it_in_a_line(found):
     assert f"{len(found.forecasts):,}" in repr(found)
 
 
+@pytest.mark.slow
 def test_undated_and_unscored_matches_count_as_they_do_for_the_best_prior():
     results = season(0.6, matches=300)
     dates = results.date.copy()

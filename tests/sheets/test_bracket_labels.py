@@ -82,6 +82,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("form", "count", "results", "plan"), CASES)
 def test_every_label_is_whole_and_has_its_own_place(form, count, results, plan):
     players = names(count, 40)
@@ -135,6 +136,7 @@ def apart(found):
             assert low >= top - SLACK or high <= bottom + SLACK, (text, other)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("count", [8, 16, 19])
 def test_usual_names_are_readable_on_the_paper_of_a_bar(count):
     players = [f"{FIRST[k % 6]} {LAST[(k // 6) % 5]}" for k in range(count)]

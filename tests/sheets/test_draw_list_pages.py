@@ -8,6 +8,7 @@ import pytest
 from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(("players", "pages"), [(1, 1), (16, 1), (36, 1), (37, 2), (64, 2)])
 def test_everybody_has_a_line(players, pages):
     listed = [FirstMatch(f"Player {k}", k, f"W1.{k}", "Bo", None) for k in range(1, players + 1)]

@@ -52,6 +52,7 @@ def races_on(page: Figure) -> dict[tuple[str, str], str]:
     return found
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("players", [2, 10, 25])
 def test_every_race_stands_in_the_row_and_column_of_its_players(players):
     pages, sheet = pages_of(league(players))
@@ -108,6 +109,7 @@ def test_bars_are_two_standard_errors_either_way():
         assert end - dot == pytest.approx(2 * error * inch, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_more_players_than_paper_holds_are_counted(monkeypatch):
     monkeypatch.setattr("evenbreak.sheets.pdf_sheet.MOST_ON_SHEET", 48)
     pages, _ = pages_of(league(50), top=49)
@@ -154,6 +156,7 @@ UNUSUAL_NAMES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("season", "options"),
     [

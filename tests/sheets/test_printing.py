@@ -52,6 +52,7 @@ def heights(content):
     return len(set(re.findall(rb"1 0 0 -1 [-\d.]+ ([-\d.]+) Tm", content)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("paper", ["Letter", "A4"])
 @pytest.mark.parametrize("matches", [4, 12])
 def test_a_list_of_matches(tmp_path, matches, paper):
@@ -61,12 +62,14 @@ def test_a_list_of_matches(tmp_path, matches, paper):
     assert last >= FEWEST_LINES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [round_html(round_of()), sheet_html(sheet_of(league(9)))])
 def test_all_pairs(tmp_path, page):
     *_, last = lines_printed(page, tmp_path, "Letter")
     assert last >= FEWEST_LINES
 
 
+@pytest.mark.slow
 def test_a_short_list_is_one_sheet(tmp_path):
     page = round_html(round_of(pairs=[[0, 1], [2, 3]] * 4, **TIMED))
     assert len(lines_printed(page, tmp_path, "Letter")) == 1

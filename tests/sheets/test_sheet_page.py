@@ -94,6 +94,7 @@ def races_on(page):
     return found
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("players", [2, 25])
 def test_every_race_stands_in_the_row_and_column_of_its_players(players):
     page, sheet = page_of(league(players))
@@ -173,6 +174,7 @@ def test_the_same_input_gives_the_same_bytes(three):
     assert sheet_html(sheet) == sheet_html(sheet_of(league(("Ann", "Bo", "Cy"))))
 
 
+@pytest.mark.slow
 def test_names_are_text_whatever_they_look_like():
     page, _ = page_of(league(HOSTILE))
     names = {element["text"] for element in page.all("bdi")}
@@ -181,6 +183,7 @@ def test_names_are_text_whatever_they_look_like():
     assert not page.all("img")
 
 
+@pytest.mark.slow
 @given(st.text(min_size=1, max_size=30).filter(lambda name: name.strip() == name and name != "Bo"))
 @settings(max_examples=examples(15))
 def test_any_name_stays_one_name(name):

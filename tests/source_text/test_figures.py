@@ -61,6 +61,7 @@ def test_a_sketch_says_that_it_is_one(name):
     assert "sketch" in caption(name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["figure_5_11", "figure_5_5", "figure_3_3"])
 def test_a_readers_own_settings_do_not_change_a_figure(name):
     draw = figures()[name]
@@ -82,6 +83,7 @@ def boxes(axes, room=0.0):
     return [box.padded(room) for box in found]
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize("name", [*PLOTS, *SKETCHES])
 def test_no_two_names_touch(name):
     drawn = figure(name)
@@ -92,6 +94,7 @@ def test_no_two_names_touch(name):
             assert not any(box.overlaps(other) for other in found[here + 1 :])
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("name", ["figure_3_1", "figure_3_4", "figure_4_5", "figure_5_1"])
 def test_no_name_lies_on_a_curve_or_leaves_its_panel(name):
     drawn = figure(name)

@@ -25,6 +25,7 @@ def test_everything_is_written(files):
     assert all(files.values())
 
 
+@pytest.mark.slow
 def test_another_process_writes_the_same_bytes(files):
     tables = {**section_5_tables(), **physics_tables(), **game_tables()}
     assert [name for name in tables if csv_bytes(tables[name]) != files[f"{name}.csv"]] == []

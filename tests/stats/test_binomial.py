@@ -148,6 +148,7 @@ class TestLaws:
         mirrored = GamesWon(games, 1 - Fraction(str(p)))
         assert law.at_least(n) == mirrored.cumulative(games - n)
 
+    @pytest.mark.slow_after(1)
     @pytest.mark.parametrize(
         ("games", "p"), [(120, 0.52), (500, 0.01), (500, 0.99), (1000, 0.3), (40, 1e-9)]
     )

@@ -131,6 +131,7 @@ def test_effect_of_known_lists():
     assert (found.effect.low, found.effect.high) == pytest.approx((g - half, g + half))
 
 
+@pytest.mark.slow
 def test_welch_errs_as_often_as_said_where_student_does_not():
     rng = np.random.default_rng(11)
     welch = student = 0

@@ -106,6 +106,7 @@ def test_equals_have_equal_odds(tables: int) -> None:
     assert (np.abs(odds.title - 0.1) < 5 * odds.error[:, 0]).all()
 
 
+@pytest.mark.slow
 def test_fairness_and_a_fairer_chart() -> None:
     ratings = [650, 600, 550, 500, 450, 400, 350, 300]
     hoboken = chip_fairness(ratings, "hoboken", tables=2)

@@ -85,6 +85,7 @@ class Night:
         return self.add(undo(state))
 
 
+@pytest.mark.slow_after(30)
 @pytest.mark.parametrize("form", list(FORMS))
 @pytest.mark.parametrize("seed", range(TRIES))
 def test_nothing_disappears_that_is_not_named(form: str, seed: int) -> None:

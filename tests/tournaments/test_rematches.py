@@ -67,6 +67,7 @@ def test_sixteen_players(drops, want: float, early: float) -> None:
     assert first == pytest.approx(early, abs=0.015)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [16, 32, 64])
 def test_fewest_rematches_are_fewer_than_usual(n: int) -> None:
     fewest, usual = (

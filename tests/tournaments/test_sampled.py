@@ -19,6 +19,7 @@ from evenbreak.tournaments.odds.planning import exact_plan, plan_of
 from tournaments.fields import by_seed, one_favourite
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(
     "bracket",
     [
@@ -47,6 +48,7 @@ def test_drawn_odds_are_those_that_are_exact(bracket, monkeypatch) -> None:
     assert np.abs(meet).max() < 0.06
 
 
+@pytest.mark.slow
 def test_standard_errors_are_honest() -> None:
     """Over many seeds, misses are as large as the standard errors say."""
     bracket, win = double_elimination(8), by_seed(8)
@@ -59,6 +61,7 @@ def test_standard_errors_are_honest() -> None:
     assert 0.6 < np.std(scores) < 1.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drops", ["fewest rematches", "usual"])
 def test_a_favourite_in_a_drawn_bracket(drops) -> None:
     odds = title_odds(double_elimination(32, drops=drops), one_favourite(32, 2 / 3), samples=2000)
@@ -67,6 +70,7 @@ def test_a_favourite_in_a_drawn_bracket(drops) -> None:
     assert odds.error[0, 0] < 0.002
 
 
+@pytest.mark.slow
 def test_a_drawn_bracket_after_some_results() -> None:
     bracket, win = double_elimination(32), by_seed(32)
     results = {"W1.1": "32"}

@@ -218,6 +218,7 @@ def test_all_courses(bracket) -> None:
     assert odds.matches_mean == pytest.approx(float(matches))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("players", [5, 8])
 def test_handicapped_races_by_round(players: int) -> None:
     """Each match has chances of its own, in fractions, byes included."""
@@ -266,6 +267,7 @@ def test_who_meets_whom() -> None:
 # Evidence.
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("bracket", [double_elimination(6), consolation(6), pods(8, size=4)])
 def test_total_probability(bracket) -> None:
     """Odds now are the mean of the odds after each result of any match, players known or not."""
@@ -391,6 +393,7 @@ def test_a_stronger_player_never_loses_by_it(drawn, form, factor: float, data) -
     assert after >= before - 1e-12
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(10))
 @given(st.lists(st.floats(0.1, 10.0), min_size=5, max_size=8), st.data())
 def test_odds_move_fairly_through_a_tournament(drawn, data) -> None:

@@ -43,6 +43,7 @@ def answered(hall: Hall, path: str, shown: Shown, **more: Any) -> Shown:
 WRONG = {"match": "W1.3", "a": 1, "b": 3, "how": "correct"}
 
 
+@pytest.mark.slow
 def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy: Hall) -> None:
     before = busy.state
     pair = " against ".join(before.pair("W2.2"))
@@ -58,6 +59,7 @@ def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy:
     assert (busy.state.on_tables, busy.state.live) == (before.on_tables, before.live)
 
 
+@pytest.mark.slow
 def test_the_answer_is_for_what_was_named(busy: Hall) -> None:
     asked = busy.director.send("/desk/result", **WRONG)
     assert tap(busy, busy.guest, "W2.2", 2, 1).status == 200  # the same match, one game further
@@ -71,6 +73,7 @@ def test_the_answer_is_for_what_was_named(busy: Hall) -> None:
     assert len(read_events(busy.site.path)) == entries + 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "fields"),
     [("drop", {"player": "Player 4"}), ("forfeit", {"player": "Player 4"})],
@@ -85,6 +88,7 @@ def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
     )
 
 
+@pytest.mark.slow
 def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hall) -> None:
     desk = busy.director.open("/desk").words
     assert "Undo: the call of W2.2 to table 4" in desk
@@ -131,6 +135,7 @@ def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
     assert hall.state.entrants["Player 2"].rating == 655.0
 
 
+@pytest.mark.slow
 def test_a_phone_is_told_when_others_play_the_match_that_it_opened(busy: Hall) -> None:
     match, at = "W2.2", f"/m/{busy.site.match_token('W2.2')}"
     gone = busy.state.counted["W1.3"].winner

@@ -32,6 +32,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     return count
 
 
+@pytest.mark.slow
 def test_guests_who_ask_for_paper_cost_one_drawing_a_state(hall: Hall, made: Counter[str]) -> None:
     def ask(k: int) -> tuple[int, str]:
         shown = Phone(hall.site).open(PAPERS[k % 2])

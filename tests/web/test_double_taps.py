@@ -144,6 +144,7 @@ def twice(hall: Hall, path: str, fields: dict[str, Any], *, together: bool) -> l
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("together", [False, True])
 def test_a_form_that_comes_in_twice_is_taken_once(six: Hall, together: bool) -> None:
     folder = six.site.path.parent

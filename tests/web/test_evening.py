@@ -42,6 +42,7 @@ def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> list[Pho
     return phones
 
 
+@pytest.mark.slow
 def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
     luck = random.Random(3)
     done: list[Decide] = []
@@ -98,6 +99,7 @@ def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     assert hall.state.counted["W1.1"].winner == pair[0]
 
 
+@pytest.mark.slow
 def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -> None:
     phone, _ = scored_by_phones(hall, "W1.1", (3, 1))
     assert "W1.1" in hall.state.counted
@@ -121,6 +123,7 @@ def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) ->
     assert "a different result" not in shown.words
 
 
+@pytest.mark.slow
 def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
     matches, codes = [f"W1.{k}" for k in range(1, 6)], []
     for match in matches:
@@ -163,6 +166,7 @@ def test_phones_of_a_match_that_others_play_now_are_refused(hall: Hall) -> None:
     assert shown.status == 409
 
 
+@pytest.mark.slow
 def test_many_phones_at_once_lose_nothing(hall: Hall) -> None:
     matches = [f"W1.{k}" for k in range(1, 9)]
     codes = []
@@ -206,6 +210,7 @@ def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
     assert len(hall.state.on_tables) == 3
 
 
+@pytest.mark.slow
 def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None:
     enter = partial(hall.director.send, "/desk/result")
     for name in ("W1.1", "W1.2"):

@@ -74,6 +74,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
         server.wait(10)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("sent", [b"", ASKED, ASKED + b"\r\n"], ids=["nothing", "half", "whole"])
 def test_idle_connections_keep_nobody_out(server: Served, sent: bytes) -> None:
     with ExitStack() as stack:
@@ -165,6 +166,7 @@ def test_one_address_takes_half_at_most_even_if_all_its_connections_are_busy() -
     assert all(door.lets_in(Line("127.0.0.1", busy=True)) for _ in range(KEPT))
 
 
+@pytest.mark.slow
 def test_the_connection_that_has_been_idle_longest_makes_room() -> None:
     door = Door(100, frozenset())
     lines = [Line("10.0.0.7") for _ in range(50)]

@@ -96,6 +96,7 @@ def test_an_entry_that_cannot_be_written_is_refused_and_reading_goes_on(stuck: S
     assert director.open("/desk").status == 403
 
 
+@pytest.mark.slow
 def test_no_refusal_names_the_folder(hall: Hall, monkeypatch: pytest.MonkeyPatch) -> None:
     path = hall.site.path
 
@@ -133,6 +134,7 @@ def test_a_disk_that_fails_while_a_form_is_taken_is_said_without_its_place(
     assert NAME not in shown.text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("junk", [b"", b"junk" * 9000, b"SQLite format 3\0" + b"\xff" * 9000])
 def test_a_file_that_is_damaged_while_it_is_shown_is_said(hall: Hall, junk: bytes) -> None:
     other = hall.site.path.with_name("other")

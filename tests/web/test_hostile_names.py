@@ -124,6 +124,7 @@ def shown(director: Browser, luck: random.Random) -> Iterator[tuple[str, str]]:
         yield page, got.text
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("seed", range(EVENINGS))
 def test_a_name_is_text_everywhere(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

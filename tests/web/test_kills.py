@@ -45,6 +45,7 @@ def started(path: Path, port: int) -> subprocess.Popen[bytes]:
     raise AssertionError("the server does not answer")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("company", [False, True], ids=["alone", "beside another server"])
 def test_a_killed_server_has_lost_nothing(tmp_path: Path, company: bool) -> None:
     path, port, luck = tmp_path / "tonight.db", free_port(), random.Random(1)
@@ -98,6 +99,7 @@ def test_copies_of_one_second_are_all_kept(tmp_path: Path) -> None:
     assert {one.name for one in tmp_path.glob("*20250301*")} == {one.name for one in copies}
 
 
+@pytest.mark.slow
 def test_secrets_are_kept_and_each_start_leaves_a_copy(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     begun(path, 4)

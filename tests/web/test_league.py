@@ -56,6 +56,7 @@ def director(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         yield phone
 
 
+@pytest.mark.slow
 def test_the_ratings_are_those_of_the_command(director: Phone) -> None:
     ratings, _ = usual_ratings(
         read_results(DATA / "demo_league.csv").results, scale=SCALES["fargo"]
@@ -81,6 +82,7 @@ def test_a_player_sees_matches_and_why_a_race_is_fair(director: Phone) -> None:
     assert guest.open("/league/player", name="Nobody").status == 400
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sheet.pdf", "sheet.html", "sheet.xlsx", "matchups.csv"])
 def test_files_to_take_along(director: Phone, name: str) -> None:
     with director.opener.open(f"{director.site.address}/league/{name}") as got:
@@ -132,6 +134,7 @@ def test_rude_names_do_no_harm_and_a_restart_goes_on(tmp_path: Path) -> None:
         assert b"<script>alert" not in cells
 
 
+@pytest.mark.slow
 def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -201,6 +204,7 @@ def test_whoever_asks_for_many_pairs_holds_nobody_up(tmp_path: Path) -> None:
     assert len(begun) == 4
 
 
+@pytest.mark.slow
 def test_an_evening_is_added_to_the_league_once(hall: Hall) -> None:
     director, league = hall.director, hall.site.league
     assert director.send("/league/tonight").status == 409  # nothing has been played

@@ -35,6 +35,7 @@ def test_two_phones_at_different_addresses_agree(hall: Hall) -> None:
     assert hall.state.counted["W1.1"].score == (3, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("private_tab", [False, True])
 def test_one_phone_cannot_confirm_itself(hall: Hall, *, private_tab: bool) -> None:
     one = Player(hall, "127.0.0.2")
@@ -104,6 +105,7 @@ def test_claims_and_proposals_outlast_a_restart_and_hold_for_every_server(hall: 
         assert "Both of you agree" in shown.words
 
 
+@pytest.mark.slow
 def test_no_order_of_claims_and_scores_lets_one_address_decide(hall: Hall) -> None:
     for seed in range(SEEDS):
         luck = random.Random(seed)

@@ -24,6 +24,7 @@ ASKED = {
 }
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("kind", FORMATS)
 def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
     if kind == "swiss":
@@ -175,6 +176,7 @@ def test_the_desk_changes_tables_and_races(hall: Hall) -> None:
     assert hall.guest.send("/desk/change", tables=9).status == 403
 
 
+@pytest.mark.slow
 def test_the_desk_says_what_would_end_it_sooner(hall: Hall) -> None:
     shown = hall.director.open("/desk/time")
     assert shown.status == 200

@@ -196,6 +196,7 @@ def lost(before: Evening, after: Evening) -> set[str]:
     return gone
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(EVENINGS))
 def test_an_evening_by_forms_loses_nothing_unsaid(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -170,6 +170,7 @@ def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
     assert status in (400, 413)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("make", [huge_row, wide_cell, repeated_columns, cut])
 def test_a_hostile_workbook_ends_no_server(hall: Hall, make: Make) -> None:
     content = make(random.Random(5))
@@ -224,6 +225,7 @@ SCRIPT = "<script>alert(1)</script>"
 NASTY = [SCRIPT, "Robert'); DROP TABLE event;--", "../../x", "=cmd|' /C calc'!A0", "עברית \u202e x"]
 
 
+@pytest.mark.slow
 def test_names_are_text_everywhere(hall: Hall) -> None:
     for name in NASTY:
         shown = hall.director.send(

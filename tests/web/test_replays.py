@@ -125,6 +125,7 @@ def test_every_route_that_adds_an_entry_is_tried(hall: Hall) -> None:
     assert tried == posts - NOT_HERE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(REPLAYS))
 def test_a_form_is_entered_once_however_often_it_comes_in(hall: Hall, seed: int) -> None:
     luck = random.Random(seed)

@@ -150,6 +150,7 @@ LISTS = {
 }
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("text", LISTS)
 def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, text: str) -> None:
     path = tmp_path / "list.txt"

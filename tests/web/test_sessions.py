@@ -28,6 +28,7 @@ def servers(hall: Hall) -> Iterator[tuple[Site, Site]]:
         yield hall.site, other
 
 
+@pytest.mark.slow
 def test_a_new_pin_reaches_every_server_at_once(servers: tuple[Site, Site]) -> None:
     for one, other in (servers, servers[::-1]):
         old = one.pin
@@ -44,6 +45,7 @@ def test_a_new_pin_reaches_every_server_at_once(servers: tuple[Site, Site]) -> N
         assert Phone(other).send("/pin", pin=new).status == 200
 
 
+@pytest.mark.slow
 def test_a_cookie_is_good_for_nothing_once_its_owner_has_left(servers: tuple[Site, Site]) -> None:
     one = servers[0]
     stays, leaves = Phone(one, director=True), Phone(one, director=True)

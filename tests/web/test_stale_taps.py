@@ -55,6 +55,7 @@ def table(tmp_path: Path) -> Iterator[Table]:
     found.room.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(EVENINGS))
 def test_the_score_is_the_games_that_were_acknowledged(table: Table, seed: int) -> None:
     luck = random.Random(seed)

@@ -182,6 +182,7 @@ def test_nobody_else_sees_a_captains_advice(night: Night) -> None:
                 assert not [one for one in chances[due].values() if one in shown.words]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", ["blind", "sealed"])
 def test_nobody_else_sees_an_unseen_pick(tmp_path: Path, order: str) -> None:
     with night_of(tmp_path / "tonight.db", order=order) as night:
@@ -415,6 +416,7 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
         assert night.state.teams == ("../../x", SCRIPT)
 
 
+@pytest.mark.slow_after(13)
 @pytest.mark.parametrize(
     ("how", "why"),
     [

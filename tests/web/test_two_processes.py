@@ -175,6 +175,7 @@ def play(path: Path, phones: list[Phone]) -> None:
         assert set(acknowledged) <= set(read_tournament(path).counted)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("company", ["a server", "commands", "backups"])
 def test_nothing_acknowledged_is_lost_in_company(tmp_path: Path, company: str) -> None:
     path = tmp_path / "tonight.db"
@@ -209,6 +210,7 @@ def test_a_page_and_a_command_in_the_middle_of_an_entry_take_nothing_away(tmp_pa
     assert matches[0] in read_tournament(path).counted
 
 
+@pytest.mark.slow
 def test_the_file_is_opened_through_sqlite_alone(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     begun(path)
@@ -247,6 +249,7 @@ def by_phones(sites: list[Site], match: str, kept: list[str]) -> None:
             kept.append(f"{match} {side} {score}")
 
 
+@pytest.mark.slow
 def test_what_phones_are_told_at_two_servers_is_in_the_file(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     begun(path)
@@ -273,6 +276,7 @@ def test_what_phones_are_told_at_two_servers_is_in_the_file(tmp_path: Path) -> N
             assert {one.match for one in taps} == {*matches}
 
 
+@pytest.mark.slow
 def test_what_captains_are_told_at_two_servers_is_in_the_file(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     with running(path) as site:

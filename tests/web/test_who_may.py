@@ -202,6 +202,7 @@ def test_every_route_is_declared(rooms: Rooms) -> None:
     assert asked == set(MAY)
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("method", ["PUT", "PATCH", "DELETE", "OPTIONS", "TRACE", "get", "X"])
 def test_no_other_method_is_answered(rooms: Rooms, method: str) -> None:
     before = held(rooms.site.path)

@@ -91,6 +91,7 @@ HOSTILE = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_no_sentence_renames_a_player(language: str) -> None:
     k = 0
@@ -104,6 +105,7 @@ def test_no_sentence_renames_a_player(language: str) -> None:
             assert all(names[place] in said for place in used), (pattern, names, said)
 
 
+@pytest.mark.slow_after(51)
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_name_is_left_alone_in_every_kind_of_sentence(name: str) -> None:
     for text in (

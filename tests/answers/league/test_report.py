@@ -37,6 +37,7 @@ def test_every_race_stands_in_the_row_and_column_of_its_players(players):
     }
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("players", [2, 12, 30])
 @pytest.mark.parametrize("name", ["P{}", LONG, "選手{}"])
 def test_no_line_is_wider_than_a_terminal_and_no_name_is_cut(players, name):

@@ -1,5 +1,6 @@
 import numpy as np
 import pandas as pd
+import pytest
 
 from evenbreak.answers.league import round as module
 from evenbreak.answers.league.roster_matchups import OfferedRaces
@@ -40,6 +41,7 @@ def test_the_evening_is_that_of_the_races_lengths():
     assert round_of(pace=own_pace(8.0)).evening == []
 
 
+@pytest.mark.slow
 def test_a_simulated_evening_depends_on_its_seed_alone():
     def ends(seed):
         return round_of(pace=own_pace(8.0), tables=2, seed=seed).evening

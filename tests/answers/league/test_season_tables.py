@@ -94,6 +94,7 @@ def witnesses(simulated: tuple[Season, Tally]) -> dict[str, Any]:
     return {name: np.array(values) for name, values in seen.items()}
 
 
+@pytest.mark.slow
 def test_standings_are_those_of_seasons_played_one_by_one(simulated, witnesses):
     """Means within 4.5 standard errors, deviations within what 1,200 seasons tell."""
     frame = standings_frame(*simulated).set_index("player").loc[NAMES]

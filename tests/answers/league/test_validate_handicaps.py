@@ -32,6 +32,7 @@ def too_easy():
     return said(by_chart(1, doubling=24.0, instead={(6, 3): (7, 4)}))
 
 
+@pytest.mark.slow
 def test_a_scale_that_is_off_comes_with_a_chart_that_fits(too_easy):
     (command,) = [text for text in too_easy if text.startswith("evenbreak")]
     points = re.search(r"^(\S+) points double", "\n".join(too_easy), re.MULTILINE).group(1)

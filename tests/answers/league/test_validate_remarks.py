@@ -68,6 +68,7 @@ def sided(play_season):
     return validate(play_season(1, side=0.3, matches=600), prior_sd=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season_whose_first_column_wins_more():
     found = validate(read_results(SEASON).results, prior_sd=0.36)

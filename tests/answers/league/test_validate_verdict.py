@@ -16,6 +16,7 @@ def said(results, **options):
     return verdict(validate(results, **options), scale_of("npl"))
 
 
+@pytest.mark.slow
 def test_leagues_of_the_model_are_sound(play_season):
     verdicts = [said(play_season(seed), prior_sd=0.5) for seed in range(10)]
     # Four tests at 1% each: three alarms in ten have a chance below 1%.
@@ -31,6 +32,7 @@ def test_a_chart_that_gives_too_much_is_found(play_season):
     assert "give too much" in said(play_season(2, spot=True), prior_sd=0.5)
 
 
+@pytest.mark.slow
 def test_a_prior_that_is_too_wide_or_too_narrow_is_refused(play_season):
     wide = said(play_season(3, matches=180), prior_sd=20.0)
     assert "866 points" in wide or "coin" in wide

@@ -76,6 +76,7 @@ def test_the_advice_names_the_side(inches, cut, how, words):
 spins = st.floats(-100, 100)
 
 
+@pytest.mark.slow
 @given(st.floats(0, 85), spins, spins, st.floats(0, 0.05), st.floats(0.1, 1e5))
 def test_aims_of_all_kinds_go_where_they_should(cut, topspin, side, mu, inches):
     found = aim(cut, topspin, side, mu, inches=inches)

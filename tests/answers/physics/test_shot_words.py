@@ -42,6 +42,7 @@ def test_where_the_balls_go(how, words):
     assert words in by_angle(**how)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(
     ("layout", "how", "words"),
     [

@@ -72,6 +72,7 @@ def test_the_chart_beside_is_on_the_same_scale_if_it_was_made_for_about_that(bes
     assert other.scale.points_per_doubling == pytest.approx(points, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["png", "svg"])
 def test_plots(run, tmp_path, ending):
     path = tmp_path / f"audit.{ending}"
@@ -109,6 +110,7 @@ def test_a_chart_that_determines_no_scale_needs_one(run):
     assert run("chart", "audit", "-", "--scale", "npl", stdin=short).exit_code == 0
 
 
+@pytest.mark.slow
 def test_a_chart_of_points(run, ask, tmp_path):
     assert ask("apa_9ball")["levels"][4]["points"] == 38
     path = tmp_path / "nine.csv"

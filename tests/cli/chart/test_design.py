@@ -39,6 +39,7 @@ def test_a_design_beside_a_printed_chart(ask):
     ]
 
 
+@pytest.mark.slow_after(7)
 @pytest.mark.parametrize(
     ("line", "scale", "limits", "wishes"),
     [

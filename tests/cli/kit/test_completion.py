@@ -49,6 +49,7 @@ def test_files_are_left_to_the_shell(words):
     assert offered(*words) == [("file", words[-1])]
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("typed", "value"), [("kei", '"Keiko Amasuda"'), ('"Kei', "Keiko Amasuda")]
 )

@@ -50,6 +50,7 @@ LEVELS = "Name,Skill Level\nAnn,7\nBob,4\nCy,5\n"
 NIGHT = "player_a,player_b,games_a,games_b\nAnn,Bob,7,3\n"
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(
     ("command", "has_scale"),
     [

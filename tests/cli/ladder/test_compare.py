@@ -19,6 +19,7 @@ COMPARE_COLUMNS = (
 )
 
 
+@pytest.mark.slow
 def test_systems_side_by_side(compared):
     answer = compared("--chart", "npl_12", "--equal-skill")
     rows = {(row["system"], row["chart"]): row for row in answer["systems"]}
@@ -90,6 +91,7 @@ def test_what_a_comparison_cannot_take_is_refused(run, words):
     assert f"leave {words[0]} out" in " ".join(result.stderr.split())
 
 
+@pytest.mark.slow
 def test_the_comparison_takes_a_league(ladder, compared):
     words = ("--chart", "npl_10", "--league", str(ROSTER), "--skill", "70")
     answer = compared(*words)

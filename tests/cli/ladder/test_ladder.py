@@ -137,6 +137,7 @@ def test_a_chart_for_another_scale_is_a_warning(ladder):
     assert right["settling"]["start"] == -100
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("words", [(), ("--autocorrelated", "--from", "-30")])
 def test_the_picture(run, tmp_path, words):
     path = tmp_path / "ladder.png"
@@ -212,6 +213,7 @@ def test_a_chart_that_is_even_everywhere_is_the_reason(run, tmp_path):
     assert "same race at every difference" in " ".join(result.stderr.split())
 
 
+@pytest.mark.slow
 def test_a_part_that_takes_forever_is_left_out_with_a_warning(ladder):
     answer = ladder("--drift", "0.9")
     assert answer["settling"] is None

@@ -75,6 +75,7 @@ def test_matches_in_two_files_are_named(run, seasons, tmp_path):
     assert "in an earlier file too" in result.stderr
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize(
     ("content", "what"),
     [

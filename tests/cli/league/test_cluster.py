@@ -58,6 +58,7 @@ with cluster.cluster_at(sys.argv[1]):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("listens", [False, True])
 def test_a_port_without_a_scheduler(listens):
     """Nobody listens there, or somebody who never answers."""
@@ -92,6 +93,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_a_cluster_that_is_gone(tmp_path, capfd):
     script = tmp_path / "cluster.py"
     script.write_text(CLUSTER, encoding="utf-8")
@@ -117,6 +119,7 @@ def work_until_killed(address, group):
         next(results)
 
 
+@pytest.mark.slow
 def test_dask_that_is_not_installed(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"evenbreak\[dask\]"), cluster_at("tcp://127.0.0.1:1"):

@@ -233,6 +233,7 @@ def test_more_than_a_screen_is_refused(run, roster, words, remedy):
     assert remedy in result.stderr
 
 
+@pytest.mark.slow
 def test_many_pairs_are_written_as_csv(run, roster):
     path = roster("player,rating\n" + "".join(f"P{k},{k % 97}\n" for k in range(202)))
     assert len(table(run("matchups", path, *SURE))) == 202 * 201 / 2 > 20_000
@@ -313,6 +314,7 @@ def test_no_roster_makes_a_traceback(run, rows):
     assert bool(result.stdout) == (result.exit_code == 0)
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("face", ["--csv", "--json", "--text"])
 def test_a_page_of_the_round_is_the_same_each_time(run, roster, tmp_path, face):
     pairs = roster("a,b\nDi,Ann\nBo,Cy\n", "tonight.csv")
@@ -357,6 +359,7 @@ def fargo_list(run, tmp_path):
     return tmp_path / "ratings.csv"
 
 
+@pytest.mark.slow
 def test_a_list_keeps_its_scale(run, fargo_list):
     found = run("matchups", str(fargo_list), *SURE, "--csv")
     stated = run("matchups", str(fargo_list), *SURE, "--scale", "fargo", "--csv")
@@ -365,6 +368,7 @@ def test_a_list_keeps_its_scale(run, fargo_list):
     assert "npl_10 is made for ratings on the NPL scale" in unlike.stderr
 
 
+@pytest.mark.slow
 def test_another_scale_than_that_of_the_list_is_refused(run, fargo_list):
     refused = run("matchups", str(fargo_list), *SURE, "--scale", "elo")
     assert refused.exit_code == 2
@@ -372,6 +376,7 @@ def test_another_scale_than_that_of_the_list_is_refused(run, fargo_list):
     assert "Elo scale" in refused.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [
     ("rate", str(DATA / "demo_league.csv"), "--system", "npl", "--roster"),
     ("ladder", "--league"),
@@ -384,6 +389,7 @@ def test_a_system_of_another_scale_than_the_list_is_refused(run, fargo_list, com
     assert "NPL scale" in refused.stderr
 
 
+@pytest.mark.slow
 def test_a_season_on_another_scale_than_the_list_is_refused(run, fargo_list, tmp_path):
     refused = run("simulate", str(fargo_list), "--out", str(tmp_path / "season"))
     assert refused.exit_code == 2

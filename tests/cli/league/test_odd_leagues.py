@@ -60,6 +60,7 @@ def test_the_list_of_rate_is_a_roster(run, league, tmp_path, rows):
     assert len(rows_of(result.stdout)) == players * (players - 1) / 2
 
 
+@pytest.mark.slow_after(1)
 @leagues
 def test_a_sheet_is_made(run, league, tmp_path, rows):
     result = run("report", league(rows), "--out", "sheet", "--html")

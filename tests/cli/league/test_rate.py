@@ -220,6 +220,7 @@ def test_dates_are_needed_for_what_goes_by_dates(rate):
         assert "2 of 2 matches have no date" in result.stderr
 
 
+@pytest.mark.slow
 def test_the_break_advantage_of_the_demo_league_is_recovered(run):
     """Its script lets the breaker play 8 points better, and keeps scores and first breaks only."""
     demo = DATA / "demo_league.csv"

@@ -54,6 +54,7 @@ def test_the_demo_league_gives_its_files_and_a_sheet(demo):
     assert result.stderr.splitlines()[-1] == f"Wrote {names} to {folder}"
 
 
+@pytest.mark.slow
 def test_the_same_as_json(run, demo, tmp_path):
     _, folder = demo
     result = run("report", str(DEMO), "--out", str(tmp_path), "--json")
@@ -149,6 +150,7 @@ def test_of_a_large_league_those_who_played_most_are_paired(run, tmp_path, monke
     assert {row["race_a"] for row in matchups} == {"7"}
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_bytes(demo, tmp_path):
     result, folder = demo
     words = ("report", str(DEMO), "--out", str(tmp_path), "--html", "--excel")
@@ -162,6 +164,7 @@ def test_the_same_input_gives_the_same_bytes(demo, tmp_path):
     assert content(tmp_path) == content(folder)
 
 
+@pytest.mark.slow
 def test_the_scale_only_rescales(run, demo, tmp_path):
     _, npl = demo
     result = run("report", str(DEMO), "--out", str(tmp_path), "--scale", "fargo")
@@ -178,6 +181,7 @@ def test_the_scale_only_rescales(run, demo, tmp_path):
         )
 
 
+@pytest.mark.slow
 def test_races_may_be_limited_in_length(run, tmp_path):
     result = run("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--games", "5..9")
     assert result.exit_code == 0
@@ -186,6 +190,7 @@ def test_races_may_be_limited_in_length(run, tmp_path):
     assert (summary(tmp_path)["games_lo"], summary(tmp_path)["race_to"]) == ("5", "")
 
 
+@pytest.mark.slow
 def test_players_may_be_named(run, tmp_path):
     result = run(
         *("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--race-to", "9"),
@@ -210,6 +215,7 @@ def test_a_name_with_a_comma_may_be_named_alone(run, tmp_path):
     assert [row["player_a"] for row in rows(tmp_path, "matchups.csv")] == ["Lee, Ann"]
 
 
+@pytest.mark.slow
 def test_excel_gets_its_marks(run, tmp_path):
     assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path), "--excel-csv").exit_code == 0
     for name, body in content(tmp_path).items():
@@ -262,6 +268,7 @@ def test_how_it_was_rated_is_said_on_the_sheet_the_page_and_in_the_summary(run, 
     assert facts["last_date"] == "2024-09-10"
 
 
+@pytest.mark.slow
 def test_the_ratings_of_a_report_are_those_of_rate(run, tmp_path):
     season = DEMO.read_text(encoding="utf-8").splitlines(keepends=True)
     short = "".join(season[:81])
@@ -413,6 +420,7 @@ def test_names_that_look_like_formulas_are_written_safely(run, tmp_path):
     assert [row["player"] for row in rows(tmp_path, "ratings.csv")] == ["'=HYPERLINK(1)", "'@Bo"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SEASON.exists(), reason="the real season lies beside a checkout only")
 def test_the_real_season(run, tmp_path):
     result = run("report", str(SEASON), "--out", str(tmp_path), "--scale", "fargo", "--top", "8")
@@ -447,6 +455,7 @@ def test_an_empty_folder_name_is_not_this_folder(run, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
 @pytest.mark.parametrize(("ending", "code"), [("SIGINT", 130), ("SIGTERM", -signal.SIGTERM)])
 def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path, ending, code):
@@ -473,6 +482,7 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
     assert content(old) == content(new)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
 def test_the_results_are_never_overwritten(run, tmp_path, name):
     season = tmp_path / name
@@ -484,6 +494,7 @@ def test_the_results_are_never_overwritten(run, tmp_path, name):
     assert season.read_bytes() == DEMO.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
     season = tmp_path / "season.html"
     season.write_bytes(DEMO.read_bytes())
@@ -528,6 +539,7 @@ def test_a_name_after_an_option_without_one_gets_a_hint(run, tmp_path, words):
     assert f"{words[0]} takes no name" in result.stderr
 
 
+@pytest.mark.slow
 def test_a_prior_from_too_few_results_is_doubted(run, tmp_path):
     result = run("report", "-", "--out", str(tmp_path), "--prior", "best", stdin=SMALL)
     assert "too few" in result.stderr

@@ -49,6 +49,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     }
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("form", ["text", "json", "html", "csv", "xlsx"])
 def test_every_form_names_both_files_and_the_title(made: dict[str, str], form: str) -> None:
     for name in ("spring.csv and fall.csv", TITLE):

@@ -40,6 +40,7 @@ def season(run, tmp_path_factory):
     return folder, found
 
 
+@pytest.mark.slow
 def test_all_files_are_written_and_named(season):
     folder, found = season
     assert {path.name for path in folder.iterdir()} == {*TABLES, *SEASON, *PICTURES}
@@ -67,6 +68,7 @@ def test_tables_say_who_profits_and_how_wrong_ratings_are(season):
     assert {row["group"] for row in rows_of(folder / "fairness.csv")} == {"all", "gap", "fifth"}
 
 
+@pytest.mark.slow
 def test_the_season_in_full_is_read_by_rate_validate_and_report(run, season, tmp_path):
     matches = str(season[0] / "matches.csv")
     for words in (
@@ -101,6 +103,7 @@ def test_the_league_moves_ratings_as_rate_does_with_the_season(run, season, tmp_
     assert abs(moved["Ines Valbrecht"]) == 1.0
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes_for_any_number_of_jobs(run, season, tmp_path):
     folder, _ = season
     again = tmp_path / "jobs"
@@ -114,6 +117,7 @@ def test_the_same_seed_gives_the_same_bytes_for_any_number_of_jobs(run, season, 
     assert (other / "matches.csv").read_bytes() != (folder / "matches.csv").read_bytes()
 
 
+@pytest.mark.slow_after(6)
 @pytest.mark.parametrize(
     ("options", "told"),
     [
@@ -308,6 +312,7 @@ def test_much_to_play_is_said_and_jobs_advised_where_there_are_none(run, monkeyp
     assert "4,800 matches are to be played\n" in run(*words, "--jobs", "2").stderr
 
 
+@pytest.mark.slow
 def test_entrants_play_and_strangers_are_new(run, tmp_path):
     entrants = tmp_path / "entrants.txt"
     roster = DATA / "demo_league_roster.csv"

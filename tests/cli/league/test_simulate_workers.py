@@ -41,6 +41,7 @@ def nobody_left_of(group):
     return False
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
 @pytest.mark.parametrize(("jobs", "after"), [("1", 0.5), ("2", 0.0), ("2", 0.8)])
 def test_ctrl_c_ends_with_130_writes_nothing_and_nobody_outlives_it(roster, tmp_path, jobs, after):
@@ -58,6 +59,7 @@ def test_ctrl_c_ends_with_130_writes_nothing_and_nobody_outlives_it(roster, tmp_
     assert nobody_left_of(play.pid)
 
 
+@pytest.mark.slow
 def test_a_wrong_address_is_one_line_and_nothing_is_written(roster, tmp_path):
     pytest.importorskip("distributed", reason="the extra evenbreak[dask] is not there")
     out = tmp_path / "out"

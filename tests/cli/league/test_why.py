@@ -7,6 +7,7 @@ from places import DATA
 DEMO = str(DATA / "demo_league.csv")
 
 
+@pytest.mark.slow
 def test_the_ratings_and_the_race_are_those_of_the_report(run, tmp_path):
     names = ("Zoë Kestleman", "petra nowicz-hale")
     answer = json.loads(run("why", *names, "--from", DEMO, "--json").stdout)

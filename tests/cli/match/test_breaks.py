@@ -63,6 +63,7 @@ def test_csv_into_a_pipe(run):
     ]
 
 
+@pytest.mark.slow
 def test_plot(run, tmp_path):
     path = tmp_path / "breaks.png"
     result = run("breaks", "0.9", "0.5", "--plot", str(path), "--text")

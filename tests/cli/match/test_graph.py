@@ -47,6 +47,7 @@ GAMES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "game"), GAMES.items(), ids=GAMES.keys())
 def test_the_limit_is_read_back_from_every_form(write, run, words, game) -> None:
     answer, folder = write(words)
@@ -69,6 +70,7 @@ def test_the_limit_is_read_back_from_every_form(write, run, words, game) -> None
     assert written == pytest.approx(limit, rel=0, abs=1e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", ["one-ball", "series, alternate breaks"])
 def test_what_is_written_can_be_written_again(write, run, tmp_path, words) -> None:
     answer, folder = write(words)
@@ -156,6 +158,7 @@ def test_eigenpairs_are_those_of_the_matrix(write) -> None:
     np.testing.assert_allclose(left.T @ matrix, values[:, None] * left.T, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_a_defective_race_is_written_nevertheless(write) -> None:
     answer, folder = write("race 9:5")
     assert "defective" in answer["refused"]["spectrum"]
@@ -195,6 +198,7 @@ def test_what_is_left_of_another_game_is_named(run, tmp_path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_a_chart_file_makes_a_ladder(run, tmp_path) -> None:
     path = tmp_path / "house.csv"
     path.write_text("difference_from,difference_to,stronger_needs,weaker_needs\n0,9,5,5\n10,,5,3\n")

@@ -96,6 +96,7 @@ def test_csv_into_a_pipe(run):
     assert "points_b,50" in lines
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("line", ["9 4 --points 100:80", "4 9 --points 1", "0 5 --points 10"])
 @pytest.mark.parametrize("name", ["spot.png", "spot.svg"])
 def test_plot(run, tmp_path, line, name):

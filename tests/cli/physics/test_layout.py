@@ -23,6 +23,7 @@ def test_places_and_a_pocket_are_read_in_the_units_of_the_command(ask_physics):
     assert metric["miss_cm"] == pytest.approx(2.54 * inches["miss_in"])
 
 
+@pytest.mark.slow_after(10)
 @pytest.mark.parametrize(
     ("line", "words"),
     [

@@ -156,6 +156,7 @@ def test_bad_data(run):
     assert len(result.stderr.splitlines()) == 2
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", ["drill.png", "drill.svg"])
 @pytest.mark.parametrize("words", [("--p", "0.8"), ("--log", str(LOG_FILE))])
 def test_a_picture(run, tmp_path, words, name):

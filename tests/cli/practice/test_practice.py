@@ -132,6 +132,7 @@ def test_csv_into_a_pipe_with_the_verdict_beside_it(run):
     assert result.stderr.count("Warning: ") == 1
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize(
     "words",
     [[BEFORE], [BEFORE, "--new", "53"], [BEFORE, "--versus", AFTER], ["-"], ["-", "--new", "3"]],

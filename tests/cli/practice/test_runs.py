@@ -85,6 +85,7 @@ def test_a_line_between_two_scores_is_passed_by_the_next_one(runs):
     assert {name: half[name] for name in QUANTITIES} == {name: whole[name] for name in QUANTITIES}
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("line", ["--mean 24", "--p .9 --innings 20 --safety .8", "--mean 0"])
 @pytest.mark.parametrize("name", ["runs.png", "runs.SVG"])
 def test_plot(run, tmp_path, line, name):

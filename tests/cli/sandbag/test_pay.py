@@ -43,6 +43,7 @@ def test_where_nothing_pays_no_cycle_is_advised(pay):
     assert not any("cycles" in sentence for sentence in answer["sentences"])
 
 
+@pytest.mark.slow
 def test_charts_side_by_side(pay, run):
     charts = {row["chart"]: row for row in pay("--compare", "--dumped", "3")["charts"]}
     assert set(charts) == {"npl_8", "npl_10", "npl_12", "npl_20"}

@@ -36,6 +36,7 @@ def test_into_a_pipe_goes_a_row_for_each_player(watch):
     assert float(flagged["p_value"]) == pytest.approx(1 / float(flagged["largest_e"]), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_json_and_the_picture(watch, tmp_path):
     path = tmp_path / "watch.png"
     answer = json.loads(watch("--json", "--plot", str(path)))
@@ -44,6 +45,7 @@ def test_json_and_the_picture(watch, tmp_path):
     assert path.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_the_cheater_of_the_demo_league_is_flagged_without_naming_the_event(watch):
     answer = json.loads(watch("--json"))
     assert sorted(answer["tried_events"]) == ["Cup", "League night"]
@@ -55,6 +57,7 @@ def test_the_cheater_of_the_demo_league_is_flagged_without_naming_the_event(watc
     assert "League night" in watch("--text")
 
 
+@pytest.mark.slow
 def test_what_each_match_of_a_player_weighs(watch):
     one = json.loads(watch("--json", "--player", "Gus Lindahl"))
     assert (one["player"], len(one["matches"])) == ("Gus Lindahl", 52)
@@ -128,6 +131,7 @@ def test_established_is_doubted_where_players_have_no_ratings_of_their_own(run, 
     assert "established" not in run("sandbag", "watch", *SEASON, "--honest", "established").stderr
 
 
+@pytest.mark.slow
 def test_a_player_is_found_in_any_case_and_spacing(watch, run):
     asked = json.loads(watch("--json", "--player", " gus  LINDAHL "))
     assert asked["player"] == "Gus Lindahl"

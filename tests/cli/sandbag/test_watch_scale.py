@@ -35,6 +35,7 @@ def honest_league(folder: Path, title: str, scale: str) -> tuple[str, str]:
     return str(results), str(roster)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(
     ("title", "scale", "words"),
     [

@@ -7,6 +7,7 @@ from places import DATA
 TEAMS = str(DATA / "demo_team_rosters.csv")
 
 
+@pytest.mark.slow
 def test_a_cap_takes_from_the_strong_and_chances_average_to_one_half(ask):
     told = ask("caps", TEAMS, "--race", "5", "--sets", "3", "--cap", "14")
     rows = {row["team"]: row for row in told["teams"]}

@@ -7,6 +7,7 @@ from places import DATA
 TEAMS = (str(DATA / "demo_team.csv"), str(DATA / "demo_opponents.csv"))
 
 
+@pytest.mark.slow
 def test_the_keys_and_the_best_pick(ask):
     told = ask("lineup", *TEAMS, "--race", "5", "--order", "ABABA")
     assert told["best"] == told["options"][0]["name"]

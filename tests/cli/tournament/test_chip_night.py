@@ -45,6 +45,7 @@ def chips(answer):
     return {row["name"]: row["chips"] for row in answer["players"]}
 
 
+@pytest.mark.slow
 def test_a_whole_chip_night(begun, run):
     assert chips(begun("show")) == {"Ann": 2, "Bo": 2, "Cy": 3, "Di": 3, "Ed": 2}
     assert begun("odds")["exact"] is False

@@ -36,6 +36,7 @@ def play(night, answer, rounds):
     return answer
 
 
+@pytest.mark.slow
 def test_a_whole_evening(night):
     night("draw", "--at", "19:00")
     answer = night("late", "Zoe Late", "--rating", "480", "--at", "19:02")
@@ -64,6 +65,7 @@ def test_a_whole_evening(night):
     assert {"player_a", "player_b", "score_a", "score_b", "race_a"} <= set(rows[0])
 
 
+@pytest.mark.slow
 def test_the_exported_matches_can_be_rated(night, tmp_path):
     play(night, night("draw"), 1)
     first = night("next")["next"][0]
@@ -82,6 +84,7 @@ def test_a_player_who_drops_out_forfeits(night):
     assert matches["W1.5"]["winner"].endswith("(forfeit)")
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("words", "code", "said"),
     [

@@ -56,6 +56,7 @@ def test_a_number_that_cannot_be_true_is_refused_with_its_place(tmp_path: Path) 
     assert [one.name for one in tmp_path.iterdir()] == ["cup.json"]
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_an_import_writes_a_tournament_that_can_be_shown_or_nothing(
     seed: int, tmp_path: Path
@@ -90,6 +91,7 @@ def test_a_list_of_events_is_refused_with_line_and_field(tmp_path: Path) -> None
     assert "events.csv:4: is not an event of a tournament: score 1 is 1000000" in said.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [("new", ENTRANTS, "--race", 5, "--tables", 3), ("import", "cup", "--race", 5)]
 )

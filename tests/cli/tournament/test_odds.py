@@ -136,6 +136,7 @@ def test_qualifiers_drawn_later(odds):
     assert drawn["exact"]
 
 
+@pytest.mark.slow
 def test_the_handicap_of_a_whole_tournament(odds):
     even = odds("--race", "7", *FARGO)
     assert "p_title_stronger_half" not in even

@@ -35,6 +35,7 @@ def begun(night):
     return night
 
 
+@pytest.mark.slow
 def test_odds_and_time_follow_the_results(begun):
     before = {one["name"]: one["p_title"] for one in begun("odds")["players"]}
     assert sum(before.values()) == pytest.approx(1.0)
@@ -69,6 +70,7 @@ def test_the_odds_of_ratings_taken_as_right(begun):
     assert [one["p_title"] for one in coins] == pytest.approx([0.25] * 4)
 
 
+@pytest.mark.slow
 def test_next_says_what_each_match_decides(begun):
     begun("score", "W1.1", "1:2", "--at", "19:20")
     stakes = {row["match"]: row for row in begun("odds", "--prizes", "60,40")["at_stake"]}
@@ -81,6 +83,7 @@ def test_next_says_what_each_match_decides(begun):
     assert "title_at_stake" not in begun("undo")["next"][0]
 
 
+@pytest.mark.slow
 def test_a_match_stands_and_results_count_again(begun):
     for match, score in (("W1.1", "3:0"), ("W1.2", "3:0"), ("W2.1", "3:1")):
         begun("result", match, score)
@@ -166,6 +169,7 @@ def test_a_tournament_of_another_program_goes_on(night, tmp_path):
     assert (wrong.exit_code, "ratings.csv" in wrong.stderr) == (3, True)
 
 
+@pytest.mark.slow
 def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     for match in ("W1.1", "W1.2"):
         begun("result", match, "3:0")

@@ -108,6 +108,7 @@ def shown(rating: float, comma: bool) -> str:
     return f"{rating:g}".replace(".", "," if comma else ".")
 
 
+@pytest.mark.slow_after(18)
 @pytest.mark.parametrize("seed", range(TRIES))
 def test_a_list_of_one_form_is_read_as_it_was_meant(tmp_path: Path, seed: int) -> None:
     rng = np.random.default_rng(seed)

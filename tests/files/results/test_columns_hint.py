@@ -95,6 +95,7 @@ def in_order(titles, pair):
         titles[place] = one
 
 
+@pytest.mark.slow_after(34)
 @pytest.mark.parametrize("seed", range(TRIES))
 def test_a_proposal_reads_every_row_as_what_it_is_or_is_not_made(tmp_path, seed):
     rng = np.random.default_rng(seed)

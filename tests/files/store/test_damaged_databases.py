@@ -39,6 +39,7 @@ COMMANDS = (
 PAGES = ("/", "/bracket", "/players", "/screen", "/desk", "/new", "/team", "/prizes", "/pin")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(MUTANTS))
 def test_a_damaged_database_is_answered_in_words(seed: int, tmp_path: Path) -> None:
     luck = random.Random(seed)

@@ -45,6 +45,7 @@ def pragma(path: Path, name: str, value: int | None = None) -> int:
         return int(base.execute(f"PRAGMA {name}").fetchone()[0])
 
 
+@pytest.mark.slow
 def test_the_files_of_earlier_versions_hold_what_they_held(earlier: Path) -> None:
     before = {path: path.read_bytes() for path in earlier.iterdir()}
     expected = json.loads((earlier / "states.json").read_text(encoding="utf-8"))

@@ -191,6 +191,7 @@ while True:
 """
 
 
+@pytest.mark.slow_after(5)
 @posix
 @pytest.mark.parametrize("ending", ["SIGKILL", "SIGTERM", "SIGINT"])
 @pytest.mark.parametrize("after", [0.0, 0.01, 0.02, 0.035, 0.05])

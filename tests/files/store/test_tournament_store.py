@@ -65,6 +65,7 @@ def test_a_refused_move_leaves_the_file_as_it_was(tonight: Path) -> None:
     assert len(read_events(tonight)) == 1
 
 
+@pytest.mark.slow
 def test_two_programs_lose_nothing(tonight: Path) -> None:
     many = 25
     both = [writer(tonight, name, many) for name in ("Ann", "Bo")]
@@ -77,6 +78,7 @@ def test_two_programs_lose_nothing(tonight: Path) -> None:
         ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wait", [0.0, 0.05, 0.13])
 def test_what_was_acknowledged_survives_a_kill(tonight: Path, wait: float) -> None:
     with writer(tonight, "Ann", 200) as process:

@@ -83,6 +83,7 @@ class Faulty:
         return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", ["once", "after", "from then on", "interrupt"])
 def test_each_call_fails_in_turn(case, fault):
     for nth in count(1):
@@ -104,6 +105,7 @@ def test_each_call_fails_in_turn(case, fault):
     assert nth > 20
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_each_call_is_the_last_of_a_killed_run(case):
@@ -123,6 +125,7 @@ def test_each_call_is_the_last_of_a_killed_run(case):
     assert nth > 20
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_each_call_of_the_recovery_may_be_the_last_one_too(tmp_path):
@@ -192,6 +195,7 @@ def test_what_somebody_has_changed_since_is_not_put_back(torn):
     assert content(torn) == {**OLD, "a.csv": b"mended by hand", "c.csv": b"made by hand"}
 
 
+@pytest.mark.slow
 def test_where_there_are_no_hard_links_the_old_are_copied(case, monkeypatch):
     def no_links(*_, **__):
         raise OSError(errno.EPERM, "Operation not permitted")
@@ -221,6 +225,7 @@ def test_a_link_is_put_back_as_a_link(torn):
     assert (torn / "mine.txt").read_bytes() == b"mine"
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.skipif(not shutil.which("strace"), reason="strace is not installed")
 @pytest.mark.parametrize("injected", ["error=EIO", "signal=KILL"])

@@ -110,6 +110,7 @@ def test_a_good_file_is_read(tmp_path, reader, good):
     assert refusal(reader, path) is None
 
 
+@pytest.mark.slow_after(5)
 @readers
 @given(content=st.binary(max_size=200))
 def test_any_bytes(tmp_path_factory, reader, good, content):
@@ -119,6 +120,7 @@ def test_any_bytes(tmp_path_factory, reader, good, content):
         assert is_of_use(refusal(reader, path), path)
 
 
+@pytest.mark.slow_after(7)
 @readers
 @given(text=st.text(max_size=100))
 def test_any_text_below_the_header(tmp_path_factory, reader, good, text):
@@ -138,6 +140,7 @@ def test_any_cells(tmp_path_factory, reader, good, data):
     assert is_of_use(refusal(reader, path), path)
 
 
+@pytest.mark.slow_after(5)
 @readers
 @given(data=st.data())
 def test_a_good_file_with_a_slip(tmp_path_factory, reader, good, data):

@@ -206,6 +206,7 @@ KINDS: list[Make] = [
 TRIES = tries("hostile workbooks", 1, parts=len(KINDS))
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)
 def test_a_hostile_workbook_is_one_problem(make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workbook, "MOST_MEMORY", 300_000_000)

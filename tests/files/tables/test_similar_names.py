@@ -103,6 +103,7 @@ def test_thousands_of_names_that_differ_in_one_letter_take_no_time():
     assert time.perf_counter() - started < 5
 
 
+@pytest.mark.slow
 def test_thousands_of_names_take_no_time():
     syllables = ["ba", "de", "fi", "go", "ku", "lam", "mer", "nol", "ris", "tun"]
     names = [

@@ -59,6 +59,7 @@ def test_a_limit_on_the_length_that_no_race_keeps_is_refused():
         limited.fairest()
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("games", "up_to", "wrong"),
     [((1, 999), None, "250000 races"), ((5, 7), 0, "up_to is 0")],

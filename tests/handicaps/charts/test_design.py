@@ -51,6 +51,7 @@ SMALL = [
 ]
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize(("limits", "scale", "up_to"), SMALL)
 @pytest.mark.parametrize(("target", "tilt"), [(0.5, 0.5), (0.6, 0.5), (0.5, 0.2)])
 def test_no_chart_of_all_is_fairer(limits, scale, up_to, target, tilt):
@@ -61,6 +62,7 @@ def test_no_chart_of_all_is_fairer(limits, scale, up_to, target, tilt):
     assert sum(ours) == pytest.approx(min(map(sum, every)), abs=1e-9)
 
 
+@pytest.mark.slow_after(7)
 @pytest.mark.parametrize(("limits", "scale", "up_to"), SMALL)
 @pytest.mark.parametrize("rows", [1, 2, 3, 9])
 def test_no_chart_of_so_few_rows_is_fairer(limits, scale, up_to, rows):
@@ -191,6 +193,7 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
     assert measure_chart(short, "npl", up_to=60).games_p90 == 9
 
 
+@pytest.mark.slow_after(6)
 @pytest.mark.parametrize(
     ("wrong", "remedy"),
     [

@@ -12,6 +12,7 @@ from evenbreak.ratings.scale import SCALES
 LIMITS = [{"race_to": 7}, {"games": (5, 13)}, {"games": (9, 9)}]
 
 
+@pytest.mark.slow_after(8)
 @pytest.mark.parametrize("limits", LIMITS)
 @pytest.mark.parametrize("difference", [-40.0, 0.0, 7.5, 33.0])
 def test_the_first_is_the_race_of_a_sheet(limits, difference):

@@ -9,6 +9,7 @@ from evenbreak.handicaps.charts.played_chart import played_chart
 from handicapped import by_chart, by_class
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("levels", [True, False], ids=["ratings", "races alone"])
 def test_intervals_hold_the_true_scale(levels):
     held, values = 0, []

@@ -32,6 +32,7 @@ def averaged(f, difference, error, scale="npl"):
     return math.fsum(quad(integrand, a / 4, (a + 1) / 4, epsabs=1e-13)[0] for a in range(-36, 36))
 
 
+@pytest.mark.slow_after(11)
 @pytest.mark.parametrize("race", [(1, 1), (5, 5), (7, 2), (13, 5), (25, 25), (100, 60)])
 @pytest.mark.parametrize("error", [3.0, 12.0, 42.0, 90.0, 290.0])
 def test_win_is_the_integral(race, error):
@@ -90,6 +91,7 @@ def test_length_without_error_is_that_of_the_race():
     assert many.quantile(0.9).shape == (2,)
 
 
+@pytest.mark.slow
 def test_lengths_whose_chance_is_nothing_at_some_difference():
     length = length_given_ratings([0.0, 40.0], 200.0, 60, 50)
     assert length.games.tolist() == list(range(50, 110))

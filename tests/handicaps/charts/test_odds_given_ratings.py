@@ -31,6 +31,7 @@ MATCHES = [
 ]
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("match", MATCHES)
 def test_any_match_is_averaged_over_the_possible_differences(match):
     scale = SCALES["npl"]

@@ -12,6 +12,7 @@ def longest(chart):
     return [row.stronger_needs + row.weaker_needs - 1 for row in chart.rows]
 
 
+@pytest.mark.slow_after(5)
 @pytest.mark.parametrize("spread", [0, 1, 2, 4])
 def test_the_fairest_chart_is_the_fairest_of_the_groups(spread):
     made = design("npl", WIDE, spread=spread, up_to=60)

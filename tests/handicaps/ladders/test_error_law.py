@@ -92,6 +92,7 @@ def test_equal_skill_is_the_fixed_point_of_exact_rounds():
     np.testing.assert_allclose(chances(found.law()), [float(x) for x in law], rtol=1e-11)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", CHARTS)
 def test_autocorrelated_opponents_err_as_the_player_does(name):
     ladder = Ladder(chart(name), opponents=AUTOCORRELATED, widest=40)

@@ -158,6 +158,7 @@ def test_the_chain_of_a_ladder_settles_as_the_ladder_does(name):
     assert mixing_time(chain) == slowest
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("widest", [60, 510])
 @pytest.mark.parametrize(
     ("system", "period"), [("step 2 1", 3), ("step 3 2", 5), ("elo 8", 1), ("margin 2", 1)]

@@ -50,6 +50,7 @@ def brute_moves(ladder, error, step):
     return total
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("sd", [0.0, 1.5])
 @pytest.mark.parametrize(
     "opponents",

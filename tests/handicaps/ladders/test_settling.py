@@ -135,6 +135,7 @@ def test_steps_that_jump_over_the_band_may_never_settle():
         settling(Ladder(step_system(4)), 30, within=0)
 
 
+@pytest.mark.slow
 def test_what_takes_ages_is_refused():
     # The skill falls about as fast as the rating can follow.
     with pytest.raises(AccuracyError, match="more than 100,000 matches on average"):

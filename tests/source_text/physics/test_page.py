@@ -15,6 +15,7 @@ def page(reproduced):
     return reproduced.files["physics.md"].decode()
 
 
+@pytest.mark.slow
 def test_all_figures_and_tables_are_linked(page):
     linked = set(re.findall(r"\]\(([^)#]+)\)", page))
     drawn = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}

@@ -19,6 +19,7 @@ def test_shares_by_the_chain_are_those_by_the_formula():
             assert by_chain == pytest.approx(by_formula, abs=1e-9)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", break_formats.FORMATS)
 def test_eigenvalues_are_those_of_the_chain(name):
     p1, p2 = 0.9, 0.5

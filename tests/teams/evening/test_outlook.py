@@ -45,6 +45,7 @@ def test_the_other_side_of_sealed_line_ups():
     assert [one.mix for one in side.solution.ours] == pytest.approx(shares, abs=1e-6)
 
 
+@pytest.mark.slow_after(4)
 @pytest.mark.parametrize("order", ["home", "blind", "AWW", "ALL"])
 @pytest.mark.parametrize("count", ["sets", "games"])
 def test_the_chances_of_both_teams_add_up_to_one(order, count):
