@@ -24,6 +24,9 @@ _PATIENCE = 0.2
 INTERRUPTED = 130
 """The exit code."""
 
+_SHOW_CURSOR = b"" if os.environ.get("TERM") == "dumb" else b"\x1b[?25h"
+"""What a terminal needs whose progress bar has hidden the cursor."""
+
 _asked = False
 
 
@@ -82,5 +85,5 @@ def _watch(heard: int) -> None:
         time.sleep(_PATIENCE)
         # Whoever answers interrupts in another way, such as a server, does so in its own time.
         if not _asked and signal.getsignal(signal.SIGINT) is _interrupt:
-            os.write(2, b"\nInterrupted.\n" if os.isatty(2) else b"Interrupted.\n")
+            os.write(2, _SHOW_CURSOR + b"\nInterrupted.\n" if os.isatty(2) else b"Interrupted.\n")
             os._exit(INTERRUPTED)

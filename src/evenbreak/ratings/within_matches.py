@@ -179,11 +179,6 @@ class ScoreShape(NamedTuple):
     said: float
     said_with_form: float
 
-    @property
-    def nearer(self) -> bool:
-        """Whether form brings what is said nearer to what was seen."""
-        return abs(self.said_with_form - self.seen.value) < abs(self.said - self.seen.value)
-
 
 @dataclass(frozen=True)
 class MatchForm(DayForm):

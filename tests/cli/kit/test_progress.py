@@ -1,10 +1,13 @@
-"""A line on a terminal that shows the progress of long work."""
+"""A bar on a terminal that shows the progress of long work."""
 
 import io
+import re
+import subprocess
 import sys
 import time
 
 import click
+import pytest
 from click.testing import CliRunner
 
 from evenbreak.answers.kit.answer import Answer
@@ -13,45 +16,72 @@ from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.progress import Progress, Working
 from evenbreak.cli.kit.terminal import say
 
+ERASED = "\x1b[?25h\r\x1b[1A\x1b[2K"
+"""The cursor comes back, to the start of an empty line."""
+
 
 class Screen(io.StringIO):
     def isatty(self):
         return True
 
 
+@pytest.fixture(autouse=True)
+def can_move_its_cursor(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+
 def counted(monkeypatch, stderr, patience):
     monkeypatch.setattr(sys, "stderr", stderr)
     monkeypatch.setattr(module, "PATIENCE", patience)
-    monkeypatch.setattr(module, "_PAUSE", 0.0)
     with Progress("charts designed") as progress:
         for count in range(1, 4):
             progress(count)
+            time.sleep(0.15)
     return stderr.getvalue()
 
 
-def test_long_work_is_counted_and_the_line_erased(monkeypatch):
-    printed = counted(monkeypatch, Screen(), 0.0).split("\r")
-    assert printed[1:4] == [f"{count} charts designed so far ..." for count in (1, 2, 3)]
-    assert set(printed[4]) == {" "}
-    assert len(printed[4]) == len(printed[3])
-    assert printed[5:] == [""]
+def lines(printed):
+    """Return what stood on the line of the bar, one state after the other."""
+    return [line for line in re.sub(r"\x1b\[\S*?[lhKA]", "", printed).split("\r") if line.strip()]
 
 
-def test_with_a_known_total_the_time_left_is_shown(monkeypatch):
+def test_long_work_is_counted_and_the_bar_erased(monkeypatch):
+    printed = counted(monkeypatch, Screen(), 0.0)
+    states = lines(printed)
+    assert "3 charts designed so far" in states[-1]
+    assert all(state.rstrip().endswith("0:00:00") for state in states)
+    assert printed.endswith(ERASED)
+
+
+def test_with_a_known_total_the_time_left_is_shown_in_one_line(monkeypatch):
     screen, clock = Screen(), iter([100.0, 101.0, 110.0, 220.0, 1300.0])
+    shown = []
     monkeypatch.setattr(sys, "stderr", screen)
     monkeypatch.setattr(module.time, "monotonic", lambda: next(clock))
+    monkeypatch.setattr(module, "_show", lambda _, *what: shown.append(what))
     with Progress("seasons") as progress:
         for count in (0, 250, 500, 2000):
             progress(count, 10_000)
-    printed = [line.rstrip() for line in screen.getvalue().split("\r")]
-    assert printed[1:5] == [
-        "0 of 10,000 seasons (0%), time left not yet known ...",
-        "250 of 10,000 seasons (2%), about 6 min left ...",
-        "500 of 10,000 seasons (5%), about 38 min left ...",
-        "2,000 of 10,000 seasons (20%), about 1 h 20 min left ...",
+    assert [line for line, *_ in shown] == [
+        "0 of 10,000 seasons (0%), time left not yet known",
+        "250 of 10,000 seasons (2%), about 6 min left",
+        "500 of 10,000 seasons (5%), about 38 min left",
+        "2,000 of 10,000 seasons (20%), about 1 h 20 min left",
     ]
-    assert max(map(len, printed)) <= 80
+    assert shown[-1][1:] == (2000, 10_000)
+
+
+def test_the_bar_is_as_long_as_what_is_done_and_fits_a_terminal(monkeypatch):
+    screen = Screen()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    with Progress("seasons") as progress:
+        progress(5_000, 10_000)
+        time.sleep(0.15)
+    assert any(state.startswith("━" * 8 + " " * 8) for state in lines(screen.getvalue()))
+    assert max(map(len, lines(screen.getvalue()))) <= 80
 
 
 def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
@@ -59,9 +89,11 @@ def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
     assert counted(monkeypatch, io.StringIO(), 0.0) == ""
 
 
-def test_long_work_prints_one_plain_line_into_a_file(monkeypatch):
+@pytest.mark.parametrize("stderr", [io.StringIO(), Screen()], ids=["file", "dumb terminal"])
+def test_long_work_prints_one_plain_line_where_there_is_no_bar(monkeypatch, stderr):
+    monkeypatch.setenv("TERM", "dumb")
     monkeypatch.setattr(module, "PATIENCE_IN_A_FILE", 0.0)
-    assert counted(monkeypatch, io.StringIO(), 0.0) == "1 charts designed so far ...\n"
+    assert counted(monkeypatch, stderr, 0.0) == "1 charts designed so far ...\n"
 
 
 def waited(monkeypatch, stderr, work):
@@ -70,33 +102,45 @@ def waited(monkeypatch, stderr, work):
     monkeypatch.setattr(module, "SILENCE", 0.01)
     with Working():
         work()
-    return stderr.getvalue().split("\r")
+    return stderr.getvalue()
 
 
-def test_a_command_that_takes_long_says_so_on_a_terminal_and_erases_the_line(monkeypatch):
+def test_a_command_that_takes_long_says_so_on_a_terminal_and_erases_the_bar(monkeypatch):
     screen = Screen()
 
     def work():
-        while not screen.getvalue():
+        while "Ctrl-C stops it" not in screen.getvalue():
             time.sleep(0.01)
         say("Wrote a.csv")
 
-    _, line, blank, message, *_ = waited(monkeypatch, screen, work)
-    assert line == "Working, 0 s so far; Ctrl-C stops it ..."
-    assert blank == " " * len(line)
-    assert message.startswith("Wrote a.csv\n")
+    working, message = waited(monkeypatch, screen, work).split(ERASED)
+    assert "Working; Ctrl-C stops it 0:00:00" in working
+    assert message == "Wrote a.csv\n"
 
 
 def test_work_that_ends_soon_counts_by_itself_or_has_no_terminal_says_no_more(monkeypatch):
-    assert waited(monkeypatch, Screen(), lambda: None) == [""]
-    assert waited(monkeypatch, io.StringIO(), lambda: time.sleep(0.05)) == [""]
+    assert waited(monkeypatch, Screen(), lambda: None) == ""
+    assert waited(monkeypatch, io.StringIO(), lambda: time.sleep(0.05)) == ""
     with Progress("steps"):
-        assert waited(monkeypatch, Screen(), lambda: time.sleep(0.05)) == [""]
+        assert waited(monkeypatch, Screen(), lambda: time.sleep(0.05)) == ""
 
 
 def test_every_answer_is_waited_for(monkeypatch):
     seen = []
     monkeypatch.setattr(Working, "__enter__", lambda working: seen.append(working))
+    monkeypatch.setattr(Working, "__exit__", lambda *_: None)
     command = click.command("slow")(faces()(lambda: Answer("Done", [])))
     assert CliRunner().invoke(command).exit_code == 0
     assert len(seen) == 1
+
+
+def test_a_bar_is_loaded_only_when_it_is_shown():
+    code = (
+        "import sys\n"
+        "from evenbreak.cli.kit.progress import Progress, Working\n"
+        "with Working(), Progress('seasons') as progress:\n"
+        "    progress(1, 2)\n"
+        "print([name for name in sys.modules if name.startswith('rich')])\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ended.stdout == "[]\n"

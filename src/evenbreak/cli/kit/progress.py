@@ -1,82 +1,105 @@
-"""A line on stderr that shows the progress of a long computation, or that it takes long."""
+"""A bar on a terminal that shows how far long work is, or only that it goes on.
+
+A terminal that cannot move its cursor, and a file, get one plain line instead.
+"""
+
+from __future__ import annotations
 
 import math
+import os
 import sys
 import threading
 import time
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import click
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as RichProgress
 
 SILENCE = 2.0
 """The longest that a command says nothing on a terminal."""
 
 PATIENCE = 1.0
-"""Seconds before the line first appears."""
+"""Seconds before work that is counted shows its bar."""
 
 PATIENCE_IN_A_FILE = 10.0
-"""Seconds before stderr says once that the work goes on, where it is not a terminal."""
-
-_PAUSE = 0.1
-"""Seconds between two updates."""
+"""Seconds before stderr says once that the work goes on, where it has no bar."""
 
 _lock = threading.Lock()
-_shown = 0
-"""How many letters are on the line."""
+_bar: RichProgress | None = None
+"""What the terminal shows just now."""
 
 _counting = 0
 """How many `Progress` have something to count just now."""
 
 
-def _show(line: str) -> None:
-    """Write the line over on the terminal; an empty one erases it."""
-    global _shown
+def _show(begun: float, what: str, done: int = 0, total: int | None = None) -> None:
+    """Show the bar of work that began then; without a total it moves to and fro."""
+    global _bar
     with _lock:
-        end = "" if line else "\r"
-        click.echo("\r" + line.ljust(_shown) + end, nl=False, err=True)
-        _shown = len(line)
+        if _bar is None:
+            from rich.console import Console  # only now: it takes a while to load
+            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+            _bar = Progress(
+                BarColumn(bar_width=16),
+                TextColumn("{task.description}"),
+                TimeElapsedColumn(),
+                console=Console(file=sys.stderr),
+                transient=True,
+                redirect_stdout=False,
+                redirect_stderr=False,
+            )
+            _bar.add_task(what, total=total)
+            _bar.tasks[0].start_time = begun
+            _bar.start()
+        _bar.update(_bar.task_ids[0], description=what, completed=done, total=total)
 
 
 def erase() -> None:
-    """Erase the line, before something else is printed."""
-    if _shown:
-        _show("")
+    """Erase the bar, before something else is printed."""
+    global _bar
+    with _lock:
+        if _bar is not None:
+            _bar.stop()
+            _bar = None
+
+
+def _has_bar() -> bool:
+    """Return whether stderr is a terminal that can show a bar."""
+    stderr = sys.stderr
+    return stderr is not None and stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
 class Working:
-    """A line on a terminal that shows that a command still works, unless it counts by itself.
+    """A bar that shows that a command still works, unless it counts by itself.
 
     >>> with Working():
     ...     pass
     """
 
-    def __init__(self) -> None:
-        self._done = threading.Event()
-
     def __enter__(self) -> None:
         """Start the clock."""
+        self._begun = time.monotonic()
+        self._timer = threading.Timer(SILENCE, self._show)
+        self._timer.daemon = True
         # What is read from a terminal may be waited for.
-        if sys.stderr is not None and sys.stderr.isatty() and "-" not in sys.argv[1:]:
-            threading.Thread(target=self._show, daemon=True).start()
+        if _has_bar() and "-" not in sys.argv[1:]:
+            self._timer.start()
 
     def _show(self) -> None:
-        begun = time.monotonic()
-        while not self._done.wait(SILENCE if time.monotonic() - begun < SILENCE else 1.0):
-            if not _counting:
-                seconds = round(time.monotonic() - begun)
-                _show(f"Working, {seconds} s so far; Ctrl-C stops it ...")
+        if not _counting and not self._timer.finished.is_set():
+            _show(self._begun, "Working; Ctrl-C stops it")
 
     def __exit__(self, *_: object) -> None:
-        """Erase the line."""
-        self._done.set()
+        """Erase the bar."""
+        self._timer.cancel()
         erase()
 
 
 class Progress:
-    """A line that counts, shown only if the work takes long.
-
-    On a terminal it is written over again and again, and erased at the end. Elsewhere one line
-    is printed, and no more.
+    """A bar that counts, shown only if the work takes long, and erased at its end.
 
     Parameters
     ----------
@@ -92,23 +115,23 @@ class Progress:
     def __init__(self, what: str) -> None:
         self._what = what
         self._begun = time.monotonic()
-        self._terminal = sys.stderr is not None and sys.stderr.isatty()
-        self._next = self._begun + (PATIENCE if self._terminal else PATIENCE_IN_A_FILE)
+        self._has_bar = _has_bar()
+        self._next = self._begun + (PATIENCE if self._has_bar else PATIENCE_IN_A_FILE)
 
     def __call__(self, count: int, total: int | None = None) -> None:
         """Show how many are done and, if the total is known, how long the rest will take."""
-        now = time.monotonic()
-        if now < self._next:
+        seconds = time.monotonic() - self._begun
+        if self._begun + seconds < self._next:
             return
-        self._next = now + _PAUSE if self._terminal else math.inf
-        line = f"{count} {self._what} so far ..."
+        line = f"{count:,} {self._what} so far"
         if total is not None:
             line = f"{count:,} of {total:,} {self._what} ({100 * count // total}%)"
-            line += f", {_left(now - self._begun, count, total)} ..."
-        if not self._terminal:
-            click.echo(line, err=True)
-            return
-        _show(line)
+            line += f", {_left(seconds, count, total)}"
+        if self._has_bar:
+            _show(self._begun, line, count, total)
+        else:
+            self._next = math.inf
+            click.echo(f"{line} ...", err=True)
 
     def __enter__(self) -> Self:
         """Start the clock."""
@@ -117,7 +140,7 @@ class Progress:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Erase the line."""
+        """Erase the bar."""
         global _counting
         _counting -= 1
         erase()
