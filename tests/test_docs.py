@@ -14,7 +14,6 @@ import pytest
 
 from catalogued import said_on_pages
 from evenbreak.cli.program import COMMANDS, program
-from evenbreak.files.results.matches import OPTIONAL, REQUIRED
 from places import ROOT, SRC
 from terminal import on_a_terminal
 
@@ -283,9 +282,3 @@ def test_every_public_name_can_be_had() -> None:
         module = importlib.import_module(package)
         for name in getattr(module, "__all__", ()):
             assert getattr(module, name) is not None, f"{package}.{name}"
-
-
-def test_every_column_of_a_results_file_is_described_with_its_other_names() -> None:
-    text = (ROOT / "docs" / "reference" / "files.md").read_text(encoding="utf-8")
-    for column, others in {**REQUIRED, **OPTIONAL}.items():
-        assert f"| `{column}` | {', '.join(others)} |" in text

@@ -10,22 +10,47 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import DataError
-from evenbreak.files.tables.cells import numbers
-from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import Texts, TextTable, read_table
+from evenbreak.files.tables.cells import Number, Text
+from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import Texts, TextTable
+from evenbreak.words import Sentence, say
 
 if TYPE_CHECKING:
     import networkx as nx
 
     from evenbreak.chains.chain import Chain
 
-COLUMNS = {
-    "source": ("from", "state", "source state"),
-    "target": ("to", "next", "next state", "target state"),
-    "probability": ("p", "prob", "chance"),
-}
 WEIGHT = "weight"
 """What networkx and others call a probability; it counts where there is none of that name."""
+
+_STATE = say("the name of a state")
+_CHANCE = say("a probability such as 0.25")
+
+ARCS = Schema(
+    "arcs",
+    source=Text("from, state, source state", "a state", needed=True, filled=True, write=_STATE),
+    target=Text(
+        "to, next, next state, target state",
+        "the state that comes next",
+        needed=True,
+        filled=True,
+        write=_STATE,
+    ),
+    probability=Number(
+        "p, prob, chance",
+        "of the target, given the source",
+        needed=True,
+        instead=[WEIGHT],
+        filled=True,
+        least=0,
+        most=1,
+        write=_CHANCE,
+    ),
+    weight=Number(
+        about="read where there is no `probability`", filled=True, least=0, most=1, write=_CHANCE
+    ),
+)
 
 SUM_TOLERANCE = 1e-9
 
@@ -62,12 +87,12 @@ class ArcsFile(NamedTuple):
             start = self.start or self.states[0]
         elif start not in self.states:
             known = ", ".join(map(quoted, self.states[:5]))
-            raise DataError(
-                [
-                    f"{self.source}: start {quoted(start)} is not a state; the first states are "
-                    f"{known}"
-                ]
+            problem = say(
+                "start {start} is not a state; the first states are {states}",
+                start=quoted(start),
+                states=known,
             )
+            raise DataError([warning(self.source, problem)])
         return chain_from_arrays(
             self.states, self.sources, self.targets, self.probabilities, start=start
         )
@@ -100,15 +125,12 @@ def read_arcs(path: str | Path) -> ArcsFile:
     >>> arcs.states, arcs.sources, arcs.targets, arcs.probabilities
     (['S', 'W', 'L'], array([0, 0]), array([1, 2]), array([0.6, 0.4]))
     """
-    instead = {"probability": [{WEIGHT}]}
-    table = read_table(path, COLUMNS, {WEIGHT: ()}, instead, rows="arcs")
+    table = ARCS.text(path)
     whole = len(table.problems) == 0
-    remedy = "write a probability such as 0.25"
     name = WEIGHT if WEIGHT in table and "probability" not in table else "probability"
-    p = numbers(table, name, at_least=0, at_most=1, remedy=remedy).values
+    table = ARCS.only("source", "target", name).of(table)
+    p = table[name]
     if all(column in table for column in ("source", "target", name)):
-        for column in ("source", "target"):
-            _refuse_empty(table, column)
         states, sources, targets = _states(table)
         _refuse_twice(table, states, sources, targets)
         # If a number is wrong or missing, its sum would be reported for the same reason.
@@ -116,12 +138,6 @@ def read_arcs(path: str | Path) -> ArcsFile:
             _refuse_sums(table, states, sources, p)
     table.problems.raise_any()
     return ArcsFile(states, sources, targets, p, table.source, table.warnings, states[sources[0]])
-
-
-def _refuse_empty(table: TextTable, column: str) -> None:
-    distinct, codes = table.columns[column]
-    empty = np.flatnonzero(np.array([not text for text in distinct], dtype=bool)[codes])
-    table.problems.add_rows(table.lines, empty, lambda _: f"{column} is empty; name a state")
 
 
 def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
@@ -140,9 +156,11 @@ def _refuse_twice(
     table.problems.add_rows(
         table.lines,
         again,
-        lambda row: (
-            f"the arc {quoted(states[sources[row]])} -> {quoted(states[targets[row]])} is in "
-            f"line {table.lines[first[which[row]]]} already; keep one of the two"
+        lambda row: say(
+            "the arc {source} -> {target} is in line {line} already; keep one of the two",
+            source=quoted(states[sources[row]]),
+            target=quoted(states[targets[row]]),
+            line=table.lines[first[which[row]]],
         ),
     )
 
@@ -150,14 +168,14 @@ def _refuse_twice(
 def _refuse_sums(
     table: TextTable, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
 ) -> None:
-    found = sum_problems(states, sources, p)
-    rows = np.array(list(found), dtype=np.int64)
-    table.problems.add_rows(table.lines, rows, lambda row: found[row])
+    wrong = sum_problems(states, sources, p)
+    rows = np.array(list(wrong), dtype=np.int64)
+    table.problems.add_rows(table.lines, rows, lambda row: wrong[row])
 
 
 def sum_problems(
     states: Sequence[str], sources: NDArray[np.int64], p: NDArray[np.float64]
-) -> dict[int, str]:
+) -> dict[int, Sentence]:
     """Return what is wrong with the sums out of states, by the first arc out of each.
 
     >>> sum_problems(["S", "W"], np.array([0]), np.array([0.9]))[0][:32]
@@ -167,7 +185,11 @@ def sum_problems(
     sums = np.bincount(sources, weights=p, minlength=len(states))
     wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
     return {
-        row: f"the arcs out of {quoted(states[sources[row]])} sum to {sums[sources[row]]:.12g}, "
-        "not 1; add what is missing (a self-loop counts), or write more digits"
+        row: say(
+            "the arcs out of {state} sum to {sum:.12g}, not 1; add what is missing (a self-loop "
+            "counts), or write more digits",
+            state=quoted(states[sources[row]]),
+            sum=sums[sources[row]],
+        )
         for row in wrong.tolist()
     }

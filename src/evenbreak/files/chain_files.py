@@ -15,10 +15,11 @@ import numpy as np
 
 from evenbreak.chains.matrices import sums_to_1
 from evenbreak.errors import DataError
-from evenbreak.files.arcs import COLUMNS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
+from evenbreak.files.arcs import ARCS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
+from evenbreak.files.tables.cells import Text
 from evenbreak.files.tables.problems import printable, quoted
 from evenbreak.files.tables.rows import content_of
-from evenbreak.files.tables.table import read_table
+from evenbreak.files.tables.schema import Schema
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,10 +31,13 @@ if TYPE_CHECKING:
     from evenbreak.chains.matrices import Rows
 
 
-STATES = {"state": ("name", "node")}
-"""The column of a list of states, with its other names."""
-MORE_OF_STATES = dict.fromkeys(("kind", "winner", "class", "class_kind", "period", "limit"), ())
-"""Columns that it may have; `kind` says which state is the start, `winner` who has won there."""
+STATES = Schema(
+    "states",
+    state=Text("name, node", "the name of the state", needed=True),
+    kind=Text(about="`start` for the state in which the chain starts"),
+    winner=Text(about="the number of the player who has won there"),
+) | Schema(**dict.fromkeys(("class", "class_kind", "period", "limit"), Text()))
+"""A list of states; those that `evenbreak chain` writes have more columns."""
 
 OTHER_FORMS = (".dot", ".gexf", ".gml", ".gv", ".gz", ".mat", ".net", ".npy", ".npz", ".pkl")
 """What other programs write graphs and matrices to, and no table has for the end of its name."""
@@ -142,7 +146,7 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
         _refuse(source, f"{what}; write a directed graph, with one arc from a state to another")
     if not len(graph):
         _refuse(source, "has no states; write a node for each")
-    names = ("probability", *COLUMNS["probability"], WEIGHT)
+    names = ("probability", *ARCS["probability"].aliases, WEIGHT)
     problems, triples = [], []
     position = {state: k for k, state in enumerate(graph)}
     for j, i, attributes in graph.edges(data=True):
@@ -263,7 +267,7 @@ def _states(
     path: str | Path, n: int
 ) -> tuple[list[str], str | None, dict[str, int], tuple[str, ...]]:
     """Return the names of n states, the one of the kind 'start', who has won, and warnings."""
-    table = read_table(path, STATES, MORE_OF_STATES, rows="states")
+    table = STATES.text(path)
     table.problems.raise_any()
     names = table.cells("state")
     if len(names) != n or len(set(names)) < n or not all(names):

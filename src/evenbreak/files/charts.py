@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -12,9 +11,11 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import LARGEST
-from evenbreak.files.tables.cells import numbers, whole_numbers
-from evenbreak.files.tables.problems import Problems, printable, quoted
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.cells import Number, Whole
+from evenbreak.files.tables.header import missing_column
+from evenbreak.files.tables.problems import Problems, printable, warning
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import TextTable
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, ChartDraft, ChartRow, chart, row_faults
 from evenbreak.handicaps.charts.chart_of import catalogue_name
 from evenbreak.handicaps.charts.level_chart import (
@@ -25,33 +26,80 @@ from evenbreak.handicaps.charts.level_chart import (
     level_chart,
     points_chart,
 )
-from evenbreak.ratings.result_words import LARGEST_WHOLE
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS, ChipChart, ChipRow
-
-DIFFERENCES = {
-    "difference_from": ("from", "gap from", "points from"),
-    "difference_to": ("to", "gap to", "points to"),
-    "stronger_needs": ("stronger", "higher needs", "games stronger"),
-    "weaker_needs": ("weaker", "lower needs", "games weaker"),
-}
-"""The columns of a chart by rating difference, with their other names."""
-
-LEVELS = {
-    "level": ("skill level", "own level", "level a"),
-    "opponent_level": ("opponent", "opponent skill level", "level b"),
-    "needs": ("games", "own games"),
-    "opponent_needs": ("opponent games",),
-}
-"""The columns of a chart by skill level, with their other names; the last may be missing."""
-
-POINTS = {"level": LEVELS["level"], "points": ("points to win", "needs points")}
-"""The columns of a chart of points, with their other names."""
-
-MAY_BE_EMPTY = ("difference_to", "opponent_needs")
-"""The columns whose cells may be empty."""
+from evenbreak.words import listed, say
 
 MOST_GAMES = 1000
 """Games in the longest race."""
+
+_DIFFERENCE = Whole(filled=True, write=say("points, such as 7"))
+_LEVEL = Whole(filled=True, write=say("a skill level, such as 4"))
+_GAMES = Whole(filled=True, least=1, most=MOST_GAMES, write=say("a number of games, such as 5"))
+
+DIFFERENCES = Schema(
+    difference_from=_DIFFERENCE.called(
+        "from, gap from, points from", "the first rating difference of the row, in whole points"
+    ),
+    difference_to=_DIFFERENCE.called(
+        "to, gap to, points to",
+        "the last one; empty in the last row, which is open-ended",
+        filled=False,
+        empty=None,
+    ),
+    stronger_needs=_GAMES.called(
+        "stronger, higher needs, games stronger", "the games that the stronger player needs"
+    ),
+    weaker_needs=_GAMES.called(
+        "weaker, lower needs, games weaker", "the games that the weaker player needs"
+    ),
+)
+"""A chart by rating difference."""
+
+LEVELS = Schema(
+    level=_LEVEL.called("skill level, own level, level a", "the level of one player"),
+    opponent_level=_LEVEL.called(
+        "opponent, opponent skill level, level b", "the level of the other player"
+    ),
+    needs=_GAMES.called("games, own games", "the games that the player of `level` needs"),
+    opponent_needs=_GAMES.called(
+        "opponent games",
+        "the games that the opponent needs; not needed if every pair is listed both ways round",
+        filled=False,
+    ),
+)
+"""A chart by skill level."""
+
+POINTS = LEVELS.only("level") | Schema(
+    points=_GAMES.called(
+        "points to win, needs points",
+        "the points that a player of the level needs; larger in each row",
+    )
+)
+"""A chart of points."""
+
+CHIPS = Schema(
+    "rows",
+    rating_from=Number(
+        "from, rating, from rating",
+        "the lowest rating of the row",
+        needed=True,
+        least=-LARGEST,
+        most=LARGEST,
+        grouped=True,
+        write=say("a rating"),
+        empty=say("for the weakest players"),
+    ),
+    chips=Whole(
+        "lives",
+        "the chips that these players start with",
+        needed=True,
+        filled=True,
+        least=1,
+        most=1000,
+        write=say("1, 2, ..."),
+    ),
+)
+"""A chip chart."""
 
 MOST_MISSING = 20
 """The most missing pairs of levels listed one by one."""
@@ -59,8 +107,8 @@ MOST_MISSING = 20
 
 def is_chart(path: str | Path) -> bool:
     """Return whether a table has a column that charts have and other tables have not."""
-    own = {"stronger_needs": DIFFERENCES["stronger_needs"], **LEVELS, **POINTS}
-    return bool({"stronger_needs", "opponent_level", "points"} & read_table(path, {}, own).found)
+    charts = DIFFERENCES.only("stronger_needs") | LEVELS | POINTS
+    return bool({"stronger_needs", "opponent_level", "points"} & charts.text(path).found)
 
 
 @dataclass(frozen=True)
@@ -98,19 +146,14 @@ def read_chart_file(path: str | Path) -> ChartFile:
         if there is nothing to audit: missing columns, cells that are not whole numbers, rows
         that end before they begin, or an invalid chart by skill level.
     """
-    table = read_table(path, {}, {**DIFFERENCES, **LEVELS, **POINTS})
+    table = (DIFFERENCES | LEVELS | POINTS).text(path)
     name = "chart" if str(path) == "-" else printable(Path(path).stem)
     if "points" in table:
-        _check_columns(table, POINTS)
-        return ChartFile(_points(table, name), (), table.warnings)
-    by_level = sum(column in table for column in LEVELS) > sum(
-        column in table for column in DIFFERENCES
-    )
-    needed = {key: names for key, names in LEVELS.items() if key != "opponent_needs"}
-    _check_columns(table, needed if by_level else DIFFERENCES)
+        return ChartFile(_points(_read(table, POINTS), name), (), table.warnings)
+    by_level = _fitting(table, LEVELS) > _fitting(table, DIFFERENCES)
     if by_level:
-        return ChartFile(_levels(table, name), (), table.warnings)
-    rows = _rows(table)
+        return ChartFile(_levels(_read(table, LEVELS), name), (), table.warnings)
+    rows = _rows(_read(table, DIFFERENCES))
     table.problems.raise_any()
     faults = Problems(table.source)
     for place, fault in row_faults(rows):
@@ -120,107 +163,107 @@ def read_chart_file(path: str | Path) -> ChartFile:
     return ChartFile(ChartDraft(name, rows), faults.listed(), table.warnings)
 
 
-def _check_columns(table: TextTable, needed: Mapping[str, Sequence[str]]) -> None:
-    """Note missing columns, or missing rows, as problems."""
-    missing = [column for column in needed if column not in table]
+def _fitting(table: TextTable, chart: Schema) -> int:
+    """Return how many columns of a kind of chart a file has."""
+    return sum(column in table for column in chart.columns)
+
+
+def _read(table: TextTable, chart: Schema) -> TextTable:
+    """Return a chart with its cells read; missing columns or rows are noted as problems."""
     if not table.found:
         table.problems.add(
             None,
-            "has none of the columns of a chart; name the columns "
-            f"{', '.join(DIFFERENCES)}, or {', '.join(LEVELS)}",
+            "has none of the columns of a chart; name the columns {differences}, or {levels}",
+            differences=", ".join(DIFFERENCES.columns),
+            levels=", ".join(LEVELS.columns),
         )
         table.problems.raise_any()
-    for column in missing:
-        also = " or ".join(map(quoted, needed[column]))
-        table.problems.add(
-            None, f"there is no column {column!r}; add it (it may also be called {also})"
-        )
+    for name, column in chart.columns.items():
+        if name not in table and name != "opponent_needs":
+            table.problems.add(None, missing_column(name, column.aliases))
     if not len(table.problems) and not len(table):
         table.problems.add(None, "has no rows below its header; write one line for each race")
+    return chart.of(table)
 
 
 def _rows(table: TextTable) -> tuple[ChartRow, ...]:
-    """Return the rows as they are; cells that are not whole numbers are noted as problems."""
-    start, end, stronger, weaker = (_whole(table, name) for name in DIFFERENCES)
-    has_end = map(bool, table.cells("difference_to"))
+    """Return the rows as they are."""
+    columns = (table[name].tolist() for name in DIFFERENCES.columns)
+    ends = table.read["difference_to"].stated.tolist()
     return tuple(
-        ChartRow(first, last if ends else None, *needs)
-        for first, last, ends, *needs in zip(start, end, has_end, stronger, weaker, strict=True)
+        ChartRow(start, end if ended else None, *needs)
+        for start, end, *needs, ended in zip(*columns, ends, strict=True)
     )
 
 
 def _levels(table: TextTable, name: str) -> LevelChart:
     """Return a chart by skill level; a DataError with all problems where there is none."""
-    own, other, needs, theirs = (_whole(table, column) for column in LEVELS)
+    own, other, needs, theirs = (table[column].tolist() for column in LEVELS.columns)
     table.problems.raise_any()
-    found: dict[tuple[int, int], tuple[int, int]] = {}
+    races: dict[tuple[int, int], tuple[int, int]] = {}
     for row in range(len(table)):
         pair = own[row], other[row]
-        for key, games in ((pair, needs[row]), (pair[::-1], theirs[row])):
+        for levels_of_race, games in ((pair, needs[row]), (pair[::-1], theirs[row])):
             if games:
-                _note(table, found, key, games, row)
-    levels = sorted({level for pair in found for level in pair})
-    missing = [pair for pair in product(levels, repeat=2) if pair not in found]
+                _note(table, races, levels_of_race, games, row)
+    levels = sorted({level for pair in races for level in pair})
+    missing = [pair for pair in product(levels, repeat=2) if pair not in races]
     for mine, opponent in missing[:MOST_MISSING]:
         table.problems.add(
-            None, f"does not say what level {mine} needs against level {opponent}; add a row"
+            None,
+            "does not say what level {level} needs against level {opponent}; add a row",
+            level=mine,
+            opponent=opponent,
         )
     if len(missing) > MOST_MISSING:
-        table.problems.add(None, f"lacks {len(missing) - MOST_MISSING} more pairs of levels")
-    for (mine, opponent), (games, row) in found.items():
-        against = found.get((opponent, mine), (games, row))[0]
+        table.problems.add(None, "lacks {n} more pairs of levels", n=len(missing) - MOST_MISSING)
+    for (mine, opponent), (games, row) in races.items():
+        against = races.get((opponent, mine), (games, row))[0]
         if mine > opponent and games < against:
             table.problems.add(
                 int(table.lines[row]),
-                f"level {mine} needs {games} games against level {opponent}, which needs "
-                f"{against}; the higher level must need at least as many",
+                "level {level} needs {games} games against level {opponent}, which needs "
+                "{against}; the higher level must need at least as many",
+                level=mine,
+                games=games,
+                opponent=opponent,
+                against=against,
             )
     table.problems.raise_any()
-    return LevelChart(name, levels, [[found[i, j][0] for j in levels] for i in levels])
+    return LevelChart(name, levels, [[races[i, j][0] for j in levels] for i in levels])
 
 
 def _points(table: TextTable, name: str) -> PointsChart:
     """Return a chart of points; a DataError with all problems where there is none."""
-    levels, points = _whole(table, "level"), _whole(table, "points")
     table.problems.raise_any()
     try:
-        return PointsChart(name, levels, points)
+        return PointsChart(name, table["level"].tolist(), table["points"].tolist())
     except InputError as error:
-        table.problems.add(None, f"is not a chart of points: {error}")
+        table.problems.add(None, "is not a chart of points: {why}", why=error.sentence)
         table.problems.raise_any()
         raise
 
 
 def _note(
     table: TextTable,
-    found: dict[tuple[int, int], tuple[int, int]],
+    races: dict[tuple[int, int], tuple[int, int]],
     pair: tuple[int, int],
     games: int,
     row: int,
 ) -> None:
     """Note what one level needs against another, or that an earlier row says otherwise."""
-    before, line = found.setdefault(pair, (games, row))
+    before, earlier = races.setdefault(pair, (games, row))
     if before != games:
         table.problems.add(
             int(table.lines[row]),
-            f"level {pair[0]} needs {games} games against level {pair[1]} here but {before} in "
-            f"line {table.lines[line]}; keep one of the two",
+            "level {level} needs {games} games against level {opponent} here but {before} in line "
+            "{line}; keep one of the two",
+            level=pair[0],
+            games=games,
+            opponent=pair[1],
+            before=before,
+            line=table.lines[earlier],
         )
-
-
-def _whole(table: TextTable, column: str) -> list[int]:
-    """Return a column of whole numbers, 0 where a cell may be empty and is."""
-    games = column.endswith("needs") or column == "points"
-    wanted = "points, such as 7" if column in DIFFERENCES else "a skill level, such as 4"
-    found = whole_numbers(
-        table,
-        column,
-        at_least=1 if games else 0,
-        at_most=MOST_GAMES if games else LARGEST_WHOLE,
-        remedy=f"write {'a number of games, such as 5' if games else wanted}",
-        may_be_empty=column in MAY_BE_EMPTY,
-    )
-    return list(map(int, found.values))
 
 
 def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
@@ -267,16 +310,13 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
         return ChartFile(level_chart(key), (), ())
     if key in POINTS_CHARTS:
         return ChartFile(points_chart(key), (), ())
-    try:
-        return read_chart_file(name_or_path)
-    except DataError as error:
-        if str(name_or_path) == "-" or _exists(name_or_path):
-            raise
-        known = ", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS))
-        problem = error.problems[0].partition(";")[0]
-        raise DataError(
-            [f"{problem}, and no chart has this name; name a file, or {known}"]
-        ) from None
+    if str(name_or_path) != "-" and not _exists(name_or_path):
+        problem = say(
+            "there is no such file, and no chart has this name; name a file, or {charts}",
+            charts=", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS)),
+        )
+        raise DataError([warning(printable(str(name_or_path)), problem)])
+    return read_chart_file(name_or_path)
 
 
 def _exists(path: str | Path) -> bool:
@@ -295,22 +335,13 @@ def chart_table(
     (49, None, 6, 2)
     """
     if isinstance(chart, Chart):
-        return list(DIFFERENCES), [tuple(row) for row in chart.rows]
+        return list(DIFFERENCES.columns), [tuple(row) for row in chart.rows]
     if isinstance(chart, PointsChart):
-        return list(POINTS), list(zip(chart.levels, chart.points, strict=True))
+        return list(POINTS.columns), list(zip(chart.levels, chart.points, strict=True))
     levels = chart.levels
-    return list(LEVELS), [
+    return list(LEVELS.columns), [
         (own, other, *chart.race(own, other)) for own in levels for other in levels
     ]
-
-
-CHIPS = {
-    "rating_from": ("from", "rating", "from rating"),
-    "chips": ("lives",),
-}
-"""The columns of a chip chart, with their other names."""
-
-_MOST_CHIPS = 1000
 
 
 def read_chip_chart(path: str | Path) -> ChipChart:
@@ -331,24 +362,15 @@ def read_chip_chart(path: str | Path) -> ChipChart:
     ...     read_chip_chart(path).chips([300, 400, 600])
     array([8, 6, 4])
     """
-    table = read_table(path, CHIPS, rows="rows")
-    starts = numbers(
-        table,
-        "rating_from",
-        at_least=-LARGEST,
-        at_most=LARGEST,
-        remedy="write a rating, or leave it empty for the weakest players",
-        may_be_empty=True,
-        points_may_group=True,
-    )
-    chips = whole_numbers(table, "chips", at_least=1, at_most=_MOST_CHIPS, remedy="write 1, 2, ...")
+    table = CHIPS.read(path)
     table.problems.raise_any()
-    first = np.where(starts.stated, starts.values, -math.inf).tolist()
-    rows = sorted(zip(first, chips.values.tolist(), strict=True))
+    stated = table.read["rating_from"].stated
+    first = np.where(stated, table["rating_from"], -math.inf).tolist()
+    rows = sorted(zip(first, table["chips"].tolist(), strict=True))
     try:
         return ChipChart(Path(path).stem, [ChipRow(*row) for row in rows], str(path))
     except InputError as error:
-        raise DataError([f"{table.source}: {error}"]) from error
+        raise DataError([warning(table.source, error.sentence)]) from error
 
 
 def chip_chart_of(name_or_path: str) -> ChipChart:
@@ -361,7 +383,9 @@ def chip_chart_of(name_or_path: str) -> ChipChart:
         return CHIP_CHARTS[name_or_path]
     if not Path(name_or_path).exists() and name_or_path != "-":
         raise InputError(
-            f"chip chart is {name_or_path!r}; give {' or '.join(CHIP_CHARTS)}, or a file with the "
-            "columns rating_from and chips"
+            "chip chart is {name!r}; give {charts}, or a file with the columns {columns}",
+            name=name_or_path,
+            charts=listed(list(CHIP_CHARTS), "or"),
+            columns=listed(list(CHIPS.columns)),
         )
     return read_chip_chart(name_or_path)

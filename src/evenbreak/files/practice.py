@@ -9,16 +9,65 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables import cells as date_cells
-from evenbreak.files.tables.cells import numbers, read_cells, whole_numbers
-from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.cells import DateOrder, Day, Number, Text, Whole, YesNo
+from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import TextTable
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 from evenbreak.ratings.result_words import letters
 from evenbreak.stats.confidence import LARGEST
+from evenbreak.words import Parameter, joined, say, say_count
 
-DRILL = {"drill": ("exercise", "drill name")}
-"""The column that names the drill, with its other names."""
+_DAY = "day, practised on, played on"
+_DRILL = Text("exercise, drill name", "the drill; if there are several, `--drill` names one")
+
+WORDS = {
+    **dict.fromkeys(("yes", "y", "true", "t", "1", "made", "make", "success", "hit"), True),
+    **dict.fromkeys(
+        ("no", "n", "false", "f", "0", "missed", "miss", "failed", "fail", "failure"), False
+    ),
+}
+"""The words for a success and for a miss."""
+
+DRILL_LOG = Schema(
+    "attempts",
+    level=Whole(
+        "difficulty, step, balls",
+        "the level of the attempt",
+        needed=True,
+        filled=True,
+        least=1,
+        most=MOST_LEVELS,
+        write=say("1, 2, 3, ..."),
+    ),
+    success=YesNo(
+        "made, made it, succeeded, result, outcome",
+        "also `y`, `true`, `1`, `made`, `hit`, `success`; `n`, `false`, `0`, `missed`, `miss`, "
+        "`failed`, `fail`",
+        needed=True,
+        filled=True,
+        values=WORDS,
+        write=say("one of them, and a row for each attempt"),
+    ),
+    session=Text("practice session, visit, evening"),
+    date=Text(_DAY),
+    drill=_DRILL,
+)
+
+SCORES = Schema(
+    "scores",
+    score=Number(
+        "points, result, total, balls",
+        "the score",
+        needed=True,
+        filled=True,
+        least=-int(LARGEST),
+        most=int(LARGEST),
+        write=say("a score such as 48"),
+    ),
+    date=Day(_DAY, "the day of the score"),
+    drill=_DRILL,
+)
 
 NAMED = 6
 """How many drills a message names."""
@@ -32,7 +81,7 @@ def rows_of_drill(
     Parameters
     ----------
     table
-        of which `DRILL` may be a column; without it all rows are of one drill.
+        of which `drill` may be a column; without it all rows are of one drill.
     drill
         the drill asked about, in any case; None: the only one of the file.
     as_above
@@ -41,7 +90,9 @@ def rows_of_drill(
     rows = np.arange(len(table))
     if "drill" not in table:
         if drill is not None:
-            table.problems.add(None, "has no column 'drill'; leave --drill out")
+            table.problems.add(
+                None, "has no column 'drill'; leave {drill} out", drill=Parameter("drill")
+            )
         return rows
     cells = table.cells("drill")
     if as_above:
@@ -54,45 +105,32 @@ def rows_of_drill(
     names: dict[str, str] = {}
     for text in filter(None, cells):
         names.setdefault(letters(text) or text, text)
-    listed = ", ".join(quoted(name) for name in list(names.values())[:NAMED])
-    listed += ", ..." * (len(names) > NAMED)
+    some = joined([quoted(name) for name in list(names.values())[:NAMED]], ", ")
+    drills = say("{some}, ...", some=some) if len(names) > NAMED else some
     if drill is None:
         if len(names) > 1:
             table.problems.add(
-                None, f"has {len(names)} drills ({listed}); name one of them with --drill"
+                None,
+                "has {n} drills ({drills}); name one of them with {drill}",
+                n=len(names),
+                drills=drills,
+                drill=Parameter("drill"),
             )
         return rows
     asked = letters(drill) or drill
     if asked not in names:
-        table.problems.add(None, f"has no drill {quoted(drill)}; it has {listed or 'no names'}")
+        table.problems.add(
+            None,
+            "has no drill {drill}; it has {drills}",
+            drill=quoted(drill),
+            drills=drills or say("no names"),
+        )
     return np.flatnonzero([(letters(text) or text) == asked for text in cells])
 
 
 def source_of(table: TextTable, drill: str | None) -> str:
     """Return what the rows of a drill are called in messages."""
     return table.source if drill is None else f"{table.source}, drill {quoted(drill)}"
-
-
-REQUIRED = {
-    "level": ("difficulty", "step", "balls"),
-    "success": ("made", "made it", "succeeded", "result", "outcome"),
-}
-"""The columns that a drill log must have, with their other names."""
-
-OPTIONAL = {
-    "session": ("practice session", "visit", "evening"),
-    "date": ("day", "practised on", "played on"),
-    **DRILL,
-}
-"""The columns that a drill log may have, with their other names."""
-
-WORDS = {
-    **dict.fromkeys(("yes", "y", "true", "t", "1", "made", "make", "success", "hit"), True),
-    **dict.fromkeys(
-        ("no", "n", "false", "f", "0", "missed", "miss", "failed", "fail", "failure"), False
-    ),
-}
-"""The words of the column success, in upper or lower case."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +158,7 @@ def read_drill_log(
     r"""Read the attempts of a progressive drill from a CSV file; '-' is standard input.
 
     Encoding, separator and header are handled by `evenbreak.files.tables.table`; the columns are
-    those of `REQUIRED` and `OPTIONAL`, with one row for each attempt, in the order in which they
+    those of `DRILL_LOG`, with one row for each attempt, in the order in which they
     were made. A new session begins where session, date or drill differ from the row above; an
     empty cell means the same as the cell above. A row that breaks the rule of the drill within a
     session counts as a new start, with a warning.
@@ -147,26 +185,19 @@ def read_drill_log(
     >>> file.log.attempts, file.log.successes
     (array([2, 1]), array([2, 0]))
     """
-    table = read_table(path, REQUIRED, OPTIONAL, rows="attempts")
-    level = whole_numbers(
-        table,
-        "level",
-        at_least=1,
-        at_most=MOST_LEVELS if levels is None else levels,
-        remedy="write 1, 2, 3, ..." + (", or give the drill more levels" if levels else ""),
-    ).values
-    success = read_cells(
-        table,
-        "success",
-        lambda text: WORDS.get(text.casefold()),
-        wanted="yes or no",
-        remedy="write one of them, and a row for each attempt",
-        dtype=np.bool_,
-        empty=False,
-    ).values
+    schema = DRILL_LOG
+    if levels is not None:
+        write = say("1, 2, 3, ..., or give the drill more levels")
+        schema = schema.but(level={"most": levels, "write": write})
+    table = schema.read(path)
     rows = rows_of_drill(table, drill, as_above=True)
     table.problems.raise_any()
-    log = DrillLog(level[rows], success[rows], session=_sessions(table)[rows], levels=levels)
+    log = DrillLog(
+        table["level"][rows],
+        table["success"][rows],
+        session=_sessions(table)[rows],
+        levels=levels,
+    )
     warnings = (*table.warnings, *_jump_warning(table, log, rows))
     return DrillLogFile(log, source_of(table, drill), warnings)
 
@@ -174,9 +205,8 @@ def read_drill_log(
 def _sessions(table: TextTable) -> NDArray[np.int64]:
     """Return a number for each row that changes where the session or the date does."""
     changes = np.zeros(len(table), dtype=bool)
-    for name in OPTIONAL:
-        distinct, codes = table.columns[name]
-        stated = np.array([bool(text) for text in distinct], dtype=bool)[codes]
+    for name in ("session", "date", "drill"):
+        codes, stated = table.columns[name].codes, table.read[name].stated
         # The last row with something in the cell: an empty cell means the same as that one.
         said = np.maximum.accumulate(np.where(stated, np.arange(len(table)), 0))
         changes[1:] |= codes[said][1:] != codes[said][:-1]
@@ -188,19 +218,19 @@ def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> l
         return []
     row = int(log.jumps[0])
     step = 1 if log.success[row - 1] else -1
-    by_rule = min(max(int(log.level[row - 1]) + step, 1), len(log.attempts))
-    count = len(log.jumps)
-    such = f"{count:,} such rows count as new starts" if count > 1 else "it counts as a new start"
-    return [
-        f"{table.source}:{table.lines[rows[row]]}: level {log.level[row]} follows a "
-        f"{'success' if step > 0 else 'miss'} at level {log.level[row - 1]}, which leads to level "
-        f"{by_rule}; {such}. Keep the rows in the order of the attempts; a column session or date "
-        "says where a session begins"
-    ]
-
-
-SCORE = {"score": ("points", "result", "total", "balls")}
-MORE_OF_SCORES = {"date": ("day", "practised on", "played on"), **DRILL}
+    problem = say(
+        "level {level} follows a {outcome} at level {before}, which leads to level {by_rule}; "
+        "{count}. Keep the rows in the order of the attempts; a column session or date says where "
+        "a session begins",
+        level=log.level[row],
+        outcome=say("success") if step > 0 else say("miss"),
+        before=log.level[row - 1],
+        by_rule=min(max(int(log.level[row - 1]) + step, 1), len(log.attempts)),
+        count=say_count(
+            "it counts as a new start", "{n:,} such rows count as new starts", len(log.jumps)
+        ),
+    )
+    return [warning(table.source, problem, table.lines[rows[row]])]
 
 
 class ScoresFile(NamedTuple):
@@ -216,7 +246,7 @@ class ScoresFile(NamedTuple):
 
 
 def read_scores(
-    path: str | Path, *, drill: str | None = None, dates: date_cells.DateOrder | None = None
+    path: str | Path, *, drill: str | None = None, dates: DateOrder | None = None
 ) -> ScoresFile:
     r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
 
@@ -243,11 +273,8 @@ def read_scores(
     >>> file.scores, str(file.dates[0])
     (array([50. , 44.5]), '2024-09-03')
     """
-    table = read_table(path, SCORE, MORE_OF_SCORES, rows="scores")
-    most = int(LARGEST)
-    remedy = "write a score such as 48"
-    scores = numbers(table, "score", at_least=-most, at_most=most, remedy=remedy).values
-    days = date_cells.dates(table, "date", dates).values
+    table = SCORES.but(date={"order": dates}).read(path)
+    scores, days = table["score"], table["date"]
     rows = rows_of_drill(table, drill)
     table.problems.raise_any()
     undated = rows[np.isnat(days[rows])]
@@ -264,5 +291,9 @@ def _undated(table: TextTable, rows: NDArray[np.int64], scores: int) -> list[str
     """Return a warning if some scores have a date and others, those of `rows`, do not."""
     if "date" not in table or rows.size == scores:
         return []
-    missing = f"{rows.size} dates are missing" if rows.size > 1 else "the date is missing"
-    return [f"{table.source}:{table.lines[rows[0]]}: {missing}, so no dates are used"]
+    missing = say_count(
+        "the date is missing, so no dates are used",
+        "{n} dates are missing, so no dates are used",
+        rows.size,
+    )
+    return [warning(table.source, missing, table.lines[rows[0]])]

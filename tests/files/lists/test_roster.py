@@ -6,12 +6,11 @@ from hypothesis import strategies as st
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.league.rate import rate_answer
 from evenbreak.errors import DataError
-from evenbreak.files.lists.roster import OPTIONAL, REQUIRED, read_roster
+from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.roster import NOT_STATED
 from evenbreak.ratings.scale import SCALES
-from places import DOCS
 
 
 @pytest.fixture(scope="session")
@@ -153,13 +152,6 @@ def test_any_bytes_are_read_or_refused(read, content):
     except DataError:
         return
     assert len(set(roster.players)) == len(roster) > 0
-
-
-def test_every_column_is_described_with_its_other_names():
-    page = DOCS / "reference" / "files.md"
-    text = page.read_text(encoding="utf-8")
-    for column, others in {**REQUIRED, **OPTIONAL}.items():
-        assert f"| `{column}` | {', '.join(others)} |" in text
 
 
 def test_matches_are_counts_or_not_stated(tmp_path):

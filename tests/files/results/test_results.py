@@ -105,9 +105,9 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
         "2024-09-03,Ann\n",
     )
     assert [text.partition("; ")[0] for text in told] == [
-        ":2: date '2024-13-03' is not a date",
         ":2: score_a 'x' is not a whole number from 0 to 1,000,000",
         ":2: score_b '-1' is not a whole number from 0 to 1,000,000",
+        ":2: date '2024-13-03' is not a date",
         ":2: 'Ann' is on both sides of the match",
         ":4: player_a is empty",
         ":4: score_b 'NaN' is not a whole number from 0 to 1,000,000",
@@ -261,4 +261,4 @@ def test_a_cell_with_half_a_file_in_it_is_no_name(read):
     content = "player_a,player_b,score_a,score_b\nAnn," + 130_000 * "a" + ",7,3\n"
     (problem,) = problems(read, content)
     assert ":2: player_b" in problem
-    assert "200 letters" in problem
+    assert "a name of up to 200" in problem

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.results.matches import OPTIONAL, REQUIRED
+from evenbreak.files.results.matches import RESULTS_FILE
 from evenbreak.files.results.results_file import read_results
 
 
@@ -128,8 +128,8 @@ def test_a_race_decides_who_won(read_row):
 def test_no_two_columns_share_a_name():
     keys = [
         "".join(filter(str.isalnum, name.casefold()))
-        for column, others in {**REQUIRED, **OPTIONAL}.items()
-        for name in (column, *others)
+        for name, column in RESULTS_FILE.columns.items()
+        for name in (name, *column.aliases)
     ]
     assert len(keys) == len(set(keys))
 

@@ -4,15 +4,12 @@ import pytest
 
 from evenbreak.errors import DataError
 from evenbreak.files.results.matches import (
-    INSTEAD,
     NAMES,
-    OPTIONAL,
-    REQUIRED,
+    RESULTS_FILE,
     results_columns,
     results_rows,
 )
 from evenbreak.files.tables.names import PlayerNames
-from evenbreak.files.tables.table import read_table
 
 
 @pytest.fixture
@@ -20,7 +17,7 @@ def matches(tmp_path):
     def read(header, *rows, means=None):
         path = tmp_path / "r.csv"
         path.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
-        table = read_table(path, REQUIRED, OPTIONAL, INSTEAD)
+        table = RESULTS_FILE.text(path)
         names = PlayerNames(table, NAMES, means or {})
         return results_rows(table, names, results_columns(table, names)), table.problems
 

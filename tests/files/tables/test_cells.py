@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.tables.cells import numbers, whole_numbers
+from evenbreak.files.tables.cells import Number, Whole
 from evenbreak.files.tables.problems import Problems
 from evenbreak.files.tables.table import Texts, TextTable
+
+NUMBER = Number(least=-9, most=9, filled=True, write="0.5")
 
 
 def table_of(*cells):
@@ -32,7 +34,7 @@ def told(table):
 )
 def test_whole_numbers(text, value):
     table = table_of(text)
-    assert whole_numbers(table, "x").values.tolist() == [value]
+    assert Whole(filled=True).read(table, "x").values.tolist() == [value]
     assert told(table) == []
 
 
@@ -58,7 +60,7 @@ def test_whole_numbers(text, value):
 )
 def test_what_is_no_whole_number_is_told(text):
     table = table_of("5", text, "5")
-    read = whole_numbers(table, "x")
+    read = Whole(filled=True).read(table, "x")
     assert read.good.tolist() == [True, False, True]
     assert read.values.tolist() == [5, 0, 5]
     (problem,) = told(table)
@@ -69,7 +71,7 @@ def test_what_is_no_whole_number_is_told(text):
 
 def test_the_least_whole_number_can_be_raised():
     table = table_of("0", "1")
-    assert whole_numbers(table, "x", at_least=1).good.tolist() == [False, True]
+    assert Whole(least=1, filled=True).read(table, "x").good.tolist() == [False, True]
     assert told(table) == [
         "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 0, 1, 2, ..."
     ]
@@ -77,13 +79,13 @@ def test_the_least_whole_number_can_be_raised():
 
 def test_the_greatest_whole_number_can_be_lowered():
     table = table_of("7", "8")
-    assert whole_numbers(table, "x", at_most=7).good.tolist() == [True, False]
+    assert Whole(most=7, filled=True).read(table, "x").good.tolist() == [True, False]
     assert told(table) == ["t.csv:3: x '8' is not a whole number from 0 to 7; write 0, 1, 2, ..."]
 
 
 def test_empty_cells_may_be_allowed():
     table = table_of("", "7")
-    read = whole_numbers(table, "x", may_be_empty=True)
+    read = Whole().read(table, "x")
     assert read.values.tolist() == [0, 7]
     assert read.good.all()
     assert told(table) == []
@@ -92,8 +94,8 @@ def test_empty_cells_may_be_allowed():
 def test_a_column_that_is_missing_is_no_further_problem():
     table = table_of("", "")
     table = dataclasses.replace(table, columns={"y": table.columns["x"]}, found=frozenset())
-    assert whole_numbers(table, "y").values.tolist() == [0, 0]
-    assert np.isnan(numbers(table, "y", at_least=-9, at_most=9, remedy="write one").values).all()
+    assert Whole(filled=True).read(table, "y").values.tolist() == [0, 0]
+    assert np.isnan(NUMBER.read(table, "y").values).all()
     assert told(table) == []
 
 
@@ -113,9 +115,7 @@ def test_a_column_that_is_missing_is_no_further_problem():
 )
 def test_numbers(text, value):
     table = table_of(text)
-    assert numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values.tolist() == [
-        value
-    ]
+    assert NUMBER.read(table, "x").values.tolist() == [value]
     assert told(table) == []
 
 
@@ -133,7 +133,7 @@ def test_numbers(text, value):
 )
 def test_a_number_that_reads_two_ways_is_refused(cells, problems):
     table = table_of(*cells)
-    numbers(table, "x", at_least=-(10**6), at_most=10**6, remedy="", points_may_group=True)
+    Number(least=-(10**6), most=10**6, grouped=True).read(table, "x")
     assert len(told(table)) == len(problems)
     for problem, part in zip(told(table), problems, strict=True):
         assert part in problem
@@ -142,7 +142,7 @@ def test_a_number_that_reads_two_ways_is_refused(cells, problems):
 def test_a_point_is_a_decimal_point_unless_it_may_group_and_a_comma_where_no_thousand_fits():
     for text, at_most in (("1.500", 10**6), ("1,500", 9)):
         table = table_of(text)
-        assert numbers(table, "x", at_least=0, at_most=at_most, remedy="").values.tolist() == [1.5]
+        assert Number(least=0, most=at_most).read(table, "x").values.tolist() == [1.5]
         assert told(table) == []
 
 
@@ -152,7 +152,7 @@ def test_a_point_is_a_decimal_point_unless_it_may_group_and_a_comma_where_no_tho
 )
 def test_what_is_no_number_is_told(text):
     table = table_of(text)
-    assert math.isnan(numbers(table, "x", at_least=-9, at_most=9, remedy="write 0.5").values[0])
+    assert math.isnan(NUMBER.read(table, "x").values[0])
     (problem,) = told(table)
     assert problem.startswith("t.csv:2: x ")
     assert problem.endswith("; write 0.5")

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.tables.cells import dates, read_date
+from evenbreak.files.tables.cells import Day, read_date
 from evenbreak.files.tables.table import read_table
 
 
@@ -13,7 +13,7 @@ def read(tmp_path):
         path = tmp_path / "d.csv"
         path.write_text("n,date\n" + "".join(f"{k},{text}\n" for k, text in enumerate(texts)))
         table = read_table(path, {"n": ()}, {"date": ()})
-        found = dates(table, "date", order)
+        found = Day(order=order).read(table, "date")
         table.problems.raise_any()
         return [str(day) for day in found.values]
 
@@ -76,7 +76,7 @@ def test_an_open_file_is_one_problem_that_names_the_option(read):
         read("2024-01-02", "9/3/2024", "9/4/2024", "10/5/2024")
     (problem,) = caught.value.problems
     assert "d.csv:3:" in problem
-    assert "--dates mdy" in problem
+    assert "add dates mdy" in problem
 
 
 def test_the_option_settles_it(read):

@@ -29,6 +29,7 @@ from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Parameter, say
 
 
 @dataclass(frozen=True)
@@ -120,10 +121,13 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
     problems.add_rows(
         file.lines,
         np.flatnonzero(roster.standard_error > most),
-        lambda place: (
-            f"{'quasi_error' if place in file.by_quasi else 'standard_error'} "
-            f"{roster.standard_error[place]:g} says nothing about a player; write {most:g} points "
-            "at most, or check --scale"
+        lambda place: say(
+            "{column} {error:g} says nothing about a player; write {most:g} points at most, or "
+            "check {scale}",
+            column="quasi_error" if place in file.by_quasi else "standard_error",
+            error=roster.standard_error[place],
+            most=most,
+            scale=Parameter("scale"),
         ),
     )
     if isinstance(chart, LevelChart):
@@ -131,9 +135,13 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         problems.add_rows(
             file.lines,
             np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
-            lambda place: (
-                f"rating {roster.rating[place]:g} of {quoted(roster.players[place])} is not a "
-                f"level of the chart {chart.name}; write one of {levels}"
+            lambda place: say(
+                "rating {rating:g} of {player} is not a level of the chart {chart}; write one of "
+                "{levels}",
+                rating=roster.rating[place],
+                player=quoted(roster.players[place]),
+                chart=chart.name,
+                levels=levels,
             ),
         )
     problems.raise_any()

@@ -10,6 +10,7 @@ import click
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.progress import Working
+from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 Function = Callable[..., "Answer"]
@@ -119,4 +120,4 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
 
         write(to_text(answer, verbose=verbose))
     for warning in answer.warnings:
-        say(f"Warning: {warning}")
+        say(f"Warning: {said(warning)}")

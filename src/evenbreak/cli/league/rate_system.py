@@ -10,6 +10,7 @@ import numpy as np
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts
+from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.terminal import say
 from evenbreak.cli.kit.values import refuse
@@ -55,7 +56,7 @@ def rate_by_system(
         moves = answers.rating_changes_of_season(system, last, tonight, chart=by_chart)
     except DataError:
         for warning in (*last.warnings, *tonight.warnings):  # they may explain it
-            say(f"Warning: {warning}")
+            say(f"Warning: {said(warning)}")
         raise
     answer = answers.rating_changes_answer(
         moves, last, tonight, chart=by_chart, found_chart=chart is None

@@ -5,31 +5,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import (
-    OPTIONAL,
-    REQUIRED,
+    ROSTER,
     WRITTEN,
+    RatedList,
     RosterFile,
     refuse_to_read,
     roster_of,
 )
 from evenbreak.files.lists.typed_list import read_players
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.problems import quoted, warning
 from evenbreak.ratings.roster import Roster
+from evenbreak.words import say
 
-if TYPE_CHECKING:
-    from evenbreak.files.lists.league import LeagueFile
-
-
-PLAYER = {"player": REQUIRED["player"]}
-MORE = {"rating": REQUIRED["rating"], **OPTIONAL, **WRITTEN}
+ENTRANTS = ROSTER.but(rating={"needed": False}) | WRITTEN
+"""A list of entrants: a roster of which all but the names may be missing."""
 
 APART = 0.5
 """Points by which an entrant's stated rating may differ from the league's without a warning."""
@@ -55,8 +52,8 @@ def read_entrants(path: str | Path) -> RosterFile:
     ('Ann Lee', 'Bo Diaz')
     """
     if str(path) == "-":
-        raise DataError(["the entrants cannot come from standard input; name a file"])
-    return roster_of(read_players(path, PLAYER, MORE))
+        raise DataError([say("the entrants cannot come from standard input; name a file")])
+    return roster_of(ENTRANTS.of(read_players(path, ENTRANTS)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,10 +106,13 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
         names.append(name if place is None else players[place])
         places.append(-1 if place is None else place)
         if place is None:
-            warnings.append(
-                f"{entrants.source}:{line}: {quoted(name)} is not in {whose}{known.hint(name)} and "
-                "is taken as a new player"
+            new = say(
+                "{name} is not in {whose}{hint} and is taken as a new player",
+                name=quoted(name),
+                whose=whose,
+                hint=known.hint(name),
             )
+            warnings.append(warning(entrants.source, new, line))
     return Entered(tuple(names), tuple(places), (*entrants.warnings, *warnings))
 
 
@@ -149,8 +149,17 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     )
     differ = on_list & (np.abs(stated.rating - roster.rating) > APART)
     warnings = [
-        f"{entrants.source}:{entrants.lines[k]}: the rating {stated.rating[k]:g} of "
-        f"{quoted(roster.players[k])} is not used; {league.source} has {roster.rating[k]:g}"
+        warning(
+            entrants.source,
+            say(
+                "the rating {stated:g} of {player} is not used; {list} has {rating:g}",
+                stated=stated.rating[k],
+                player=quoted(roster.players[k]),
+                list=league.source,
+                rating=roster.rating[k],
+            ),
+            entrants.lines[k],
+        )
         for k in np.flatnonzero(differ).tolist()
     ]
     return replace(
@@ -165,7 +174,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     )
 
 
-def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> None:
+def check_one_scale(league: RatedList, entrants: RosterFile) -> None:
     """Refuse entrants whose ratings are on another scale than those of the league's list.
 
     Raises
@@ -179,16 +188,19 @@ def check_one_scale(league: RosterFile | LeagueFile, entrants: RosterFile) -> No
         ours, theirs = league.scale.text, entrants.scale.text
     elif league.levels != entrants.levels and not (league.scale and entrants.scale):
         ours, theirs = (
-            "of skill levels" if levels else "of points"
+            say("of skill levels") if levels else say("of points")
             for levels in (league.levels, entrants.levels)
         )
     elif league.scale:
-        return refuse_to_read(entrants, league.scale, league.source, "put all ratings on one scale")
+        return refuse_to_read(
+            entrants, league.scale, league.source, say("put all ratings on one scale")
+        )
     else:
         return None
-    raise DataError(
-        [
-            f"{entrants.source}: its scale {theirs} differs from {ours} in {league.source}; "
-            "put all ratings on one scale"
-        ]
+    problem = say(
+        "its scale {theirs} differs from {ours} in {list}; put all ratings on one scale",
+        theirs=theirs,
+        ours=ours,
+        list=league.source,
     )
+    raise DataError([warning(entrants.source, problem)])

@@ -2,23 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.results.matches import REQUIRED as RESULTS
-from evenbreak.files.tables.cells import whole_numbers
-from evenbreak.files.tables.names import KnownNames, clean_name
-from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.lists.roster import LAST_WEEK
+from evenbreak.files.results.matches import RESULTS
+from evenbreak.files.tables.cells import Whole
+from evenbreak.files.tables.names import KnownNames, Name, clean_name
+from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import TextTable
 from evenbreak.league.schedule import FixedSchedule
 from evenbreak.ratings.roster import Roster
+from evenbreak.words import say, say_count
 
-PAIRS = {name: RESULTS[name] for name in ("player_a", "player_b")}
-"""The columns of a list of pairs, with their other names."""
+_NOBODY = KnownNames(())
+
+
+@dataclass(frozen=True, kw_only=True)
+class _OfRoster(Name):
+    """Names of players as places in a roster."""
+
+    players: KnownNames = _NOBODY
+    write: str = say("a name from the roster")
+    nothing: int = -1
+
+    dtype: ClassVar[Any] = np.int64
+
+    def meaning(self, text: str) -> int | None:
+        """Return the place."""
+        return self.players.place(clean_name(text))
+
+    def fault(self, text: str) -> str:
+        """Return what is wrong with a name that the roster does not have."""
+        name = clean_name(text)
+        if not name:
+            return super().fault("")
+        return say(
+            "{name} is not in the roster{hint}; write names as the roster does",
+            name=quoted(name),
+            hint=self.players.hint(name),
+        )
+
+
+PAIRS = Schema(
+    "pairs",
+    player_a=_OfRoster(RESULTS["player_a"].also, "one of the two players", needed=True),
+    player_b=_OfRoster(RESULTS["player_b"].also, "the other", needed=True),
+)
+"""A list of who plays whom."""
+
+SCHEDULE = Schema(
+    "matches",
+    week=Whole(
+        "round, night, matchday, week number",
+        "the week",
+        needed=True,
+        filled=True,
+        least=1,
+        most=LAST_WEEK,
+        write=say("1 for the first week, 2, ..."),
+    ),
+    **PAIRS.columns,
+)
+"""A list of who plays whom in which week."""
+
+MOST_LISTED = 5
+"""How many repeated matches are listed; the rest are counted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,47 +110,25 @@ def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     ...     read_pairs(path, club).pairs.tolist()
     [[2, 0], [1, 2]]
     """
-    table = read_table(path, PAIRS, rows="pairs")
-    pairs = pairs_in(table, roster)
-    table.problems.raise_any()
+    table, pairs = _read(PAIRS, path, roster)
     return PairsFile(pairs, table.warnings)
 
 
-def pairs_in(table: TextTable, roster: Roster) -> NDArray[np.int64]:
-    """Return the pairs in a table as places in the roster, -1 where it notes a problem."""
-    known = KnownNames(roster.players)
-    pairs = np.full((len(table), 2), -1)
-    for side, column in enumerate(PAIRS):
-        if column not in table:
-            continue
-        for row, name in enumerate(map(clean_name, table.cells(column))):
-            place = known.place(name)
-            if place is not None:
-                pairs[row, side] = place
-                continue
-            problem = "is empty; write a name from the roster"
-            if name:
-                unknown = f"{quoted(name)} is not in the roster{known.hint(name)}"
-                problem = f"{unknown}; write names as the roster does"
-            table.problems.add(int(table.lines[row]), f"{column} {problem}")
+def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, NDArray[np.int64]]:
+    """Return a table without problems, and the pairs in it as places in the roster."""
+    players = {"players": KnownNames(roster.players)}
+    table = schema.but(player_a=players, player_b=players).read(path)
+    a, b = table["player_a"], table["player_b"]
     table.problems.add_rows(
         table.lines,
-        np.flatnonzero((pairs[:, 0] == pairs[:, 1]) & (pairs[:, 0] >= 0)),
-        lambda row: (
-            f"{quoted(roster.players[pairs[row, 0]])} is on both sides; write two different players"
+        np.flatnonzero((a == b) & (a >= 0)),
+        lambda row: say(
+            "{name} is on both sides; write two different players",
+            name=quoted(roster.players[a[row]]),
         ),
     )
-    return pairs
-
-
-WEEK = {"week": ("round", "night", "matchday", "week number")}
-"""The column of a schedule besides those of `PAIRS`, with its other names."""
-
-MOST_LISTED = 5
-"""How many repeated matches are listed; the rest are counted."""
-
-LAST_WEEK = 10_000
-"""The largest number accepted as a week."""
+    table.problems.raise_any()
+    return table, np.column_stack([a, b])
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,18 +171,14 @@ def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     >>> schedule.weeks, schedule.a, schedule.b
     (2, array([2, 1]), array([0, 2]))
     """
-    table = read_table(path, {**WEEK, **PAIRS}, rows="matches")
-    week = whole_numbers(
-        table, "week", at_least=1, at_most=LAST_WEEK, remedy="write 1 for the first week, 2, ..."
-    ).values
-    pairs = pairs_in(table, roster)
-    table.problems.raise_any()
+    table, pairs = _read(SCHEDULE, path, roster)
+    week = table["week"]
     warnings = *table.warnings, *_twice(table, week, pairs)
     return ScheduleFile(FixedSchedule(week, *pairs.T), table.source, warnings)
 
 
-def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
-    """Yield a warning for each match that is already listed in the same week."""
+def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) -> list[str]:
+    """Return a warning for each match that is already listed in the same week."""
     _, first, same = np.unique(
         np.column_stack([week, np.sort(pairs, axis=1)]),
         axis=0,
@@ -159,11 +187,21 @@ def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) 
     )
     earlier = first[same.ravel()]
     again = np.flatnonzero(earlier != np.arange(len(week)))
-    for row in again[:MOST_LISTED].tolist():
-        yield (
-            f"{table.source}:{table.lines[row]}: the same two meet in week {week[row]} as in line "
-            f"{table.lines[earlier[row]]}; both matches are played"
+    warnings = [
+        warning(
+            table.source,
+            say(
+                "the same two meet in week {week} as in line {line}; both matches are played",
+                week=week[row],
+                line=table.lines[earlier[row]],
+            ),
+            table.lines[row],
         )
-    if len(again) > MOST_LISTED:
-        more = len(again) - MOST_LISTED
-        yield f"{table.source}: and {more:,} more such match{'es' if more > 1 else ''}"
+        for row in again.tolist()
+    ]
+    return first_ones(
+        warnings,
+        MOST_LISTED,
+        table.source,
+        lambda n: say_count("and {n} more such match", "and {n:,} more such matches", n),
+    )

@@ -4,34 +4,33 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.entrants import check_one_scale, entered
-from evenbreak.files.lists.fixtures import LAST_WEEK
 from evenbreak.files.lists.roster import (
     FARTHEST,
-    LEAGUE,
-    OPTIONAL,
-    REQUIRED,
+    OF_SEASON,
+    ROSTER,
     WRITTEN,
     RosterFile,
     roster_of,
 )
-from evenbreak.files.tables.cells import numbers, whole_numbers
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.problems import warning
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import say, say_count
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-
-LARGEST_SD = 1_000
-"""The largest standard deviation, or drift a week, that can be simulated, in points."""
+SEASON = (
+    ROSTER.but(
+        rating={"filled": True, "least": -FARTHEST, "most": FARTHEST},
+    )
+    | WRITTEN
+    | OF_SEASON
+)
+"""The roster of a season, in which every player has a rating."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +70,7 @@ class LeagueFile:
 def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     r"""Read the roster of a season from a CSV file; '-' is standard input.
 
-    It has the columns of a roster and those of `LEAGUE`. A skill that is not stated is drawn for
+    It has the columns of a roster and those of `OF_SEASON`. A skill that is not stated is drawn for
     each replica from a normal distribution around the rating with the standard error; if that is
     not stated either, the skill is the rating. Ratings are rounded to whole points, halves
     upwards.
@@ -97,20 +96,20 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     >>> club.players.rating, club.players.skill, club.players.skill_sd
     (array([93, 71, 60]), array([92.5, 75. , 60. ]), array([9., 0., 0.]))
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **LEAGUE}, rows="players")
-    skill = _points(table, "skill", "points such as 85", -FARTHEST, FARTHEST)
-    days = _points(table, "day_sd", "points such as 5", 0, LARGEST_SD)
-    drift = _points(table, "drift", "points a week such as 0.1", -LARGEST_SD, LARGEST_SD)
-    absence = _points(table, "absence", "the chance to be absent, such as 0.1", 0, 1)
-    joins, leaves = _week(table, "joins"), _week(table, "leaves")
+    table = SEASON.read(path)
+    skill, days, joins, leaves = (table[name] for name in ("skill", "day_sd", "joins", "leaves"))
     table.problems.add_rows(
         table.lines,
         np.flatnonzero((leaves > 0) & (leaves < joins)),
-        lambda row: f"leaves in week {leaves[row]}, before week {joins[row]}; correct one of them",
+        lambda row: say(
+            "leaves in week {leaves}, before week {joins}; correct one of them",
+            leaves=leaves[row],
+            joins=joins[row],
+        ),
     )
     if len(table) == 1:
         table.problems.add(None, "has 1 player; a league needs two or more")
-    file = roster_of(table, season=True)
+    file = roster_of(table)
     roster = file.roster
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
     whole = np.floor(roster.rating + 0.5)
@@ -121,22 +120,24 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             skill=np.where(np.isnan(skill), roster.rating, skill),
             skill_sd=np.nan_to_num(sd),
             day_sd=np.where(np.isnan(days), day_sd, days),
-            drift=np.nan_to_num(drift),
+            drift=np.nan_to_num(table["drift"]),
             joins=np.maximum(joins, 1),
             leaves=leaves,
-            absence=np.nan_to_num(absence),
+            absence=np.nan_to_num(table["absence"]),
             # Players without a number of matches are established.
             played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
         )
     except InputError as error:
-        raise DataError([f"{table.source}: {error}"]) from None
+        raise DataError([warning(table.source, error.sentence)]) from None
     warnings = [*file.warnings]
     rounded = int((whole != roster.rating).sum())
     if rounded:
-        warnings.append(
-            f"{table.source}: {rounded:,} rating{'s are' if rounded > 1 else ' is'} rounded to "
-            "whole points, as charts need"
+        note = say_count(
+            "{n} rating is rounded to whole points, as charts need",
+            "{n:,} ratings are rounded to whole points, as charts need",
+            rounded,
         )
+        warnings.append(warning(table.source, note))
     return LeagueFile(
         players,
         roster,
@@ -172,16 +173,17 @@ def league_of_entrants(
     """
     check_one_scale(file, entrants)
     if len(entrants.roster) < 2:
-        raise DataError([f"{entrants.source}: has 1 player; a league needs two or more"])
-    found = entered(entrants, file.roster.players, file.source)
-    at = np.array(found.places, dtype=np.int64)
+        too_few = say("has 1 player; a league needs two or more")
+        raise DataError([warning(entrants.source, too_few)])
+    who = entered(entrants, file.roster.players, file.source)
+    at = np.array(who.places, dtype=np.int64)
     new = at < 0
     own = np.where(np.isnan(entrants.roster.rating), starter, entrants.roster.rating)
     error = np.where(np.isnan(entrants.roster.rating), starter_sd, entrants.roster.standard_error)
     known = file.players
     players = LeaguePlayers.of(
         np.where(new, np.floor(own + 0.5).astype(np.int64), known.rating[at]),
-        names=found.names,
+        names=who.names,
         skill=np.where(new, own, known.skill[at]),
         skill_sd=np.where(new, np.nan_to_num(error), known.skill_sd[at]),
         day_sd=np.where(new, np.median(known.day_sd), known.day_sd[at]),
@@ -192,7 +194,7 @@ def league_of_entrants(
         played=np.where(new, 0, known.played[at]),
     )
     roster = Roster(
-        found.names,
+        who.names,
         np.where(new, own, file.roster.rating[at]),
         np.where(new, error, file.roster.standard_error[at]),
     )
@@ -201,29 +203,9 @@ def league_of_entrants(
         file,
         players=players,
         roster=roster,
-        warnings=(*file.warnings, *found.warnings),
+        warnings=(*file.warnings, *who.warnings),
         drawn=int((players.skill_sd > 0.0).sum()),
         exact=int(exact.sum()),
         scale=file.scale or entrants.scale,
         levels=file.levels or entrants.levels,
     )
-
-
-def _points(
-    table: TextTable, name: str, example: str, least: int, most: int
-) -> NDArray[np.float64]:
-    """Read a column of numbers from `least` to `most`, NaN where a cell is empty."""
-    remedy = f"write {example}, or leave it empty"
-    values: NDArray[np.float64] = numbers(
-        table, name, at_least=least, at_most=most, remedy=remedy, may_be_empty=True
-    ).values
-    return values
-
-
-def _week(table: TextTable, name: str) -> NDArray[np.int64]:
-    """Read a column of weeks, 0 where a cell is empty."""
-    remedy = "write 1 for the first week, 2, ..., or leave it empty"
-    weeks: NDArray[np.int64] = whole_numbers(
-        table, name, at_least=0, at_most=LAST_WEEK, remedy=remedy, may_be_empty=True
-    ).values
-    return weeks

@@ -5,78 +5,194 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
-from evenbreak.files.tables.cells import numbers, read_cells, whole_numbers
-from evenbreak.files.tables.names import (
-    LONGEST_NAME,
-    NAME,
-    WRITE_IT,
-    clean_name,
-    hidden_letter_warnings,
-    is_name,
-    same_name,
-)
-from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.cells import Number, Parsed, Text, Whole
+from evenbreak.files.tables.names import Name, hidden_letter_warnings, same_name
+from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import SCALES, Scale, refuse_contradicted, scale_of, unstated_scale
+from evenbreak.words import say
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.files.lists.league import LeagueFile
-
-
-REQUIRED = {
-    "player": ("name", "player name", "full name"),
-    "rating": ("points", "skill level", "level", "handicap", "fargo rating", "elo"),
-}
-"""The columns that a roster must have, with their other names."""
-
-OPTIONAL = {
-    "standard_error": ("se", "sd", "error", "plus or minus", "uncertainty"),
-    "quasi_error": ("quasi standard error", "qse"),
-    "games": ("games played", "racks", "robustness"),
-    "component": ("group",),
-    "matches": ("matches played",),
-    "races_won": (),
-    "races_lost": (),
-    "match_form": (),
-    "scale": ("rating scale", "points that double the odds"),
-}
-"""The columns that a roster may have, with their other names."""
-
-WRITTEN = dict.fromkeys(
-    (
-        *("won", "lost"),
-        *("rating_before", "change", "matches_won", "matches_lost", "why"),
-        *("prior_mean", "prior", "as_of"),
-    ),
-    (),
-)
-"""Further columns of the lists that `evenbreak rate` and `evenbreak report` write."""
-
-LEAGUE = {
-    "skill": ("true skill", "true rating", "strength"),
-    "day_sd": ("day", "day fluctuation", "form"),
-    "drift": ("points a week", "improves by"),
-    "joins": ("first week", "joins in week"),
-    "leaves": ("last week", "leaves after week"),
-    "absence": ("absent", "p absent"),
-}
-"""The columns that a simulated season uses, with their other names; others skip them."""
-
 LARGEST = 1_000_000
 """The largest rating or error that is accepted, in points."""
 
+_ERROR = Number(least=0, most=LARGEST, write=say("points such as 9.5"))
+_COUNT = Whole(nothing=NOT_STATED)
+
+
+def _known_scale(text: str) -> Scale | None:
+    try:
+        scale: Scale = scale_of(text.replace(",", "."))
+    except InputError:
+        return None
+    return scale
+
+
+ROSTER = Schema(
+    "players",
+    player=Name("name, player name, full name", "each name once", needed=True),
+    rating=Number(
+        "points, skill level, level, handicap, fargo rating, elo",
+        "the title may name the scale (`Fargo rating`, `Elo`). Ratings under `skill level` or "
+        "`level` are skill levels: they need a chart by skill level, or `--scale` with the levels "
+        "that double the odds",
+        needed=True,
+        least=-LARGEST,
+        most=LARGEST,
+        grouped=True,
+        write=say("points such as 85"),
+        empty=say("for a new player"),
+    ),
+    standard_error=_ERROR.called(
+        "se, sd, error, plus or minus, uncertainty",
+        "how far off the rating may be: one standard deviation, in the same points",
+    ),
+    quasi_error=_ERROR.called(
+        "quasi standard error, qse",
+        "the same without the uncertainty that all ratings share, so that it suits differences; "
+        "used in place of `standard_error` if given",
+    ),
+    games=_COUNT.called(
+        "games played, racks, robustness",
+        "the games that the rating is based on, 0 for a new player",
+    ),
+    component=Whole(
+        "group",
+        "players linked by a chain of opponents have the same number",
+        least=1,
+        write=say("1, 2, 3, ..."),
+    ),
+    matches=_COUNT.called(
+        "matches played",
+        "the matches that the player has played; used by [systems](systems.md) with longer steps "
+        "for newcomers; players without a value are treated as established",
+    ),
+    races_won=_COUNT.called(
+        "",
+        "matches won of which only the winner is known; such matches count as games do in showing "
+        "that a player is not new",
+    ),
+    races_lost=_COUNT.called("", "the same for matches lost"),
+    match_form=Number(
+        about="[form of the day](../explanation/ratings.md#form-of-the-day): how much the log-odds "
+        "of a game vary from match to match; the same in each row",
+        least=0,
+        most=3,
+        write=say("the standard deviation of log-odds from 0 to 3, such as 0.35"),
+    ),
+    scale=Parsed(
+        "rating scale, points that double the odds",
+        "the scale of all ratings; the same in each row",
+        parse=_known_scale,
+        nothing=None,
+        kind=say("a scale"),
+        write=say("{scales} or the points that double the odds", scales=", ".join(SCALES)),
+    ),
+)
+
+WRITTEN = Schema(
+    **dict.fromkeys(
+        (
+            *("won", "lost"),
+            *("rating_before", "change", "matches_won", "matches_lost", "why"),
+            *("prior_mean", "prior", "as_of"),
+        ),
+        Text(),
+    )
+)
+"""Further columns of the lists that `evenbreak rate` and `evenbreak report` write."""
+
+
 FARTHEST = 10_000
 """The largest rating or skill that can be simulated, in points."""
+
+LARGEST_SD = 1_000
+"""The largest standard deviation, or drift a week, that can be simulated, in points."""
+
+LAST_WEEK = 10_000
+"""The largest number accepted as a week."""
+
+_WEEK = Whole(most=LAST_WEEK, write=say("1 for the first week, 2, ..."))
+
+OF_SEASON = Schema(
+    skill=Number(
+        "true skill, true rating, strength",
+        "the true skill at the start, in points. If it is empty, a skill is drawn for each season "
+        "from a normal distribution around the rating with `standard_error`; if that is empty "
+        "too, the rating is taken to be exact",
+        least=-FARTHEST,
+        most=FARTHEST,
+        write=say("points such as 85"),
+    ),
+    day_sd=Number(
+        "day, day fluctuation, form",
+        "how far the skill varies from day to day: one standard deviation, in points; if empty, as "
+        "`--day-sd` says",
+        least=0,
+        most=LARGEST_SD,
+        write=say("points such as 5"),
+    ),
+    drift=Number(
+        "points a week, improves by",
+        "points by which the true skill rises each week",
+        least=-LARGEST_SD,
+        most=LARGEST_SD,
+        write=say("points a week such as 0.1"),
+    ),
+    joins=_WEEK.called("first week, joins in week", "the player's first week; 1 if empty"),
+    leaves=_WEEK.called(
+        "last week, leaves after week",
+        "the last week; empty or 0 if the player stays to the end",
+    ),
+    absence=Number(
+        "absent, p absent",
+        "P(the player misses a week); 0 if empty",
+        least=0,
+        most=1,
+        write=say("the chance to be absent, such as 0.1"),
+    ),
+)
+"""The columns that a simulated season uses besides those of a roster; other readers skip them."""
+
+# Each name by itself: two columns with one meaning are a problem only for a season.
+_SKIPPED = Schema(
+    **{
+        title: Text()
+        for name, column in OF_SEASON.columns.items()
+        for title in (name, *column.aliases)
+    }
+)
+
+
+class RatedList(Protocol):
+    """A file with rated players: a roster, or that of a season."""
+
+    @property
+    def roster(self) -> Roster:
+        """The players and their ratings."""
+
+    @property
+    def source(self) -> str:
+        """What the file is called in messages."""
+
+    @property
+    def scale(self) -> Scale | None:
+        """The scale of the ratings; None if the file does not state it."""
+
+    @property
+    def levels(self) -> bool:
+        """Whether the title of the ratings says that they are skill levels."""
 
 
 @array_values
@@ -132,7 +248,7 @@ class RosterFile:
         )
 
 
-def refuse_to_read(file: RosterFile | LeagueFile, scale: Scale, whose: str, remedy: str) -> None:
+def refuse_to_read(file: RatedList, scale: Scale, whose: str, remedy: str) -> None:
     """Refuse to read a list that states no scale on one that its ratings contradict.
 
     Raises
@@ -147,7 +263,7 @@ def refuse_to_read(file: RosterFile | LeagueFile, scale: Scale, whose: str, reme
             scale, file.roster.rating.tolist(), file.roster.players, whose=whose, remedy=remedy
         )
     except InputError as error:
-        raise InputError(f"{file.source}: {error}") from None
+        raise InputError(warning(file.source, error.sentence)) from None
 
 
 def read_roster(path: str | Path) -> RosterFile:
@@ -171,56 +287,47 @@ def read_roster(path: str | Path) -> RosterFile:
     >>> club.players, club.rating, club.games
     (('Ann', 'Bo'), array([92.5,  nan]), array([140,   0]))
     """
-    # Each name by itself: two columns with one meaning are a problem only for a season.
-    seasons = {name: () for known, others in LEAGUE.items() for name in (known, *others)}
-    return roster_of(read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **seasons}, rows="players"))
+    return roster_of((ROSTER | WRITTEN | _SKIPPED).read(path))
 
 
-def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
+def roster_of(table: TextTable) -> RosterFile:
     """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
     ----------
     table
-        with the columns of `REQUIRED` and any of `OPTIONAL`.
-    season
-        whether a season is simulated, for which every player needs a rating.
+        with the columns of `ROSTER`, its cells read.
 
     Raises
     ------
     DataError
         as `read_roster` does, with the problems that the table had before.
     """
-    names = _names(table)
-    most = FARTHEST if season else LARGEST
-    remedy = "write points such as 85" + ("" if season else ", or leave it empty for a new player")
-    rating = numbers(
-        table,
-        "rating",
-        at_least=-most,
-        at_most=most,
-        remedy=remedy,
-        may_be_empty=not season,
-        points_may_group=True,
-    ).values
-    error, quasi = (_error(table, name) for name in ("standard_error", "quasi_error"))
-    error = np.where(np.isnan(quasi), error, quasi)
-    games, matches = _counts(table, "games"), _counts(table, "matches")
+    names = table["player"].tolist()
+    _refuse_twice(table, names)
+    rating, quasi = table["rating"], table["quasi_error"]
+    error = np.where(np.isnan(quasi), table["standard_error"], quasi)
     # A rating can rest on matches of which only the winner is known.
-    races = np.maximum(_counts(table, "races_won"), 0) + np.maximum(_counts(table, "races_lost"), 0)
-    games = np.where(games == NOT_STATED, games, games + races)
-    component = whole_numbers(table, "component", at_least=1, may_be_empty=True).values
-    unrated = np.array([not text for text in table.cells("rating")], dtype=bool)
-    if "rating" in table and not season:
+    races = np.maximum(table["races_won"], 0) + np.maximum(table["races_lost"], 0)
+    games = np.where(table["games"] == NOT_STATED, NOT_STATED, table["games"] + races)
+    ratings = table.read["rating"]
+    if "rating" in table:
         table.problems.add_rows(
             table.lines,
-            np.flatnonzero(unrated & (games > 0)),
-            lambda row: f"rating is empty after {games[row]} games; fill it in, or write 0 games",
+            np.flatnonzero(~ratings.stated & ratings.good & (games > 0)),
+            lambda row: say(
+                "rating is empty after {games} games; fill it in, or write 0 games",
+                games=games[row],
+            ),
         )
     scale, form = _scale(table), _form(table)
     table.problems.raise_any()
-    roster = Roster(names, rating, error, games, component=component, matches=matches)
-    similar = similar_name_warnings(similar_names(names), table.source, "if so, keep one of them")
+    roster = Roster(
+        names, rating, error, games, component=table["component"], matches=table["matches"]
+    )
+    similar = similar_name_warnings(
+        similar_names(names), table.source, say("if so, keep one of them")
+    )
     sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     hidden = hidden_letter_warnings(table, ["player"])
@@ -231,66 +338,51 @@ def roster_of(table: TextTable, *, season: bool = False) -> RosterFile:
     )
 
 
-def _names(table: TextTable) -> list[str]:
-    """Return the names, noting those that are empty or appear twice, in any case and spacing."""
-    names = [clean_name(text) for text in table.cells("player")]
+def _refuse_twice(table: TextTable, names: list[str]) -> None:
+    """Note the names that appear twice, in any case and spacing."""
     first: dict[str, tuple[int, str]] = {}
     for name, line in zip(names, table.lines.tolist(), strict=True):
         if not name:
-            if "player" in table:
-                table.problems.add(line, "player is empty; write a name")
             continue
-        if len(name) > LONGEST_NAME:
-            table.problems.add(
-                line,
-                f"player {quoted(name)} has {len(name):,} letters; write a name of up to "
-                f"{LONGEST_NAME}, and look for a missing quotation mark",
-            )
-        elif not is_name(name):
-            table.problems.add(line, f"player {quoted(name)} is not {NAME}; {WRITE_IT}")
         earlier, spelling = first.setdefault(same_name(name), (line, name))
         if earlier != line:
-            spelt = "" if spelling == name else f" as {quoted(spelling)}"
+            spelt = "" if spelling == name else say(" as {name}", name=quoted(spelling))
             table.problems.add(
                 line,
-                f"player {quoted(name)} is already in line {earlier}{spelt}; delete one of the "
-                "two, or give two players of the same name different names, such as 'Ann Lee 2'",
+                "player {name} is already in line {line}{spelt}; delete one of the two, or give "
+                "two players of the same name different names, such as 'Ann Lee 2'",
+                name=quoted(name),
+                line=earlier,
+                spelt=spelt,
             )
-    return names
 
 
 def _scale(table: TextTable) -> Scale | None:
-    """Return the scale of all ratings, noting one that is unknown or unlike the first.
+    """Return the scale of all ratings, noting one that is unlike the first.
 
     Where the file has no scale, the title of the ratings may name it: "Fargo rating".
     """
     named = next((name for name in SCALES if name in _title(table)), None)
-    scales = read_cells(
-        table,
-        "scale",
-        _known_scale,
-        wanted="a scale",
-        remedy=f"write {', '.join(SCALES)} or the points that double the odds, or leave it empty",
-        dtype=object,
-        empty=None,
-        may_be_empty=True,
-    )
-    rows = np.flatnonzero(scales.stated & scales.good)
+    scales = table["scale"]
+    rows = np.flatnonzero(scales != None)  # noqa: E711 (element by element)
     if not len(rows):
         return None if named is None else SCALES[named]
-    first: Scale = scales.values[rows[0]]
+    first: Scale = scales[rows[0]]
     if named is not None and not first.same_points(SCALES[named]):
         table.problems.add(
             int(table.lines[rows[0]]),
-            f"scale {first.text!r} differs from the title {quoted(table.titles['rating'])}; "
-            "correct one of them",
+            "scale {scale!r} differs from the title {title}; correct one of them",
+            scale=first.text,
+            title=quoted(table.titles["rating"]),
         )
     table.problems.add_rows(
         table.lines,
-        np.array([row for row in rows if not first.same_points(scales.values[row])], dtype=int),
-        lambda row: (
-            f"scale {scales.values[row].text!r} differs from {first.text!r} in line "
-            f"{table.lines[rows[0]]}; put all ratings on one scale"
+        np.array([row for row in rows if not first.same_points(scales[row])], dtype=int),
+        lambda row: say(
+            "scale {scale!r} differs from {first!r} in line {line}; put all ratings on one scale",
+            scale=scales[row].text,
+            first=first.text,
+            line=table.lines[rows[0]],
         ),
     )
     return first
@@ -298,10 +390,7 @@ def _scale(table: TextTable) -> Scale | None:
 
 def _form(table: TextTable) -> float:
     """Return form of the day, which is that of the whole list, noting one unlike the first."""
-    remedy = "write the standard deviation of log-odds from 0 to 3, such as 0.35"
-    column = numbers(
-        table, "match_form", at_least=0, at_most=3, remedy=remedy, may_be_empty=True
-    ).values
+    column = table["match_form"]
     rows = np.flatnonzero(~np.isnan(column))
     if not len(rows):
         return 0.0
@@ -309,9 +398,12 @@ def _form(table: TextTable) -> float:
     table.problems.add_rows(
         table.lines,
         rows[column[rows] != first],
-        lambda row: (
-            f"match_form {column[row]:g} differs from {first:g} in line {table.lines[rows[0]]}; it "
-            "is that of the whole league, so write one number"
+        lambda row: say(
+            "match_form {form:g} differs from {first:g} in line {line}; it is that of the whole "
+            "league, so write one number",
+            form=column[row],
+            first=first,
+            line=table.lines[rows[0]],
         ),
     )
     return first
@@ -320,25 +412,3 @@ def _form(table: TextTable) -> float:
 def _title(table: TextTable) -> str:
     """Return the title of the ratings in lower case; '' where there are none."""
     return table.titles.get("rating", "").casefold()
-
-
-def _known_scale(text: str) -> Scale | None:
-    try:
-        scale: Scale = scale_of(text.replace(",", "."))
-    except InputError:
-        return None
-    return scale
-
-
-def _counts(table: TextTable, name: str) -> NDArray[np.int64]:
-    """Read a column of counts, `NOT_STATED` where a cell is empty."""
-    counts = whole_numbers(table, name, may_be_empty=True)
-    return np.where(counts.stated & counts.good, counts.values, NOT_STATED)
-
-
-def _error(table: TextTable, name: str) -> NDArray[np.float64]:
-    remedy = "write points such as 9.5, or leave it empty"
-    errors: NDArray[np.float64] = numbers(
-        table, name, at_least=0, at_most=LARGEST, remedy=remedy, may_be_empty=True
-    ).values
-    return errors

@@ -10,16 +10,35 @@ import numpy as np
 
 from evenbreak.errors import DataError
 from evenbreak.files.csv_writer import csv_lines
-from evenbreak.files.lists.roster import LARGEST, OPTIONAL, REQUIRED, WRITTEN, roster_of
-from evenbreak.files.tables.cells import dates, numbers
+from evenbreak.files.lists.roster import LARGEST, ROSTER, WRITTEN, roster_of
+from evenbreak.files.tables.cells import Day, Number
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.files.tables.table import read_table
+from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.schema import Schema
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import FilePath, Parameter, say
 
-MORE = {"prior": (), "prior_mean": (), "as_of": ("date", "day", "updated")}
-"""The columns of a saved file besides those of a roster."""
+_POINTS = Number(least=-LARGEST, most=LARGEST, write=say("points"))
+
+SAVED = (
+    ROSTER
+    | WRITTEN
+    | Schema(
+        prior_mean=_POINTS.called(
+            "",
+            "the mean of the prior with which the rating was made. The prior is taken out again, "
+            "so that the new one counts once; without it a rating counts as it is",
+        ),
+        prior=_POINTS.called("", "the prior's standard deviation", least=0),
+        as_of=Day(
+            "date, day, updated",
+            "the day of the ratings; with a half-life they have aged since",
+        ),
+    )
+)
+"""Ratings to begin from: a roster with priors, and with the day that it is of."""
 
 COLUMNS = (
     *("player", "rating", "quasi_error", "standard_error", "games"),
@@ -125,31 +144,30 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         with every problem of the file: those of a roster, numbers out of range, dates that are
         none, or a scale other than the one asked for.
     """
-    table = read_table(path, REQUIRED, {**OPTIONAL, **WRITTEN, **MORE}, rows="players")
-    asked: Any = {
-        "at_most": LARGEST,
-        "remedy": "write points, or leave it empty",
-        "may_be_empty": True,
-    }
-    prior = numbers(table, "prior", at_least=0, **asked).values
-    mean = numbers(table, "prior_mean", at_least=-LARGEST, **asked).values
-    day = dates(table, "as_of").values
+    table = SAVED.read(path)
+    prior, mean, day = (table[name] for name in ("prior", "prior_mean", "as_of"))
     file = roster_of(table)
     if file.scale is not None and not file.scale.same_points(scale):
         raise DataError(
             [
-                f"{file.source} states that its ratings are {file.scale.text}, but the results are "
-                f"rated on {scale.text}; give --scale {file.scale.text}"
+                say(
+                    "{source} states that its ratings are {stated}, but the results are rated on "
+                    "{asked}; give {scale} {stated}",
+                    source=FilePath(file.source),
+                    stated=file.scale.text,
+                    asked=scale.text,
+                    scale=Parameter("scale"),
+                )
             ]
         )
     if file.levels and file.scale is None:
-        raise DataError(
-            [f"{file.source}: its ratings are skill levels; give ratings in points to begin from"]
-        )
+        levels = say("its ratings are skill levels; give ratings in points to begin from")
+        raise DataError([warning(file.source, levels)])
     roster = file.roster
     rated = np.flatnonzero(~np.isnan(roster.rating))
     if not len(rated):
-        raise DataError([f"{file.source}: no player in it has a rating to begin from"])
+        nothing = say("no player in it has a rating to begin from")
+        raise DataError([warning(file.source, nothing)])
     known = KnownNames(players)
     places = [known.place(roster.players[k]) for k in rated]
     error = roster.standard_error[rated]
@@ -166,5 +184,5 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         games=np.maximum(roster.games[rated], 0).astype(float),
         as_of=None if np.isnat(day).all() else str(day[~np.isnat(day)].max()),
     )
-    found = sum(place is not None for place in places)
-    return Saved(beginning, found, file.warnings, file.scale is not None)
+    matched = sum(place is not None for place in places)
+    return Saved(beginning, matched, file.warnings, file.scale is not None)

@@ -12,24 +12,90 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import DataError
-from evenbreak.files.lists.roster import OPTIONAL, REQUIRED, WRITTEN, RosterFile, roster_of
+from evenbreak.files.lists.roster import ROSTER, WRITTEN, RosterFile, roster_of
 from evenbreak.files.lists.typed_list import read_players
-from evenbreak.files.tables.cells import numbers, whole_numbers
-from evenbreak.files.tables.names import clean_name, same_name
-from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.cells import Number, Text, Whole
+from evenbreak.files.tables.names import Name, same_name
+from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.table import TextTable
+from evenbreak.words import say
 
-_LEVELS = ("skill level", "handicap", "sl")
-COLUMNS = {"player": (*REQUIRED["player"], "team player")}
-MORE = {
-    "rating": tuple(name for name in REQUIRED["rating"] if name not in (*_LEVELS, "level")),
-    "level": _LEVELS,
-    **OPTIONAL,
-    **WRITTEN,
-    "team": (),
-    "division": (),
-}
+_LEVELS = "skill level, handicap, sl"
+_RATING = ", ".join(
+    name for name in ROSTER["rating"].aliases if name not in {*_LEVELS.split(", "), "level"}
+)
+
+TEAM = (
+    ROSTER.but(
+        player={"also": f"{ROSTER['player'].also}, team player"},
+        rating={"also": _RATING, "needed": False},
+    )
+    | Schema(
+        level=Number(
+            _LEVELS,
+            "what a cap counts; where there is no rating, it is the rating too",
+            least=0,
+            most=1000,
+            write=say("a skill level"),
+        )
+    )
+    | WRITTEN
+    | Schema(team=Text(), division=Text())
+)
+"""The players of a team."""
+
+SQUADS = TEAM | Schema(
+    team=Name(
+        about="the team of the player",
+        needed=True,
+        write=say("the team of each player"),
+    )
+)
+"""The players of all teams."""
+
+
+def _side(also: str, about: str) -> Name:
+    return Name(also, about, needed=True, write=say("the team's name"))
+
+
+_SETS = Whole(needed=True, empty=None)
+ROUND = Schema(round=Text("week, matchday, night, date, day", "the round"))
+PAIR = Schema(
+    "matches",
+    home=_side("home team, team a, team 1, player a, a", "the team at home"),
+    away=_side("away team, visitor, visitors, guest, team b, team 2, player b, b", "the visitors"),
+)
+FIXTURES = PAIR | ROUND
+"""The matches to come of a team season."""
+
+TEAM_RESULTS = (
+    PAIR
+    | Schema(
+        home_score=_SETS.called(
+            "home sets, home points, score home, score a, score 1", "the sets that home won"
+        ),
+        away_score=_SETS.called(
+            "away sets, away points, score away, score b, score 2", "the sets that away won"
+        ),
+    )
+    | ROUND
+)
+"""The matches of a team season; those without a score, or with 0:0, have not been played."""
+
+TEAMS = Schema(
+    "teams",
+    team=Name("name, team name", "each team once", needed=True),
+    points=Number(
+        "head start, bonus, deduction, adjustment",
+        "the points that it has besides its matches",
+        least=-10_000,
+        most=10_000,
+        write=say("points such as -2"),
+    ),
+)
+"""The teams of a league."""
 
 
 @array_values
@@ -80,7 +146,7 @@ def read_team(path: str | Path) -> TeamList:
     >>> team.file.roster.rating, team.levels
     (array([612., 540.]), array([6., 5.]))
     """
-    return _team_of(read_players(path, COLUMNS, MORE, numbers=("rating", "level")))
+    return _team_of(read_players(path, TEAM, numbers=("rating", "level")))
 
 
 def read_squads(path: str | Path) -> dict[str, TeamList]:
@@ -99,23 +165,19 @@ def read_squads(path: str | Path) -> dict[str, TeamList]:
     ...     {team: one.file.roster.players for team, one in read_squads(path).items()}
     {'Racks': ('Ann', 'Cy'), 'Cues': ('Bo',)}
     """
-    table = read_table(path, {"team": MORE["team"], **COLUMNS}, MORE, rows="players")
+    table = SQUADS.only("team").of(SQUADS.text(path))
     teams: dict[str, list[int]] = {}
-    for line, name in zip(table.lines.tolist(), map(clean_name, table.cells("team")), strict=True):
-        if not name:
-            table.problems.add(line, "team is empty; name the team of each player")
+    for line, name in zip(table.lines.tolist(), table["team"], strict=True):
         teams.setdefault(name, []).append(line)
     table.problems.raise_any()
     if len(teams) < 2:
-        raise DataError([f"{table.source}: names one team only; a league has two or more"])
+        one = say("names one team only; a league has two or more")
+        raise DataError([warning(table.source, one)])
     every = set(table.lines.tolist())
     return {name: _team_of(table.without(every - set(lines))) for name, lines in teams.items()}
 
 
 def _team_of(table: TextTable) -> TeamList:
-    levels = numbers(
-        table, "level", at_least=0, at_most=1000, remedy="write a skill level", may_be_empty=True
-    ).values
     if "rating" not in table and "level" in table:
         table = replace(
             table,
@@ -123,20 +185,8 @@ def _team_of(table: TextTable) -> TeamList:
             found=table.found | {"rating"},
             titles={**table.titles, "rating": table.titles["level"]},
         )
-    return TeamList(roster_of(table), np.asarray(levels))
-
-
-PAIR = {
-    "home": ("home team", "team a", "team 1", "player a", "a"),
-    "away": ("away team", "visitor", "visitors", "guest", "team b", "team 2", "player b", "b"),
-}
-SCORES = {
-    "home_score": ("home sets", "home points", "score home", "score a", "score 1"),
-    "away_score": ("away sets", "away points", "score away", "score b", "score 2"),
-}
-ROUND = {"round": ("week", "matchday", "night", "date", "day")}
-TEAM = {"team": ("name", "team name")}
-POINTS = {"points": ("head start", "bonus", "deduction", "adjustment")}
+    table = TEAM.of(table)
+    return TeamList(roster_of(table), table["level"])
 
 
 @array_values
@@ -202,24 +252,17 @@ def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
     >>> teams.names, points.tolist()
     (['Acers', 'Bankers'], [0.0, -2.0])
     """
-    table = read_table(path, TEAM, POINTS, rows="teams")
-    found = TeamNames([])
-    for line, text in zip(table.lines.tolist(), table.cells("team"), strict=True):
-        name, before = clean_name(text), len(found.names)
-        if not name:
-            table.problems.add(line, "team is empty; write a name")
-        elif found.place(name) != before:
-            table.problems.add(line, f"team {quoted(name)} is listed twice; delete one of the two")
-    points = numbers(
-        table,
-        "points",
-        at_least=-10_000,
-        at_most=10_000,
-        remedy="write points such as -2, or leave it empty",
-        may_be_empty=True,
-    ).values
+    table = TEAMS.read(path)
+    teams = TeamNames([])
+    for line, name in zip(table.lines.tolist(), table["team"], strict=True):
+        before = len(teams.names)
+        if name and teams.place(name) != before:
+            table.problems.add(
+                line, "team {name} is listed twice; delete one of the two", name=quoted(name)
+            )
     table.problems.raise_any()
-    return TeamNames(found.names, fixed=True), np.nan_to_num(points), table.warnings
+    points = np.nan_to_num(table["points"])
+    return TeamNames(teams.names, fixed=True), points, table.warnings
 
 
 def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, TeamMatches]:
@@ -241,18 +284,19 @@ def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, 
     >>> played.pairs.tolist(), played.scores.tolist(), to_come.pairs.tolist()
     ([[0, 1]], [[3, 2]], [[1, 0]])
     """
-    table = read_table(path, {**PAIR, **SCORES}, ROUND, rows="matches")
-    home, away = (whole_numbers(table, name, may_be_empty=True) for name in SCORES)
+    table = TEAM_RESULTS.read(path)
+    home, away = table.read["home_score"], table.read["away_score"]
     table.problems.add_rows(
         table.lines,
         np.flatnonzero(home.stated != away.stated),
-        lambda _: "one score is empty; write both, or neither where the match was not played",
+        lambda _: say("one score is empty; write both, or neither where the match was not played"),
     )
     scores = np.stack([home.values, away.values], axis=1)
     unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
     every = _matches(table, teams, scores)
     if unplayed.all():
-        raise DataError([f"{table.source}: no match in it has been played; fill in the scores"])
+        nothing = say("no match in it has been played; fill in the scores")
+        raise DataError([warning(table.source, nothing)])
     to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
     return every.among(~unplayed), replace(to_come, warnings=())
 
@@ -265,30 +309,36 @@ def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:
     DataError
         with every problem of the file.
     """
-    table = read_table(path, PAIR, ROUND, rows="matches")
+    table = FIXTURES.read(path)
     return _matches(table, teams, np.zeros((len(table), 0), dtype=np.int64))
 
 
 def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
     pairs = np.zeros((len(table), 2), dtype=np.int64)
-    cells = [[clean_name(text) for text in table.cells(side)] for side in PAIR]
-    for row, (line, *both) in enumerate(zip(table.lines.tolist(), *cells, strict=True)):
-        for side, name in enumerate(both):
-            place = teams.place(name) if name else None
+    sides = zip(table["home"], table["away"], strict=True)
+    for row, (line, both) in enumerate(zip(table.lines.tolist(), sides, strict=True)):
+        for side, (column, name) in enumerate(zip(PAIR.columns, both, strict=True)):
+            place = teams.place(name) if name else 0  # an empty cell is a problem already
             if place is None:
-                what = f"{quoted(name)} is not in the list of teams" if name else "is empty"
-                table.problems.add(line, f"{list(PAIR)[side]} {what}; write the team's name")
+                table.problems.add(
+                    line,
+                    "{column} {name} is not in the list of teams; write the team's name",
+                    column=column,
+                    name=quoted(name),
+                )
             else:
                 pairs[row, side] = place
         if both[0] and same_name(both[0]) == same_name(both[1]):
-            table.problems.add(line, f"{quoted(both[0])} meets itself; correct one of the teams")
+            table.problems.add(
+                line, "{name} meets itself; correct one of the teams", name=quoted(both[0])
+            )
     table.problems.raise_any()
     rounds = tuple(table.cells("round"))
     twice = _twice(table, pairs, scores, rounds, teams.names)
     similar: Sequence[str] = ()
     if not teams.fixed:
         similar = similar_name_warnings(
-            similar_names(teams.names), table.source, "if so, write both alike", of="team"
+            similar_names(teams.names), table.source, say("if so, write both alike"), of=say("team")
         )
     return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar, *twice))
 
@@ -299,22 +349,33 @@ def _twice(
     """Return warnings about matches that may be entered twice, and teams twice in a round."""
     seen: dict[tuple[object, ...], int] = {}
     busy: dict[tuple[str, int], int] = {}
-    said = []
+    warnings: list[str] = []
+
+    def warn(text: str, line: int) -> None:
+        warnings.append(warning(table.source, text, line))
+
     for row, line in enumerate(table.lines.tolist()):
         home, away = pairs[row].tolist()
         key = (home, away, rounds[row], *scores[row].tolist())
         if key in seen:
-            said.append(
-                f"{table.source}:{line}: {names[home]} against {names[away]} is in line "
-                f"{seen[key]} already; if it was entered twice, delete one"
+            again = say(
+                "{home} against {away} is in line {line} already; if it was entered twice, delete "
+                "one",
+                home=names[home],
+                away=names[away],
+                line=seen[key],
             )
+            warn(again, line)
             continue
         seen[key] = line
         for team in (home, away) if rounds[row] else ():
             if (rounds[row], team) in busy:
-                said.append(
-                    f"{table.source}:{line}: {names[team]} plays in round {rounds[row]} in line "
-                    f"{busy[rounds[row], team]} already"
+                also = say(
+                    "{team} plays in round {round} in line {line} already",
+                    team=names[team],
+                    round=rounds[row],
+                    line=busy[rounds[row], team],
                 )
+                warn(also, line)
             busy.setdefault((rounds[row], team), line)
-    return said
+    return warnings

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,7 +18,8 @@ from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.names import clean_name, same_name
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.rows import content_of, is_spreadsheet, text_of
-from evenbreak.files.tables.table import Texts, TextTable, read_table
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import Texts, TextTable
 
 _ONE = r"[0-9]+(?:[.,][0-9]{1,2})?"
 _NUMBER = rf"[-+]?{_ONE}"
@@ -156,11 +157,7 @@ _WRITE_IT = "write a player on each line, such as Ann Lee,612, or make player,ra
 
 
 def read_players(
-    path: str | Path,
-    required: Mapping[str, Sequence[str]],
-    optional: Mapping[str, Sequence[str]],
-    *,
-    numbers: Sequence[str] = ("rating",),
+    path: str | Path, schema: Schema, *, numbers: Sequence[str] = ("rating",)
 ) -> TextTable:
     r"""Read a list of players: a table with a header, or a player on each line.
 
@@ -168,8 +165,8 @@ def read_players(
     ----------
     path
         the file; '-' is standard input, which must have a header.
-    required, optional
-        the columns of the table, as for `read_table`; `player` is among them.
+    schema
+        the columns of the table; `player` is among them.
     numbers
         the columns of the numbers that may follow a name on its line, in this order.
 
@@ -179,23 +176,24 @@ def read_players(
         as `read_table` does.
 
     >>> import tempfile, pathlib
+    >>> from evenbreak.files.tables.cells import Text
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "tonight.txt"
     ...     _ = path.write_text("Ann Lee, 612\nBo Diaz 540\n\nCy\n")
-    ...     table = read_players(path, {"player": ()}, {"rating": ()})
+    ...     table = read_players(path, Schema("players", player=Text(), rating=Text()))
     >>> table.cells("player"), table.cells("rating"), table.lines
     (['Ann Lee', 'Bo Diaz', 'Cy'], ['612', '540', ''], array([1, 2, 4]))
     """
     if str(path) == "-":
-        return read_table(path, required, optional, rows="players")
+        return schema.text(path)
     source, content = content_of(path)
     if is_spreadsheet(content):
-        return read_table(path, required, optional, rows="players")
+        return schema.text(path)
     text = text_of(content, source)
     lines = text.body.decode(text.encoding).splitlines()
-    header = Header(required, optional, {})
+    header = schema.header()
     if _has_header(lines, header):
-        return read_table(path, required, optional, rows="players")
+        return schema.text(path)
     problems = Problems(source)
     most = len(numbers)
     for number, line in enumerate(lines, 1):
@@ -208,7 +206,7 @@ def read_players(
     _refuse_other_text(rows, problems)
     if not rows and not len(problems):
         problems.add(None, "names nobody; write one player on each line")
-    columns = {name: Texts.of([""] * len(rows)) for name in header.columns}
+    columns = {name: Texts.of([""] * len(rows)) for name in schema.columns}
     columns["player"] = Texts.of([one.name for one in rows])
     for k, name in enumerate(numbers):
         columns[name] = Texts.of([one.cells[k] if k < len(one.cells) else "" for one in rows])

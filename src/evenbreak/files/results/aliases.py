@@ -5,15 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from evenbreak.files.tables.names import clean_name, hidden_letter_warnings
+from evenbreak.files.tables.names import Name, hidden_letter_warnings
 from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.schema import Schema
+from evenbreak.words import say
 
-REQUIRED = {
-    "name": ("alias", "written", "as written", "nickname", "from"),
-    "means": ("player", "real name", "right name", "stands for", "to"),
-}
-"""The columns that a file of aliases must have, with their other names."""
+_WRITE = say("a name, or delete the line")
+
+ALIASES = Schema(
+    "names",
+    name=Name(
+        "alias, written, as written, nickname, from",
+        "a name as it may appear in the results",
+        needed=True,
+        write=_WRITE,
+    ),
+    means=Name(
+        "player, real name, right name, stands for, to",
+        "the name of the player who is meant",
+        needed=True,
+        write=_WRITE,
+    ),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,38 +66,34 @@ def read_aliases(path: str | Path) -> AliasesFile:
     ...     read_aliases(path).means
     {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
     """
-    table = read_table(path, REQUIRED, rows="names")
-    pairs = zip(_names(table, "name"), _names(table, "means"), table.lines.tolist(), strict=True)
+    table = ALIASES.read(path)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
-    for name, meant, line in pairs:
+    for name, meant, line in zip(table["name"], table["means"], table.lines.tolist(), strict=True):
         if not name or not meant:
             continue
         if means.setdefault(name, meant) != meant:
             table.problems.add(
                 line,
-                f"{quoted(name)} means {quoted(meant)} here, but {quoted(means[name])} in line "
-                f"{line_of[name]}; keep one of the two",
+                "{name} means {meant} here, but {earlier} in line {line}; keep one of the two",
+                name=quoted(name),
+                meant=quoted(meant),
+                earlier=quoted(means[name]),
+                line=line_of[name],
             )
         line_of.setdefault(name, line)
     for name, meant in means.items():
         if name != meant and means.get(meant, meant) != meant:
             table.problems.add(
                 line_of[name],
-                f"{quoted(name)} means {quoted(meant)}, which means {quoted(means[meant])} in line "
-                f"{line_of[meant]}; write the player's real name in both lines, and keep only one "
-                "of two names that mean each other",
+                "{name} means {meant}, which means {other} in line {line}; write the player's "
+                "real name in both lines, and keep only one of two names that mean each other",
+                name=quoted(name),
+                meant=quoted(meant),
+                other=quoted(means[meant]),
+                line=line_of[meant],
             )
     table.problems.raise_any()
     means = {name: meant for name, meant in means.items() if name != meant}
     hidden = hidden_letter_warnings(table, ["means"])
     return AliasesFile(means, table.source, (*table.warnings, *hidden))
-
-
-def _names(table: TextTable, column: str) -> list[str]:
-    """Return a column of names; empty ones are added to the problems."""
-    names = [clean_name(text) for text in table.cells(column)]
-    for name, line in zip(names, table.lines.tolist(), strict=True):
-        if not name and column in table:
-            table.problems.add(line, f"{column} is empty; write a name, or delete the line")
-    return names

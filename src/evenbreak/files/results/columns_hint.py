@@ -13,6 +13,7 @@ from itertools import combinations, pairwise
 from evenbreak.files.results.matches import WALKOVERS
 from evenbreak.matches.formats import BETWEEN
 from evenbreak.ratings.result_words import letters
+from evenbreak.words import Parameter, say
 
 _SCORE = re.compile(rf"\d{{1,3}}\s*{BETWEEN}\s*\d{{1,3}}", re.ASCII)
 _CLOCK = re.compile(r"([01]?\d|2[0-3])[:.][0-5]\d", re.ASCII)
@@ -46,32 +47,36 @@ def columns_hint(
         the cells below them, row by row.
 
     >>> print(columns_hint((), ["Heim", "Gast", "S"], [["Ann", "Bo", "7-5"]]))
-    if it has them by other names, add --columns "player_a=Heim,player_b=Gast,score=S"
+    if it has them by other names, add columns "player_a=Heim,player_b=Gast,score=S"
     """
     columns = [
         (title, ["".join(row[place : place + 1]).strip() for row in rows])
         for place, title in enumerate(titles)
         if title.strip() and titles.count(title) == 1
     ]
-    found: dict[str, str] = {}
+    meant: dict[str, str] = {}
     missing = set()
     if not ({"player_a", "player_b"} <= set(known) or {"winner", "loser"} <= set(known)):
         missing |= {"players"}
-        found |= _players(_of_kind(columns, _is_name), known)
+        meant |= _players(_of_kind(columns, _is_name), known)
     if not {*known} & {"score", "racks"} and not {"score_a", "score_b"} <= set(known):
         missing |= {"scores"}
-        found |= _scores(columns, known, [found.get(f"player_{side}", side) for side in "ab"])
+        meant |= _scores(columns, known, [meant.get(f"player_{side}", side) for side in "ab"])
     days = _of_kind(columns, _DATE.fullmatch)
     if len(days) == 1 and "date" not in known:
-        found["date"] = days[0][0]
+        meant["date"] = days[0][0]
     kinds = {
-        "players" if name.startswith("player") else "scores" for name in found.keys() - {"date"}
+        "players" if name.startswith("player") else "scores" for name in meant.keys() - {"date"}
     }
-    if not found or kinds != missing:
-        return "add them; one column score, with 7-5 in a cell, takes the place of two"
-    listed = ",".join(f"{name}={title.strip()}" for name, title in found.items())
-    quote = "'" if re.search(r'["$`\\!]', listed) else '"'
-    return f"if it has them by other names, add --columns {quote}{listed}{quote}"
+    if not meant or kinds != missing:
+        return say("add them; one column score, with 7-5 in a cell, takes the place of two")
+    titles_by_name = ",".join(f"{name}={title.strip()}" for name, title in meant.items())
+    quote = "'" if re.search(r'["$`\\!]', titles_by_name) else '"'
+    return say(
+        "if it has them by other names, add {columns} {titles}",
+        columns=Parameter("columns"),
+        titles=f"{quote}{titles_by_name}{quote}",
+    )
 
 
 def _of_kind(columns: Sequence[Column], fits: Callable[[str], object]) -> list[Column]:

@@ -8,13 +8,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.problems import Problems
+from evenbreak.files.tables.problems import Problems, first_ones, warning
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.doubtful_scores import doubtful_scores, usual_score
 from evenbreak.ratings.results import Results
+from evenbreak.words import Parameter, say, say_count
 
 MOST_LISTED = 20
 """How many rows are listed; the rest are counted."""
+
+_SKIP_BAD = Parameter("skip_bad")
 
 
 def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
@@ -22,11 +25,16 @@ def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: 
     texts = _score_doubts(results, lines, source)
     if not texts:
         return []
+    verdict = say_count(
+        "such a score counts as games won; correct it, or leave it out with {skip_bad}",
+        "such scores count as games won; correct them, or leave them out with {skip_bad}",
+        len(texts),
+        skip_bad=_SKIP_BAD,
+    )
     more = len(texts) - MOST_LISTED
-    end = f"and {more:,} more such scores; " if more > 0 else ""
-    scores = "such a score counts" if len(texts) == 1 else "such scores count"
-    remedy = "correct them, or leave them out with --skip-bad"
-    return [*texts[:MOST_LISTED], f"{source}: {end}{scores} as games won; {remedy}"]
+    if more > 0:
+        verdict = say("and {n:,} more such scores; {verdict}", n=more, verdict=verdict)
+    return [*texts[:MOST_LISTED], warning(source, verdict)]
 
 
 def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
@@ -34,8 +42,17 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
     score = np.maximum(results.score_a, results.score_b)
     usual = usual_score(score[(score > 0) & ~results.given_away]) if len(rows) else 0.0
     return [
-        f"{source}:{lines[row]}: {results.score_a[row]}-{results.score_b[row]} can hardly be games "
-        f"won, as nearly all winners here have {usual:.0f} or fewer; they may be points"
+        warning(
+            source,
+            say(
+                "{a}-{b} can hardly be games won, as nearly all winners here have {usual:.0f} or "
+                "fewer; they may be points",
+                a=results.score_a[row],
+                b=results.score_b[row],
+                usual=usual,
+            ),
+            lines[row],
+        )
         for row in rows.tolist()
     ]
 
@@ -66,24 +83,29 @@ def without_bad_rows(
     kept = table.without(unread)
     if not len(kept):
         table.problems.raise_any()
-    found = list(table.problems.listed())
+    left = list(table.problems.listed())
     trial = replace(kept, problems=Problems(table.source))
     results = read(trial)
     trial.problems.raise_any()
     doubtful = doubtful_scores(results)
-    found += _score_doubts(results, kept.lines, table.source)
+    left += _score_doubts(results, kept.lines, table.source)
     left_out = {*unread, *kept.lines[doubtful].tolist()}
-    return kept.without(left_out), _counted(found, len(left_out), table.source), len(left_out)
+    return kept.without(left_out), _counted(left, len(left_out), table.source), len(left_out)
 
 
-def _counted(found: Sequence[str], rows: int, source: str) -> list[str]:
+def _counted(problems: Sequence[str], rows: int, source: str) -> list[str]:
     if not rows:
         return []
-    many = "1 row is" if rows == 1 else f"{rows:,} rows are"
-    listed = list(found[:MOST_LISTED])
-    more = len(found) - len(listed)
-    end = [f"{source}: and {more:,} more problems"] if more else []
-    return [f"{source}: {many} left out, as --skip-bad asks", *listed, *end]
+    count = say_count(
+        "{n} row is left out, as {skip_bad} asks",
+        "{n:,} rows are left out, as {skip_bad} asks",
+        rows,
+        skip_bad=_SKIP_BAD,
+    )
+    listed = first_ones(
+        problems, MOST_LISTED, source, lambda n: say("and {n:,} more problems", n=n)
+    )
+    return [warning(source, count), *listed]
 
 
 YEARS_APART = 5
@@ -123,23 +145,27 @@ def date_warnings(
     today = np.datetime64("today", "D") if today is None else today
     future = dates > today + 1
     far, others = _far(dates, ~future & ~np.isnat(dates))
-    found = []
-    for row in np.flatnonzero(future | far):
-        why = "in the future" if future[row] else f"{YEARS_APART} years or more from {others}"
-        found.append(
-            f"{source}:{lines[row]}: date {dates[row]} is {why}; correct it if it was mistyped"
+    warnings = [
+        warning(
+            source,
+            say(
+                "date {date} is {why}; correct it if it was mistyped",
+                date=str(dates[row]),
+                why=say("in the future") if future[row] else others,
+            ),
+            lines[row],
         )
-    more = len(found) - MOST_DATES_LISTED
-    return [
-        *found[:MOST_DATES_LISTED],
-        *([f"{source}: and {more:,} more such dates"] if more > 0 else []),
+        for row in np.flatnonzero(future | far)
     ]
+    return first_ones(
+        warnings, MOST_DATES_LISTED, source, lambda n: say("and {n:,} more such dates", n=n)
+    )
 
 
 def _far(
     dates: NDArray[np.datetime64], considered: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], str]:
-    """Return which of the dates are far from all the others, and from when to when those are."""
+    """Return which of the dates are far from all the others, and how far from when to when."""
     far = np.zeros(len(dates), dtype=bool)
     days = np.sort(dates[considered])
     if len(days) < 2:
@@ -150,4 +176,9 @@ def _far(
     if len(days) - len(most) > max(1, FEW * len(days)) or len(most) == len(days) / 2:
         return far, ""
     far[considered] = (dates[considered] < most[0]) | (dates[considered] > most[-1])
-    return far, f"all others ({most[0]} to {most[-1]})"
+    return far, say(
+        "{years} years or more from all others ({first} to {last})",
+        years=YEARS_APART,
+        first=str(most[0]),
+        last=str(most[-1]),
+    )

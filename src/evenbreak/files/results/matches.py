@@ -17,44 +17,147 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.cells import (
-    DateOrder,
-    Values,
-    dates,
-    read_date,
-    texts,
-    whole_numbers,
-    words,
-)
-from evenbreak.files.tables.names import PlayerNames, clean_name
-from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import Texts, TextTable
+from evenbreak.files.tables.cells import DateOrder, Day, Text, Whole, Word, YesNo, read_date
+from evenbreak.files.tables.names import Name, PlayerNames, clean_name
+from evenbreak.files.tables.problems import quoted, quoted_list, warning
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import Texts, TextTable, Values
 from evenbreak.matches.formats import BETWEEN
 from evenbreak.ratings.consistency import find_problems
 from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, letters
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.results_frame import GROUPS
+from evenbreak.words import Sentence, joined, say
 
-BY_WINNER = {
-    "score": ("result", "final score", "match score"),
-    "race": ("race to", "match race"),
-    "loser": ("losing player", "loser name", "lost by"),
-    "winner_score": ("winner games", "winners score", "games won by winner"),
-    "loser_score": ("loser games", "losers score", "games won by loser"),
-    "winner_race": ("winner needs", "winners race"),
-    "loser_race": ("loser needs", "losers race"),
-    "winner_team": ("winners team",),
-    "loser_team": ("losers team",),
-    "winner_level": ("winners level", "winner class", "winner rating"),
-    "loser_level": ("losers level", "loser class", "loser rating"),
-}
-"""The columns that are brought to another layout here, with their other names."""
+NAMES = ("player_a", "player_b")
+
+_SCORE_WITHOUT = (
+    "race_a race_b winner",
+    "race winner",
+    "racks",
+    "score",
+    "winner_score loser_score winner loser",
+    "winner_race loser_race winner loser",
+)
+_WINNER_AND_LOSER = ("winner loser",)
+_GAMES = Whole(needed=True, instead=_SCORE_WITHOUT, empty=None)
+_RACE = Whole(least=1, empty=None, write=say("1, 2, 3, ..., or leave both races empty"))
+_NFC = Text(form=partial(unicodedata.normalize, "NFC"))
+
+
+def _without_blanks(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+RESULTS = Schema(
+    "matches",
+    player_a=Name(
+        "player 1, player a name, home, home player, a",
+        "one of the two players; neither of them is assumed to have broken",
+        needed=True,
+        instead=_WINNER_AND_LOSER,
+    ),
+    player_b=Name(
+        "player 2, player b name, away, away player, b",
+        "the other",
+        needed=True,
+        instead=_WINNER_AND_LOSER,
+    ),
+    score_a=_GAMES.called(
+        "score 1, games a, games 1, home score, frames a, racks won a", "the games that a won"
+    ),
+    score_b=_GAMES.called(
+        "score 2, games b, games 2, away score, frames b, racks won b", "the games that b won"
+    ),
+    date=Day("day, match date, played, played on"),
+    race_a=_RACE.called(
+        "race 1, race to a, needs a, home race",
+        "the games that player a needed. The winner is then the player who reached the race, "
+        "whatever the scores",
+    ),
+    race_b=_RACE.called("race 2, race to b, needs b, away race", "the same of player b"),
+    winner=Text(
+        "won by, match winner, winning player, winner name",
+        "the winner of the match: `a`, `b`, or a name; checked against scores and races",
+    ),
+    first_break=Text(
+        "first breaker, breaks first, lag won by",
+        "the player who broke first: `a`, `b`, or a name",
+    ),
+    break_format=Word(
+        "who breaks, breaks next",
+        "who breaks the next rack",
+        values=FORMAT_WORDS,
+        choices=say("winner, loser, alternate, a or b"),
+    ),
+    racks=Text(
+        "rack winners, games in order",
+        "the winner of each rack, in order: `abba`; checked against the scores",
+        form=_without_blanks,
+    ),
+    event=_NFC.called("tournament, competition, league"),
+    team_a=_NFC.called(
+        "team 1, home team",
+        "the team of player a; ratings use it if it "
+        "[clearly helps](../explanation/ratings.md#what-the-file-knows)",
+    ),
+    team_b=_NFC.called("team 2, away team", "the team of player b"),
+    division=_NFC.called(
+        "class, flight", "the division or class in which the match was played; used like the team"
+    ),
+    level_a=_NFC.called(
+        "level 1, skill level a, skill level 1, class a, class 1, rating a",
+        "the class, skill level or rating by which the league handicapped player a that day: `B`, "
+        "`5` or `87`; `validate` says what a class is worth, and which "
+        "[chart](../how-to/can-i-trust-the-ratings.md#handicaps) the races come from",
+    ),
+    level_b=_NFC.called(
+        "level 2, skill level b, skill level 2, class b, class 2, rating b", "that of player b"
+    ),
+    forfeit=YesNo(
+        "walkover, forfeited, no show, w/o",
+        "forfeits are left out of the ratings, and counted",
+        values=FORFEIT_WORDS,
+    ),
+)
+"""The columns of a results file in the layout to which all others are brought."""
+
+LAYOUTS = Schema(
+    loser=Name(
+        "losing player, loser name, lost by",
+        "with `winner`, in place of the two players: player a is then the winner",
+    ),
+    score=Text(
+        "result, final score, match score", "both scores in one cell: `7-5`, `7:5` or `7/5`"
+    ),
+    winner_score=Text(
+        "winner games, winners score, games won by winner",
+        "with `winner` and `loser`, in place of the two scores",
+    ),
+    loser_score=Text("loser games, losers score, games won by loser", "the same of the loser"),
+    race=Text(
+        "race to, match race",
+        "in place of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
+        "different numbers",
+    ),
+    winner_race=Text("winner needs, winners race", "the same, with `winner` and `loser`"),
+    loser_race=Text("loser needs, losers race", "the same of the loser"),
+    winner_team=Text("winners team", "the team of the winner"),
+    loser_team=Text("losers team", "the team of the loser"),
+    winner_level=Text(
+        "winners level, winner class, winner rating",
+        "the class, skill level or rating of the winner",
+    ),
+    loser_level=Text("losers level, loser class, loser rating", "the same of the loser"),
+)
+"""The columns that are brought to that layout."""
+
+RESULTS_FILE = RESULTS | LAYOUTS
 
 WALKOVERS = ("walkover", "wo", "forfeit", "forfeited", "ff", "bye", "noshow", "dq", "default")
 """What stands in place of the score of a match that was not played."""
 
-_SCORE = re.compile(rf"(\d{{1,7}})\s*{BETWEEN}\s*(\d{{1,7}})", re.ASCII)
-_RACE = re.compile(rf"(?:race to )?(\d{{1,7}})(?:\s*{BETWEEN}\s*(\d{{1,7}}))?", re.ASCII)
+_SCORE_CELL = re.compile(rf"(\d{{1,7}})\s*{BETWEEN}\s*(\d{{1,7}})", re.ASCII)
+_RACE_CELL = re.compile(rf"(?:race to )?(\d{{1,7}})(?:\s*{BETWEEN}\s*(\d{{1,7}}))?", re.ASCII)
 _MONTH = re.compile(r"\d{1,4}[-./ ][a-zäéû]{3,4}\.?|[a-zäéû]{3,4}\.?[-./ ]\d{1,4}")
 _LEADING_ZERO = re.compile(r"0\d[-/]\d{1,2}|\d{1,2}[-/]0\d", re.ASCII)
 _OF_WINNER = {
@@ -81,7 +184,7 @@ def one_layout(table: TextTable) -> TextTable:
     """
     by_winner = {"winner", "loser"} <= table.found and not {"player_a", "player_b"} <= table.found
     columns = dict(table.columns)
-    read = {name for name in table.found if name not in BY_WINNER}
+    read = {name for name in table.found if name not in LAYOUTS.columns}
     if by_winner:
         for name, side in _OF_WINNER.items():
             if name in table and (name in ("winner", "loser") or side not in table):
@@ -110,8 +213,8 @@ def _not_used(names: list[str], source: str) -> list[str]:
     """Return a warning if columns say what others say too."""
     if not names:
         return []
-    listed = ", ".join(map(quoted, names))
-    return [f"{source}: columns not used, since others say the same: {listed}"]
+    text = say("columns not used, since others say the same: {names}", names=quoted_list(names))
+    return [warning(source, text)]
 
 
 def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> list[Pair]:
@@ -120,12 +223,17 @@ def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> li
     meant = [read(text) for text in distinct]
     pairs: list[Pair] = []
     for row, code in enumerate(codes.tolist()):
-        found = meant[code]
-        if isinstance(found, str):
-            text = quoted(distinct[code])
-            table.problems.add(int(table.lines[row]), f"{name} {text} {found}")
-            found = "0" if name == "score" else "", "0" if name == "score" else ""
-        pairs.append(found)
+        pair = meant[code]
+        if isinstance(pair, str):
+            table.problems.add(
+                int(table.lines[row]),
+                "{column} {cell} {fault}",
+                column=name,
+                cell=quoted(distinct[code]),
+                fault=pair,
+            )
+            pair = ("0", "0") if name == "score" else ("", "")
+        pairs.append(pair)
     return pairs
 
 
@@ -143,16 +251,16 @@ def _score(text: str) -> Pair | str:
     if not text or letters(text) in WALKOVERS:
         return "", ""
     if _is_date(text):
-        return (
+        return say(
             "looks like a date that a spreadsheet made of a score; format the column as text and "
             "type the scores again"
         )
-    found = _SCORE.fullmatch(text)
-    if found is not None:
-        return str(int(found[1])), str(int(found[2]))
-    if len(_SCORE.findall(text)) > 1:
-        return "is more than one score; write a row for each set"
-    return "is not a score; write 7-5"
+    score = _SCORE_CELL.fullmatch(text)
+    if score is not None:
+        return str(int(score[1])), str(int(score[2]))
+    if len(_SCORE_CELL.findall(text)) > 1:
+        return say("is more than one score; write a row for each set")
+    return say("is not a score; write 7-5")
 
 
 def _race(text: str) -> Pair | str:
@@ -164,10 +272,10 @@ def _race(text: str) -> Pair | str:
     text = " ".join(text.removeprefix("'").lower().split())
     if not text:
         return "", ""
-    found = None if _is_date(text) else _RACE.fullmatch(text)
-    if found is None:
-        return "is not a race; write 7, or 7-5"
-    return str(int(found[1])), str(int(found[2] or found[1]))
+    race = None if _is_date(text) else _RACE_CELL.fullmatch(text)
+    if race is None:
+        return say("is not a race; write 7, or 7-5")
+    return str(int(race[1])), str(int(race[2] or race[1]))
 
 
 def _is_date(text: str) -> bool:
@@ -196,69 +304,33 @@ def _with_winners(table: TextTable) -> TextTable:
 
 def _not_won(won: int, lost: int, needed: int, other: int) -> str:
     """Return why the first player did not win this match, or nothing."""
-    score = f"{won}-{lost}"
+    score = {"won": won, "lost": lost}
     if needed and other:
         if won < needed and lost >= other:
-            return (
-                f"the loser reached the race ({score} in a race {needed}:{other}); write the "
-                "winner's number first, in the score and the race"
+            return say(
+                "the loser reached the race ({won}-{lost} in a race {needed}:{other}); write the "
+                "winner's number first, in the score and the race",
+                needed=needed,
+                other=other,
+                **score,
             )
     elif 0 < won == lost:
-        return (
-            f"the score is tied ({score}), so there is no winner; correct it, or give the race if "
-            "it was a handicap race"
+        return say(
+            "the score is tied ({won}-{lost}), so there is no winner; correct it, or give the race "
+            "if it was a handicap race",
+            **score,
         )
     elif won < lost:
-        return (
-            f"the loser won more games ({score}); write the winner's games first, or give the "
-            "race if it was a handicap race"
+        return say(
+            "the loser won more games ({won}-{lost}); write the winner's games first, or give the "
+            "race if it was a handicap race",
+            **score,
         )
     return ""
 
 
-NAMES = ("player_a", "player_b")
-
-REQUIRED = {
-    "player_a": ("player 1", "player a name", "home", "home player", "a"),
-    "player_b": ("player 2", "player b name", "away", "away player", "b"),
-    "score_a": ("score 1", "games a", "games 1", "home score", "frames a", "racks won a"),
-    "score_b": ("score 2", "games b", "games 2", "away score", "frames b", "racks won b"),
-}
-"""The columns that a results file must have, with their other names."""
-
-OPTIONAL = {
-    "date": ("day", "match date", "played", "played on"),
-    "race_a": ("race 1", "race to a", "needs a", "home race"),
-    "race_b": ("race 2", "race to b", "needs b", "away race"),
-    "winner": ("won by", "match winner", "winning player", "winner name"),
-    "first_break": ("first breaker", "breaks first", "lag won by"),
-    "break_format": ("who breaks", "breaks next"),
-    "racks": ("rack winners", "games in order"),
-    "event": ("tournament", "competition", "league"),
-    "team_a": ("team 1", "home team"),
-    "team_b": ("team 2", "away team"),
-    "division": ("class", "flight"),
-    "level_a": ("level 1", "skill level a", "skill level 1", "class a", "class 1", "rating a"),
-    "level_b": ("level 2", "skill level b", "skill level 2", "class b", "class 2", "rating b"),
-    "forfeit": ("walkover", "forfeited", "no show", "w/o"),
-    **BY_WINNER,
-}
-"""The columns that a results file may have, with their other names."""
-
-_NO_SCORE = (
-    ("race_a", "race_b", "winner"),
-    ("race", "winner"),
-    ("racks",),
-    ("score",),
-    ("winner_score", "loser_score", "winner", "loser"),
-    ("winner_race", "loser_race", "winner", "loser"),
-)
-INSTEAD = {
-    **dict.fromkeys(("player_a", "player_b"), (("winner", "loser"),)),
-    **dict.fromkeys(("score_a", "score_b"), _NO_SCORE),
-}
-"""What can take the place of a column: winner and loser, a score in one cell, who won which
-race, or who won each rack."""
+_SIDES = ("winner", "first_break")
+_PLAIN = RESULTS.only(*(name for name in RESULTS.columns if name not in (*NAMES, *_SIDES)))
 
 
 def results_columns(
@@ -271,41 +343,18 @@ def results_columns(
     """
     sides = ("player_a", "loser") if "loser" in table else NAMES
     a, b = (names.read(table, name) for name in sides)
-    columns = {
+    plain = _PLAIN.but(date={"order": order}).of(table).read
+    return {
         "player_a": a,
         "player_b": b,
-        "date": dates(table, "date", order),
-        "forfeit": words(table, "forfeit", FORFEIT_WORDS, choices="yes or no", empty=False),
+        **plain,
+        **{name: names.read_side(table, name, a, b) for name in _SIDES},
     }
-    for name in ("score_a", "score_b"):
-        columns[name] = whole_numbers(table, name, may_be_empty=True)
-    for name in ("race_a", "race_b"):
-        remedy = "write 1, 2, 3, ..., or leave both races empty"
-        columns[name] = whole_numbers(table, name, at_least=1, remedy=remedy, may_be_empty=True)
-    for name in ("winner", "first_break"):
-        columns[name] = names.read_side(table, name, a, b)
-    choices = "winner, loser, alternate, a or b"
-    columns["break_format"] = words(table, "break_format", FORMAT_WORDS, choices=choices, empty=0)
-    columns["racks"] = texts(table, "racks", _without_blanks)
-    for name in ("event", *GROUPS):
-        columns[name] = texts(table, name, partial(unicodedata.normalize, "NFC"))
-    return columns
-
-
-def _without_blanks(text: str) -> str:
-    return "".join(text.casefold().split())
 
 
 SCORES = ("score_a", "score_b")
+NEEDED = (*NAMES, *SCORES)
 _BY_WINNER = ("race_a", "race_b", "winner")
-_EMPTY_SCORE = (
-    "{name} is empty; write the games won, or race_a, race_b and winner if no more is known, or "
-    "mark a forfeit, or leave out a match that was not played"
-)
-_NOTHING_KNOWN = (
-    "nothing says who won; write race_a, race_b and winner, or racks, or mark a forfeit, or leave "
-    "out a match that was not played"
-)
 
 
 def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Values]) -> Results:
@@ -317,13 +366,13 @@ def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Val
         with all problems so far, if a column is missing that nothing takes the place of.
     """
     settled, good = _with_scores(table, columns)
-    if any(_is_missing(table, name) for name in REQUIRED):
+    if any(_is_missing(table, name) for name in NEEDED):
         table.problems.raise_any()
     rows = np.flatnonzero(good)
     given = {
         name: values[rows]
         for name, values in settled.items()
-        if name in (*REQUIRED, "unscored") or name in table.found
+        if name in (*NEEDED, "unscored") or name in table.found
     }
     results = Results(names.players, **given)
     _add_contradictions(table, results, rows)
@@ -344,7 +393,7 @@ def _with_scores(
     An empty score is taken from the racks; where race and winner are stated it is not known,
     and not needed.
     """
-    values = {name: column.values for name, column in columns.items()}
+    values = {name: column.values.copy() for name, column in columns.items()}
     good = np.logical_and.reduce([column.good for column in columns.values()])
     empty = {name: ~columns[name].stated & ~values["forfeit"] for name in SCORES}
     both = empty["score_a"] & empty["score_b"]
@@ -359,22 +408,34 @@ def _with_scores(
     # A cell that could not be read has been reported, and may be all that is missing.
     unreadable = np.logical_or.reduce([one.stated & (one.values == 0) for one in by_winner])
     unknown = both & ~by_rack & ~unscored & ~unreadable
-    if table.found.isdisjoint(SCORES):
-        wrong, message = {"score_a": unknown}, _NOTHING_KNOWN
-    elif "score" in table:
-        wrong, message = {"score_a": unknown}, _EMPTY_SCORE.replace("{name}", "score")
-    else:
-        wrong, message = {name: unknown | (empty[name] & ~both) for name in SCORES}, _EMPTY_SCORE
+    wrong = {"score_a": unknown}
+    if not (table.found.isdisjoint(SCORES) or "score" in table):
+        wrong = {name: unknown | (empty[name] & ~both) for name in SCORES}
     for name, rows in wrong.items():
         if not _is_missing(table, name):
+            problem = _unknown("score" if "score" in table else name if name in table else "")
             for row in np.flatnonzero(rows):
-                table.problems.add(int(table.lines[row]), message.format(name=name))
+                table.problems.add(int(table.lines[row]), problem)
             good = good & ~rows
     return values, good
 
 
+def _unknown(column: str) -> Sentence:
+    """Return what to say of a row without a score, in the column of a score if there is one."""
+    if not column:
+        return say(
+            "nothing says who won; write race_a, race_b and winner, or racks, or mark a forfeit, "
+            "or leave out a match that was not played"
+        )
+    return say(
+        "{column} is empty; write the games won, or race_a, race_b and winner if no more is known, "
+        "or mark a forfeit, or leave out a match that was not played",
+        column=column,
+    )
+
+
 def _is_missing(table: TextTable, name: str) -> bool:
-    replaced = any(table.found >= set(group) for group in INSTEAD.get(name, ()))
+    replaced = any(table.found >= set(names.split()) for names in RESULTS[name].instead)
     return name not in table.found and not replaced
 
 
@@ -382,11 +443,12 @@ def _add_contradictions(table: TextTable, results: Results, rows: NDArray[np.int
     for problem in find_problems(results):
         row = rows[problem.row]
         by_alias = _one_player(table, row) if problem.column == "player_b" else ""
-        table.problems.add(int(table.lines[row]), problem.message + by_alias)
+        text = joined([problem.message, by_alias], "")
+        table.problems.add(int(table.lines[row]), text)
 
 
 def _one_player(table: TextTable, row: int) -> str:
     """Return the two names of a player on both sides, if they are spelt differently."""
     texts = (table.columns[name] for name in NAMES)
     a, b = (clean_name(distinct[codes[row]]) for distinct, codes in texts)
-    return "" if a == b else f" ({quoted(a)} and {quoted(b)} are read as one player)"
+    return "" if a == b else say(" ({a} and {b} are read as one player)", a=quoted(a), b=quoted(b))

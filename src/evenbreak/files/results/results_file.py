@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
+from itertools import compress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,25 +23,25 @@ from evenbreak.files.results.doubts import (
     without_bad_rows,
 )
 from evenbreak.files.results.matches import (
-    INSTEAD,
     NAMES,
-    OPTIONAL,
-    REQUIRED,
+    RESULTS_FILE,
     one_layout,
     results_columns,
     results_rows,
 )
 from evenbreak.files.tables.cells import DateOrder
 from evenbreak.files.tables.names import PlayerNames, hidden_letter_warnings, same_name
-from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.problems import first_ones, quoted, warning
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
-from evenbreak.files.tables.table import TextTable, read_table
+from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.results import Results
+from evenbreak.words import FilePath, Parameter, joined, say, say_count
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+_SAME_NAME = say("if so, use the same name throughout")
 MOST_RENAMED = 20
 """How many names are listed that aliases changed; the rest are counted."""
 
@@ -96,7 +97,7 @@ def read_results(
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
     Format, separator and header are read as in `evenbreak.files.tables.table`; the columns
-    are those of `REQUIRED` and `OPTIONAL`. Names lose blanks around and double blanks inside,
+    are those of `RESULTS_FILE`. Names lose blanks around and double blanks inside,
     and are put into Unicode's form NFC; those that differ in case or blanks alone are one
     player's. `winner` and `first_break` are a, b or the name of one of the two players. A
     forfeit may leave its scores empty; so may a match whose racks are given, or of which only
@@ -132,15 +133,8 @@ def read_results(
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
     table = one_layout(
-        read_table(
-            path,
-            REQUIRED,
-            OPTIONAL,
-            INSTEAD,
-            rows="matches",
-            called=_checked(columns or {}),
-            hint=columns_hint,
-            exported=export_of,
+        RESULTS_FILE.text(
+            path, called=_checked(columns or {}), hint=columns_hint, exported=export_of
         )
     )
 
@@ -165,18 +159,16 @@ def read_results(
         *hidden_letter_warnings(table, NAMES),
         *_merged(names.merged(), table.source),
         *_renamed(names.renamed(), table.source, by_alias.source),
-        *similar_name_warnings(groups, table.source, "if so, use the same name throughout"),
+        *similar_name_warnings(groups, table.source, _SAME_NAME),
     ]
-    sha256 = hashlib.sha256(table.content).hexdigest()
-    ties = _tied(results, table)
     return ResultsFile(
         results,
         table.source,
         tuple(warnings),
         groups,
-        sha256,
+        hashlib.sha256(table.content).hexdigest(),
         table.lines,
-        ties,
+        _tied(results, table),
         skipped=left_out,
     )
 
@@ -184,34 +176,54 @@ def read_results(
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
     """Return which titles mean which columns, or refuse columns that there are none of."""
     for name in columns:
-        if name not in {**REQUIRED, **OPTIONAL}:
-            known = ", ".join((*REQUIRED, *OPTIONAL))
+        if name not in RESULTS_FILE.columns:
             raise InputError(
-                f"columns has {name!r}, which is not a column of results; give {known}"
+                "{columns} has {name!r}, which is not a column of results; give {names}",
+                columns=Parameter("columns"),
+                name=name,
+                names=", ".join(RESULTS_FILE.columns),
             )
     return columns
 
 
 def _merged(names: dict[str, str], source: str) -> list[str]:
     """Return a warning for each name that is read as another spelling of it."""
-    found = [
-        f"{source}: {quoted(text)} is read as {quoted(name)}, as names that differ in case or "
-        "spaces alone mean one player"
+    warnings = [
+        warning(
+            source,
+            say(
+                "{text} is read as {name}, as names that differ in case or spaces alone mean one "
+                "player",
+                text=quoted(text),
+                name=quoted(name),
+            ),
+        )
         for text, name in names.items()
     ]
-    more = len(found) - MOST_RENAMED
-    counted = [f"{source}: and {more:,} more names that are read so"] if more > 0 else []
-    return found[:MOST_RENAMED] + counted
+    return first_ones(
+        warnings,
+        MOST_RENAMED,
+        source,
+        lambda n: say("and {n:,} more names that are read so", n=n),
+    )
 
 
 def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
     """Return a warning that lists the names that aliases have changed."""
     if not names:
         return []
-    changed = [f"{quoted(name)} as {quoted(meant)}" for name, meant in names.items()]
+    changed = [
+        say("{name} as {meant}", name=quoted(name), meant=quoted(meant))
+        for name, meant in names.items()
+    ]
     more = len(changed) - MOST_RENAMED
-    shown = changed[:MOST_RENAMED] + ([f"and {more:,} more"] if more > 0 else [])
-    return [f"{source}: names read according to {aliases}: {', '.join(shown)}"]
+    rest = [say("and {n:,} more", n=more)] if more > 0 else []
+    text = say(
+        "names read according to {aliases}: {names}",
+        aliases=FilePath(aliases),
+        names=joined([*changed[:MOST_RENAMED], *rest], ", "),
+    )
+    return [warning(source, text)]
 
 
 def _repeated_rows(table: TextTable) -> list[str]:
@@ -222,12 +234,14 @@ def _repeated_rows(table: TextTable) -> list[str]:
     again = np.flatnonzero(table.repeated() & (np.diff(table.lines, prepend=-1) > 0))
     if not len(again):
         return []
-    first, count = int(table.lines[again[0]]), len(again)
-    rows = "1 row is" if count == 1 else f"{count:,} rows are"
-    return [
-        f"{table.source}:{first}: {rows} the same as an earlier one, date included; "
-        "all are counted, so delete what was entered twice"
-    ]
+    text = say_count(
+        "{n} row is the same as an earlier one, date included; all are counted, so delete what was "
+        "entered twice",
+        "{n:,} rows are the same as an earlier one, date included; all are counted, so delete what "
+        "was entered twice",
+        len(again),
+    )
+    return [warning(table.source, text, table.lines[again[0]])]
 
 
 def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
@@ -237,14 +251,18 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     tied = np.flatnonzero(played & (race_a == 0) & (race_b == 0))
     if not len(tied):
         return ()
-    first, many = int(table.lines[tied[0]]), len(tied)
     row = tied[0]
-    score = f"{results.score_a[row]}-{results.score_b[row]}"
-    matches = "this match is" if many == 1 else f"this and {many - 1:,} more are"
-    return (
-        f"{table.source}:{first}: the score is tied ({score}), and no race is given; {matches} "
-        "counted game by game, without a winner",
+    text = say_count(
+        "the score is tied ({a}-{b}), and no race is given; this match is counted game by game, "
+        "without a winner",
+        "the score is tied ({a}-{b}), and no race is given; this and {more:,} more are counted "
+        "game by game, without a winner",
+        len(tied),
+        a=results.score_a[row],
+        b=results.score_b[row],
+        more=len(tied) - 1,
     )
+    return (warning(table.source, text, table.lines[row]),)
 
 
 def met_pairs(results: Results) -> list[tuple[str, str]]:
@@ -280,37 +298,39 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
     ...     read_seasons([last, this]).results.players
     ('Ann', 'Bo', 'Cy')
     """
-    found = [read_results(path, **reading) for path in paths]
-    if len(found) == 1:
-        return found[0]
-    prints = [file.sha256 for file in found]
-    for k, file in enumerate(found):
+    files = [read_results(path, **reading) for path in paths]
+    if len(files) == 1:
+        return files[0]
+    prints = [file.sha256 for file in files]
+    for k, file in enumerate(files):
         if file.sha256 in prints[:k]:
-            first = found[prints.index(file.sha256)].source
-            raise InputError(f"{first} and {file.source} hold the same results; give each once")
-    results = _joined([file.results for file in found])
+            raise InputError(
+                "{first} and {second} hold the same results; give each once",
+                first=FilePath(files[prints.index(file.sha256)].source),
+                second=FilePath(file.source),
+            )
+    results = _joined([file.results for file in files])
     groups = tuple(similar_names(results.players, met_pairs(results)))
-    source = " and ".join(file.source for file in found)
-    known = {group for file in found for group in file.similar_names}
-    across = [group for group in groups if group not in known]
-    remedy = "if so, use the same name throughout"
+    source = " and ".join(file.source for file in files)
+    in_one_file = {group for file in files for group in file.similar_names}
+    across = [group for group in groups if group not in in_one_file]
     return ResultsFile(
         results,
         source,
         (
-            *(text for file in found for text in file.warnings),
-            *similar_name_warnings(across, source, remedy),
-            *_in_two_files(found, results),
+            *(text for file in files for text in file.warnings),
+            *similar_name_warnings(across, source, _SAME_NAME),
+            *_in_two_files(files, results),
         ),
         groups,
         hashlib.sha256("".join(prints).encode()).hexdigest(),
-        ties=tuple(text for file in found for text in file.ties),
-        skipped=sum(file.skipped for file in found),
-        read=tuple((file.source, file.sha256) for file in found),
+        ties=tuple(text for file in files for text in file.ties),
+        skipped=sum(file.skipped for file in files),
+        read=tuple((file.source, file.sha256) for file in files),
     )
 
 
-def _in_two_files(found: Sequence[ResultsFile], results: Results) -> Iterator[str]:
+def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[str]:
     """Yield how many dated matches of a file are in an earlier one, with the same score."""
     if results.date is None:
         return
@@ -320,15 +340,20 @@ def _in_two_files(found: Sequence[ResultsFile], results: Results) -> Iterator[st
     dated = (~np.isnat(results.date)).tolist()
     seen: set[tuple[int, ...]] = set()
     start = 0
-    for file in found:
+    for file in files:
         end = start + len(file.results)
-        own = [row for row, known in zip(rows[start:end], dated[start:end], strict=True) if known]
+        own = list(compress(rows[start:end], dated[start:end]))
         again = sum(row in seen for row in own)
         if again:
-            matches = "match is" if again == 1 else "matches are"
-            yield (
-                f"{file.source}: {again:,} {matches} in an earlier file too, with the same "
-                "players, score and day; leave them out of one of the files, or they count twice"
+            yield warning(
+                file.source,
+                say_count(
+                    "{n} match is in an earlier file too, with the same players, score and day; "
+                    "leave it out of one of the files, or it counts twice",
+                    "{n:,} matches are in an earlier file too, with the same players, score and "
+                    "day; leave them out of one of the files, or they count twice",
+                    again,
+                ),
             )
         seen.update(own)
         start = end

@@ -1,6 +1,6 @@
-"""What the cells of a table mean: numbers, words, and anything else that text can be read as.
+"""The kinds of columns: what their cells mean, and what is said of a cell without a meaning.
 
-Each reader adds the cells that it cannot read to the table's `problems` and goes on, so that
+Each kind adds the cells that it cannot read to the table's `problems` and goes on, so that
 everything wrong with a file is found at once.
 """
 
@@ -9,16 +9,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import date
-from typing import Any, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.checks import one_of
 from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable
+from evenbreak.files.tables.table import TextTable, Values
 from evenbreak.ratings.result_words import LARGEST_WHOLE, letters
+from evenbreak.words import Parameter, say
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.
 # A comma or point before three zeros may group thousands.
@@ -30,216 +32,246 @@ LARGEST_GROUPED = 10_000  # 92,347 means 92.347: no rating of 92347 points is in
 LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of digits
 
 
-class Values(NamedTuple):
-    """A column as read.
-
-    Attributes
-    ----------
-    values
-        a value for each row: that of an empty cell where a cell could not be read.
-    good
-        which cells could be read, or may be empty.
-    stated
-        which cells are not empty.
-    """
-
-    values: NDArray[Any]
-    good: NDArray[np.bool_]
-    stated: NDArray[np.bool_]
-
-
-def read_cells(
-    table: TextTable,
-    name: str,
-    meaning: Callable[[str], Any],
-    *,
-    wanted: str,
-    remedy: str,
-    dtype: Any,
-    empty: Any,
-    may_be_empty: bool = False,
-) -> Values:
-    """Read a column, adding each cell without a meaning to the table's problems.
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """A column of a kind of file; its class says what the cells mean.
 
     Parameters
     ----------
-    table, name
-        the column to read; one that the file lacks is empty and not a further problem.
-    meaning
-        from the text of a cell, never empty, to its value; None where it has none.
-    wanted, remedy
-        what a cell should be, and how to correct one: "x is not `wanted`; `remedy`".
-    dtype
-        numpy type of the values.
+    also
+        its other names, separated by commas.
+    about
+        what it holds, as the reference puts it.
+    needed
+        whether a file must have it.
+    instead
+        sets of columns that can take its place, each as names separated by blanks.
+    filled
+        whether every cell must hold something.
     empty
-        the value of empty cells.
-    may_be_empty
-        whether empty cells are allowed.
-
-    >>> from evenbreak.files.tables.problems import Problems
-    >>> from evenbreak.files.tables.table import Texts
-    >>> columns = {"score": Texts(["7", "seven"], np.array([0, 1, 0]))}
-    >>> table = TextTable("r.csv", np.array([2, 3, 5]), columns, frozenset(columns),
-    ...                   Problems("r.csv"), (), b"")
-    >>> read_cells(table, "score", {"7": 7}.get, wanted="a score", remedy="write 0, 1, 2, ...",
-    ...            dtype=int, empty=0).values
-    array([7, 0, 7])
-    >>> table.problems.raise_any()
-    Traceback (most recent call last):
-    ...
-    evenbreak.errors.DataError: r.csv:3: score 'seven' is not a score; write 0, 1, 2, ...
+        what an empty cell means, such as "for a new player"; None: other columns settle that.
+    write
+        what to write in place of a cell that cannot be read.
+    nothing
+        the value of an empty cell.
     """
-    distinct, codes = table.columns[name]
-    stated = np.array([bool(text) for text in distinct], dtype=bool)
-    meant = [meaning(text) if text else None for text in distinct]
-    values = np.array([empty if value is None else value for value in meant], dtype=dtype)
-    good = np.array([value is not None for value in meant], dtype=bool)
-    if may_be_empty or name not in table.found:
-        good |= ~stated
-    for row in np.flatnonzero(~good[codes]):
-        text = distinct[codes[row]]
-        what = f"{quoted(text)} is not {wanted}" if text else "is empty"
-        table.problems.add(int(table.lines[row]), f"{name} {what}; {remedy}")
-    return Values(values[codes], good[codes], stated[codes])
+
+    also: str = field(default="", kw_only=False)
+    about: str = field(default="", kw_only=False)
+    needed: bool = False
+    instead: Sequence[str] = ()
+    filled: bool = False
+    empty: str | None = ""
+    write: str = ""
+    nothing: Any = ""
+
+    dtype: ClassVar[Any] = object
+
+    @property
+    def aliases(self) -> tuple[str, ...]:
+        """Its other names, one by one."""
+        return tuple(self.also.split(", ")) if self.also else ()
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return say("any text")
+
+    @property
+    def remedy(self) -> str:
+        """How to correct a cell."""
+        if self.filled or self.empty is None:
+            return say("write {it}", it=self.write)
+        if not self.empty:
+            return say("write {it}, or leave it empty", it=self.write)
+        return say("write {it}, or leave it empty {meaning}", it=self.write, meaning=self.empty)
+
+    def called(self, also: str, about: str = "", **changes: Any) -> Self:
+        """Return a column whose cells mean the same, with other names."""
+        return replace(self, also=also, about=about, **changes)
+
+    def meaning(self, text: str) -> Any:
+        """Return the value of a cell that is not empty; None where it has none."""
+        return text
+
+    def fault(self, text: str) -> str:
+        """Return what is wrong with a cell that has no meaning, and what to do."""
+        if not text:
+            return say("is empty; {remedy}", remedy=self.remedy)
+        return say(
+            "{cell} is not {wanted}; {remedy}",
+            cell=quoted(text),
+            wanted=self.wanted,
+            remedy=self.remedy,
+        )
+
+    def read(self, table: TextTable, name: str) -> Values:
+        """Read a column, adding each cell without a meaning to the table's problems.
+
+        One that the file lacks is empty throughout, which is not a further problem.
+
+        >>> from evenbreak.files.tables.problems import Problems
+        >>> from evenbreak.files.tables.table import Texts
+        >>> columns = {"score": Texts(["7", "seven"], np.array([0, 1, 0]))}
+        >>> table = TextTable("r.csv", np.array([2, 3, 5]), columns, frozenset(columns),
+        ...                   Problems("r.csv"), (), b"")
+        >>> Whole(filled=True).read(table, "score").values
+        array([7, 0, 7])
+        >>> table.problems.raise_any()
+        Traceback (most recent call last):
+        ...
+        evenbreak.errors.DataError: r.csv:3: score 'seven' is not a whole number from 0 to
+        1,000,000; write 0, 1, 2, ...
+        """
+        distinct, codes = table.columns[name]
+        stated = np.array([bool(text) for text in distinct], dtype=bool)
+        meant = [self.meaning(text) if text else None for text in distinct]
+        values = np.empty(len(meant), dtype=self.dtype)
+        values[:] = [self.nothing if value is None else value for value in meant]
+        good = np.array([value is not None for value in meant], dtype=bool)
+        if not self.filled or name not in table.found:
+            good |= ~stated
+        for row in np.flatnonzero(~good[codes]):
+            fault = self.fault(distinct[codes[row]])
+            table.problems.add(int(table.lines[row]), "{column} {fault}", column=name, fault=fault)
+        return Values(values[codes], good[codes], stated[codes])
 
 
-def whole_numbers(
-    table: TextTable,
-    name: str,
-    *,
-    at_least: int = 0,
-    at_most: int = LARGEST_WHOLE,
-    remedy: str = "write 0, 1, 2, ...",
-    may_be_empty: bool = False,
-) -> Values:
-    """Read a column of whole numbers from `at_least` to `at_most`; empty cells are 0."""
+@dataclass(frozen=True, kw_only=True)
+class Text(Column):
+    """Any text; `form` gives it the form in which it is used."""
 
-    def meaning(text: str) -> int | None:
+    form: Callable[[str], str] = str
+
+    def meaning(self, text: str) -> str:
+        """Return the text in its form."""
+        return self.form(text)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whole(Column):
+    """Whole numbers from `least` to `most`."""
+
+    least: int = 0
+    most: int = LARGEST_WHOLE
+    write: str = say("0, 1, 2, ...")
+    nothing: int = 0
+
+    dtype: ClassVar[Any] = np.int64
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return say("a whole number from {least} to {most:,}", least=self.least, most=self.most)
+
+    def meaning(self, text: str) -> int | None:
+        """Return the number."""
         if not _WHOLE.fullmatch(text) or len(text) > LONGEST_WHOLE:
             return None
         number = int(re.split("[.,]", text)[0])
-        return number if at_least <= number <= at_most else None
-
-    return read_cells(
-        table,
-        name,
-        meaning,
-        wanted=f"a whole number from {at_least} to {at_most:,}",
-        remedy=remedy,
-        dtype=np.int64,
-        empty=0,
-        may_be_empty=may_be_empty,
-    )
+        return number if self.least <= number <= self.most else None
 
 
-def numbers(
-    table: TextTable,
-    name: str,
-    *,
-    at_least: int,
-    at_most: int,
-    remedy: str,
-    may_be_empty: bool = False,
-    points_may_group: bool = False,
-) -> Values:
-    """Read a column of numbers from `at_least` to `at_most`; other cells are NaN.
+@dataclass(frozen=True, kw_only=True)
+class Number(Column):
+    """Numbers from `least` to `most`.
 
     A comma is read as the decimal point, as spreadsheets in many languages write it. A cell
-    such as 1,500 is refused where 1500 is possible too. With `points_may_group` so is 1.500,
-    unless another cell, such as 92.5, shows that the point is a decimal point.
+    such as 1,500 is refused where 1500 is possible too. With `grouped` so is 1.500, unless
+    another cell, such as 92.5, shows that the point is a decimal point.
     """
 
-    def meaning(text: str) -> float | None:
+    least: int
+    most: int
+    grouped: bool = False
+    nothing: float = math.nan
+
+    dtype: ClassVar[Any] = np.float64
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return say("a number from {least:,} to {most:,}", least=self.least, most=self.most)
+
+    def meaning(self, text: str) -> float | None:
+        """Return the number."""
         number = _number(text)
-        return number if number is not None and at_least <= number <= at_most else None
+        return number if number is not None and self.least <= number <= self.most else None
 
-    distinct, codes = table.columns[name]
-    two_ways = _read_two_ways(distinct, min(at_most, LARGEST_GROUPED), points=points_may_group)
-    for row in np.flatnonzero(two_ways[codes]):
-        text = distinct[codes[row]]
-        number = float(text.replace(",", "."))
-        table.problems.add(
-            int(table.lines[row]),
-            f"{name} {quoted(text)} may mean {1000 * number:.0f} or {number:g}; write the one that "
-            "is meant",
-        )
-    return read_cells(
-        table,
-        name,
-        meaning,
-        wanted=f"a number from {at_least:,} to {at_most:,}",
-        remedy=remedy,
-        dtype=np.float64,
-        empty=math.nan,
-        may_be_empty=may_be_empty,
-    )
+    def read(self, table: TextTable, name: str) -> Values:
+        """Read a column; a cell that may be either of two numbers is a problem too."""
+        distinct, codes = table.columns[name]
+        two_ways = _read_two_ways(distinct, min(self.most, LARGEST_GROUPED), points=self.grouped)
+        for row in np.flatnonzero(two_ways[codes]):
+            text = distinct[codes[row]]
+            number = float(text.replace(",", "."))
+            table.problems.add(
+                int(table.lines[row]),
+                "{column} {cell} may mean {thousands:.0f} or {number:g}; write the one you mean",
+                column=name,
+                cell=quoted(text),
+                thousands=1000 * number,
+                number=number,
+            )
+        return super().read(table, name)
 
 
-def words(
-    table: TextTable, name: str, meanings: Mapping[str, Any], *, choices: str, empty: Any
-) -> Values:
-    """Read a column of words, compared by their letters and digits in one case.
+@dataclass(frozen=True, kw_only=True)
+class Word(Column):
+    """Words with the values that they have in `values`, compared by letters and digits alone.
 
-    Parameters
-    ----------
-    table, name
-        the column to read.
-    meanings
-        the value of each word.
-    choices
-        the words that a message proposes.
-    empty
-        the value of empty cells, which are allowed.
+    `choices` are the words that a message proposes.
     """
-    return read_cells(
-        table,
-        name,
-        lambda text: meanings.get(letters(text)),
-        wanted=choices,
-        remedy=f"write {choices}, or leave it empty",
-        dtype=type(empty),
-        empty=empty,
-        may_be_empty=True,
-    )
+
+    values: Mapping[str, Any]
+    choices: str
+    nothing: int = 0
+
+    dtype: ClassVar[Any] = np.int64
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return self.choices
+
+    @property
+    def remedy(self) -> str:
+        """How to correct a cell."""
+        return replace(self, write=self.choices).remedy if not self.write else super().remedy
+
+    def meaning(self, text: str) -> Any:
+        """Return the value of a word."""
+        return self.values.get(letters(text))
 
 
-def texts(table: TextTable, name: str, meaning: Callable[[str], str]) -> Values:
-    """Read a column of any text; empty cells are ''."""
-    return read_cells(
-        table, name, meaning, wanted="", remedy="", dtype=object, empty="", may_be_empty=True
-    )
+@dataclass(frozen=True, kw_only=True)
+class YesNo(Word):
+    """Words for yes and no."""
+
+    choices: str = say("yes or no")
+    nothing: bool = False
+
+    dtype: ClassVar[Any] = np.bool_
 
 
-def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:
-    """Return which numbers may have a decimal sign or a sign that groups thousands.
+@dataclass(frozen=True, kw_only=True)
+class Parsed(Column):
+    """What `parse` reads from a text; it returns None where a text has no meaning."""
 
-    A point is one of them only if `points`, and if no other number shows that it is decimal.
-    """
-    grouped = [_GROUPED.fullmatch(text) is not None for text in texts]
-    others = (text for text, group in zip(texts, grouped, strict=True) if not group)
-    points = points and not any("." in text and _number(text) is not None for text in others)
-    return np.array(
-        [
-            group
-            and (points or "," in text)
-            and abs(float(text.replace(",", "."))) * 1000 <= at_most
-            for text, group in zip(texts, grouped, strict=True)
-        ],
-        dtype=bool,
-    )
+    parse: Callable[[str], Any]
+    kind: str
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return self.kind
+
+    def meaning(self, text: str) -> Any:
+        """Return the value of a text."""
+        return self.parse(text)
 
 
-def _number(text: str) -> float | None:
-    if _DECIMAL_COMMA.fullmatch(text):
-        text = text.replace(",", ".")
-    # Python's float() also takes nan, inf, 1_000 and digits of other scripts.
-    if text.strip(_IN_NUMBERS):
-        return None
-    try:
-        return float(text) + 0.0  # -0 is 0
-    except ValueError:
-        return None
-
+_NO_DAY = np.datetime64("NaT")
 
 DateOrder = Literal["mdy", "dmy"]
 """What comes first in 9/3/2024: the month or the day."""
@@ -252,30 +284,44 @@ _DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})" + _TIME, re.ASCII)
 _EITHER = re.compile(r"(\d{1,2})([-/])(\d{1,2})\2(\d{4})" + _TIME, re.ASCII)
 
 
-def dates(table: TextTable, name: str, order: DateOrder | None = None) -> Values:
-    """Read a column of dates; a time after a date is ignored, empty cells are NaT.
+@dataclass(frozen=True, kw_only=True)
+class Day(Column):
+    """Dates; a time after a date is ignored.
 
     With dots the day comes first, in 2024-09-03 and 2024/9/3 the year. In 9/3/2024 the month
     may come first or the day: `order` says which, or else any cell of the column in which only
-    one of them is possible. If nothing does, that is one problem of the table.
+    one of them is possible. If nothing does, the order is `open`: one problem of the table.
     """
-    if order is not None:
-        one_of(order, "dates", ORDERS)
-    order, problem = (order, False) if order else _order_in(table, name)
-    return read_cells(
-        table,
-        name,
-        lambda text: np.datetime64("NaT") if problem and _either(text) else read_date(text, order),
-        wanted="a date",
-        remedy="write 2024-09-03, 3.9.2024 or 9/3/2024, or leave it empty",
-        dtype="datetime64[D]",
-        empty=np.datetime64("NaT"),
-        may_be_empty=True,
-    )
+
+    order: DateOrder | None = None
+    write: str = say("2024-09-03, 3.9.2024 or 9/3/2024")
+    nothing: np.datetime64 = _NO_DAY
+    open: bool = False
+
+    dtype: ClassVar[Any] = "datetime64[D]"
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return say("a date")
+
+    def read(self, table: TextTable, name: str) -> Values:
+        """Read a column; what leaves the order of day and month open is one problem."""
+        if self.order is not None:
+            one_of(self.order, "dates", ORDERS)
+            return super().read(table, name)
+        order, is_open = _order_in(table, name)
+        return super(Day, replace(self, order=order, open=is_open)).read(table, name)
+
+    def meaning(self, text: str) -> np.datetime64 | None:
+        """Return the date."""
+        if self.open and _either(text):
+            return self.nothing  # said once, of the whole column
+        return read_date(text, self.order)
 
 
 def read_date(text: str, order: DateOrder | None = None) -> np.datetime64 | None:
-    """Return the date that a text states, read as in `dates`; None where it states none.
+    """Return the date that a text states, read as in `Day`; None where it states none.
 
     Without an order 9/13/2024 is a date and 9/3/2024 is none, since it may be two.
 
@@ -335,21 +381,30 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         return next(iter(settled)), False
     if settled:
         mdy, dmy = (
-            f"{quoted(settled[order])} in line "
-            f"{table.lines[(codes == distinct.index(settled[order])).argmax()]}"
+            say(
+                "{date} in line {line}",
+                date=quoted(settled[order]),
+                line=table.lines[(codes == distinct.index(settled[order])).argmax()],
+            )
             for order in ORDERS
         )
         table.problems.add(
-            None, f"{name} has the month first ({mdy}) and the day first ({dmy}); use one order"
+            None,
+            "{column} has the month first ({mdy}) and the day first ({dmy}); use one order",
+            column=name,
+            mdy=mdy,
+            dmy=dmy,
         )
         return None, True
     if open_:
         row = int(np.isin(codes, open_).argmax())
         table.problems.add(
             int(table.lines[row]),
-            f"{name} {quoted(distinct[codes[row]])} may have the month first or the day, and no "
-            "date of the file shows which; add --dates mdy (month first) or --dates dmy (day "
-            "first)",
+            "{column} {date} may have the month first or the day, and no date of the file shows "
+            "which; add {dates} mdy (month first) or {dates} dmy (day first)",
+            column=name,
+            date=quoted(distinct[codes[row]]),
+            dates=Parameter("dates"),
         )
     return None, bool(open_)
 
@@ -363,3 +418,34 @@ def _settling(texts: list[str]) -> Iterator[tuple[DateOrder, str]]:
         possible: list[DateOrder] = [order for order, day in found.items() if day is not None]
         if len(possible) == 1:
             yield possible[0], text
+
+
+def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:
+    """Return which numbers may have a decimal sign or a sign that groups thousands.
+
+    A point is one of them only if `points`, and if no other number shows that it is decimal.
+    """
+    grouped = [_GROUPED.fullmatch(text) is not None for text in texts]
+    others = (text for text, group in zip(texts, grouped, strict=True) if not group)
+    points = points and not any("." in text and _number(text) is not None for text in others)
+    return np.array(
+        [
+            group
+            and (points or "," in text)
+            and abs(float(text.replace(",", "."))) * 1000 <= at_most
+            for text, group in zip(texts, grouped, strict=True)
+        ],
+        dtype=bool,
+    )
+
+
+def _number(text: str) -> float | None:
+    if _DECIMAL_COMMA.fullmatch(text):
+        text = text.replace(",", ".")
+    # Python's float() also takes nan, inf, 1_000 and digits of other scripts.
+    if text.strip(_IN_NUMBERS):
+        return None
+    try:
+        return float(text) + 0.0  # -0 is 0
+    except ValueError:
+        return None

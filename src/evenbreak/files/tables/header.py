@@ -6,10 +6,8 @@ import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple
 
-from evenbreak.files.tables.problems import Problems, quoted
-
-MOST_LISTED = 12
-"""How many names a message lists."""
+from evenbreak.files.tables.problems import Problems, quoted, quoted_list
+from evenbreak.words import Parameter, Sentence, listed, say, say_count
 
 MOST_ABOVE = 30
 """The header is looked for in this many rows."""
@@ -124,40 +122,48 @@ class Header:
             elif name in places:
                 problems.add(
                     line,
-                    f"columns {quoted(titles[places[name]])} and {quoted(title)} both mean {name}; "
-                    "leave one out",
+                    "columns {title} and {other} both mean {column}; leave one out",
+                    title=quoted(titles[places[name]]),
+                    other=quoted(title),
+                    column=name,
                 )
             else:
                 places[name] = place
         if not places and any(_NUMBER.fullmatch(title.strip()) for title in titles):
             problems.add(
                 line,
-                f"{quoted_list(titles)} are not names of columns; write a header line above, "
-                f"such as {','.join(self.required)}",
+                "{titles} are not names of columns; write a header line above, such as {header}",
+                titles=quoted_list(titles),
+                header=",".join(self.required),
             )
             return places, unused
-        among = f"among {quoted_list(titles)}"
+        among = quoted_list(titles)
         for name, called in self._called.items():
             if name not in places:
                 problems.add(
-                    line, f"there is no column {quoted(called)} {among}; correct --columns"
+                    line,
+                    "there is no column {title} among {titles}; correct {columns}",
+                    title=quoted(called),
+                    titles=among,
+                    columns=Parameter("columns"),
                 )
         missing = self._missing({*places, *self._called})
         if missing and self._hint is not None:
-            listed = ", ".join(map(repr, missing[:-1])) + " and " * (len(missing) > 1)
-            many = "are no columns" if len(missing) > 1 else "is no column"
             rows = [[row[k] for k in range(len(row)) if k not in places.values()] for row in sample]
             others = [title for k, title in enumerate(titles) if k not in places.values()]
             remedy = self._hint(places.keys(), others, rows)
-            problems.add(line, f"there {many} {listed}{missing[-1]!r} {among}; {remedy}")
+            problem = say_count(
+                "there is no column {missing} among {titles}; {remedy}",
+                "there are no columns {missing} among {titles}; {remedy}",
+                len(missing),
+                missing=listed(list(map(repr, missing))),
+                titles=among,
+                remedy=remedy,
+            )
+            problems.add(line, problem)
             return places, unused
         for name in missing:
-            also = " or ".join(map(quoted, self.required[name][:3]))
-            problems.add(
-                line,
-                f"there is no column {name!r} {among}; add it"
-                + (f" (it may also be called {also})" if also else ""),
-            )
+            problems.add(line, missing_column(name, self.required[name], among))
         return places, unused
 
     def _missing(self, found: Collection[str]) -> list[str]:
@@ -170,17 +176,21 @@ class Header:
         return any(set(found) >= set(group) for group in self._instead.get(name, ()))
 
 
+def missing_column(name: str, aliases: Sequence[str], titles: str = "") -> Sentence:
+    """Return what to say of a missing column, and what else it may be called.
+
+    >>> missing_column("rating", ["points"], "'name', 'club'")
+    "there is no column 'rating' among 'name', 'club'; add it (it may also be called 'points')"
+    """
+    lacks = say("there is no column {column!r}", column=name)
+    if titles:
+        lacks = say("{lacks} among {titles}", lacks=lacks, titles=titles)
+    if not aliases:
+        return say("{lacks}; add it", lacks=lacks)
+    also = listed(list(map(quoted, aliases[:3])), "or")
+    return say("{lacks}; add it (it may also be called {also})", lacks=lacks, also=also)
+
+
 def _key(name: str) -> str:
     """Return what a column's name is compared by: letters and digits, in one case."""
     return "".join(letter for letter in name.casefold() if letter.isalnum())
-
-
-def quoted_list(names: Sequence[str]) -> str:
-    """Return names as a message lists them.
-
-    >>> quoted_list([" name", "club"])
-    "'name', 'club'"
-    """
-    shown = ", ".join(quoted(name.strip()) for name in names[:MOST_LISTED])
-    more = len(names) - MOST_LISTED
-    return shown + (f" and {more} more" if more > 0 else "")

@@ -6,25 +6,27 @@ import re
 import unicodedata
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.csv_writer import undefused
-from evenbreak.files.tables.cells import Values, read_cells
-from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable
+from evenbreak.files.tables.cells import Column
+from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.files.tables.table import TextTable, Values
 from evenbreak.ratings.result_words import letters
 from evenbreak.ratings.results_frame import folded, usual_spellings
+from evenbreak.words import listed, say
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
 LONGEST_NAME = 200
 """Letters of a name; where a quotation mark is missing, half a file may be in one cell."""
 
-NAME = f"a name of up to {LONGEST_NAME} letters that can be printed"
-WRITE_IT = "write the player's name"
+NAME = say("a name of up to {most} letters that can be printed", most=LONGEST_NAME)
 
 MOST_LISTED = 20
 """How many names are listed in warnings about a file."""
@@ -55,18 +57,73 @@ def clean_name(text: str) -> str:
     return undefused(" ".join(unicodedata.normalize("NFC", _HIDDEN.sub("", text)).split()))
 
 
+@dataclass(frozen=True, kw_only=True)
+class Name(Column):
+    """Names of players or teams, cleaned."""
+
+    filled: bool = True
+    write: str = say("a name")
+
+    @property
+    def wanted(self) -> str:
+        """What a cell should be."""
+        return NAME
+
+    def meaning(self, text: str) -> Any:
+        """Return the clean name."""
+        name = clean_name(text)
+        return name if is_name(name) else None
+
+    def fault(self, text: str) -> str:
+        """Return what is wrong with a cell that has no name."""
+        name = clean_name(text)
+        if len(name) <= LONGEST_NAME:
+            return super().fault(text)
+        return say(
+            "{name} has {n:,} letters; write a name of up to {most}, and look for a missing "
+            "quotation mark",
+            name=quoted(name),
+            n=len(name),
+            most=LONGEST_NAME,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlayerPlace(Name):
+    """Names of players as places in a list: `places` has that of each text."""
+
+    places: Mapping[str, int]
+    write: str = say("the player's name")
+    nothing: int = 0
+
+    dtype: ClassVar[Any] = np.int64
+
+    def meaning(self, text: str) -> int | None:
+        """Return the place."""
+        return self.places.get(text)
+
+
 def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str]:
     """Return a warning for each name that has lost letters which cannot be seen."""
     texts = {text: None for column in columns for text in table.columns[column].distinct}
-    found = [
-        f"{table.source}: {quoted(text)} has letters that cannot be seen; it is read as "
-        f"{quoted(clean_name(text))}"
+    warnings = [
+        warning(
+            table.source,
+            say(
+                "{text} has letters that cannot be seen; it is read as {name}",
+                text=quoted(text),
+                name=quoted(clean_name(text)),
+            ),
+        )
         for text in texts
         if _HIDDEN.search(text)
     ]
-    more = len(found) - MOST_LISTED
-    counted = [f"{table.source}: and {more:,} more names with such letters"] if more > 0 else []
-    return found[:MOST_LISTED] + counted
+    return first_ones(
+        warnings,
+        MOST_LISTED,
+        table.source,
+        lambda n: say("and {n:,} more names with such letters", n=n),
+    )
 
 
 def same_name(name: str) -> str:
@@ -126,15 +183,7 @@ class PlayerNames:
 
     def read(self, table: TextTable, name: str) -> Values:
         """Read a column of names, as places in `players`."""
-        return read_cells(
-            table,
-            name,
-            self.places.get,
-            wanted=NAME,
-            remedy=WRITE_IT,
-            dtype=np.int64,
-            empty=0,
-        )
+        return PlayerPlace(places=self.places).read(table, name)
 
     def read_side(self, table: TextTable, name: str, a: Values, b: Values) -> Values:
         """Read a column that names one of the two players, as a, b or by name: 1 or 2.
@@ -157,8 +206,10 @@ class PlayerNames:
         for row in np.flatnonzero(wrong):
             table.problems.add(
                 int(table.lines[row]),
-                f"{name} {quoted(distinct[codes[row]])} is neither of the two players; "
-                "write a, b or one of the two names, or leave it empty",
+                "{column} {cell} is neither of the two players; write a, b or one of the two "
+                "names, or leave it empty",
+                column=name,
+                cell=quoted(distinct[codes[row]]),
             )
         return Values(values, ~wrong, stated)
 
@@ -257,9 +308,9 @@ class KnownNames:
     def hint(self, name: str) -> str:
         """Return which names may have been meant by one that was not found, '' if none."""
         if name not in self._hints:
-            near = self._near(name.casefold())
-            meant = " or ".join(map(quoted, near))
-            self._hints[name] = f" (did you mean {meant}?)" if near else ""
+            near = list(map(quoted, self._near(name.casefold())))
+            hint = say(" (did you mean {names}?)", names=listed(near, "or")) if near else ""
+            self._hints[name] = hint
         return self._hints[name]
 
     def _near(self, wanted: str) -> list[str]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.errors import DataError
+from evenbreak.words import FilePath, Sentence, joined, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
 
 
 LONGEST_QUOTE = 40
+MOST_LISTED = 12
+"""How many names a message lists."""
 
 
 def quoted(text: str) -> str:
@@ -37,6 +40,43 @@ def printable(text: str) -> str:
         letter if letter.isprintable() else letter.encode("unicode_escape").decode()
         for letter in text
     )
+
+
+def quoted_list(names: Sequence[str]) -> str:
+    """Return names as a message lists them.
+
+    >>> quoted_list([" name", "club"])
+    "'name', 'club'"
+    """
+    shown = joined([quoted(name.strip()) for name in names[:MOST_LISTED]], ", ")
+    more = len(names) - MOST_LISTED
+    return say("{names} and {n} more", names=shown, n=more) if more > 0 else shown
+
+
+def first_ones(
+    warnings: Sequence[str], most: int, source: str, rest: Callable[[int], str]
+) -> list[str]:
+    """Return the first warnings of a file, and what `rest` says of the number that is left.
+
+    >>> first_ones(["r.csv: a", "r.csv: b"], 1, "r.csv", lambda n: say("and {n} more", n=n))
+    ['r.csv: a', 'r.csv: and 1 more']
+    """
+    left = len(warnings) - most
+    if left <= 0:
+        return list(warnings)
+    return [*warnings[:most], warning(source, rest(left))]
+
+
+def warning(source: str, text: str, line: Any = 0) -> Sentence:
+    """Return what is to be known of a file, or of a line in it.
+
+    >>> warning("r.csv", "is empty"), warning("r.csv", "is tied", 7)
+    ('r.csv: is empty', 'r.csv:7: is tied')
+    """
+    place = FilePath(source)
+    if not line:
+        return say("{source}: {text}", source=place, text=text)
+    return say("{source}:{line}: {text}", source=place, line=line, text=text)
 
 
 class Problems:
@@ -64,12 +104,16 @@ class Problems:
     def __len__(self) -> int:
         return len(self._found)
 
-    def add(self, line: int | None, message: str) -> None:
-        """Add a problem: its line (None: the whole file), what is wrong and what to do."""
-        self._found.append((line or 0, message))
+    def add(self, line: int | None, template: str, /, **values: Any) -> None:
+        """Add a problem: its line (None: the whole file), what is wrong and what to do.
+
+        The template and its values are those of `evenbreak.words.say`.
+        """
+        problem = template if isinstance(template, Sentence) else say(template, **values)
+        self._found.append((line or 0, problem))
 
     def add_rows(
-        self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], str]
+        self, lines: NDArray[np.int64], rows: NDArray[np.int64], message: Callable[[int], Sentence]
     ) -> None:
         """Add a problem in each of `rows`.
 
@@ -99,7 +143,7 @@ class Problems:
         """Return the problems, a line each, those of the file as a whole first."""
         # Stable: problems of one line stay in the order in which they were found.
         ordered = sorted(self._found, key=lambda problem: problem[0])
-        return tuple(f"{self.source}{f':{line}' if line else ''}: {text}" for line, text in ordered)
+        return tuple(warning(self.source, problem, line) for line, problem in ordered)
 
     def raise_any(self) -> None:
         """Raise all problems, if there are any.

@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 from evenbreak.errors import DataError
 from evenbreak.files.tables import workbook
-from evenbreak.files.tables.header import Header, quoted_list
-from evenbreak.files.tables.problems import printable, quoted
+from evenbreak.files.tables.header import Header
+from evenbreak.files.tables.problems import printable, quoted, quoted_list
 
 MAGIC = {
     b"\xd0\xcf\x11\xe0": "an old or locked Excel workbook; save it as .xlsx without a password",

@@ -13,7 +13,8 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
-from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.words import listed, say
 
 SHORTEST_WORD = 4
 """Letters that the longer of two words needs for a slip: Tim is not Tom mistyped."""
@@ -87,13 +88,24 @@ def similar_name_warnings(
     >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
     ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
     """
-    listed = [
-        f"{source}: {', '.join(map(quoted, group[:-1]))} and {quoted(group[-1])} may be one {of}; "
-        f"{remedy}"
-        for group in groups[:MOST_LISTED]
+    warnings = [
+        warning(
+            source,
+            say(
+                "{names} may be one {kind}; {remedy}",
+                names=listed(list(map(quoted, group))),
+                kind=of,
+                remedy=remedy,
+            ),
+        )
+        for group in groups
     ]
-    more = len(groups) - MOST_LISTED
-    return [*listed, f"{source}: and {more:,} more groups of similar names"] if more > 0 else listed
+    return first_ones(
+        warnings,
+        MOST_LISTED,
+        source,
+        lambda n: say("and {n:,} more groups of similar names", n=n),
+    )
 
 
 def _words(name: str) -> Words:

@@ -13,15 +13,16 @@ from dataclasses import dataclass, field, replace
 from itertools import compress, count
 from operator import itemgetter
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import array_values
-from evenbreak.files.tables.header import Header, Hint, quoted_list
-from evenbreak.files.tables.problems import Problems
+from evenbreak.files.tables.header import Header, Hint
+from evenbreak.files.tables.problems import Problems, quoted_list, warning
 from evenbreak.files.tables.rows import Export, Rows, content_of, table_rows
+from evenbreak.words import say, say_count
 
 
 class Texts(NamedTuple):
@@ -45,10 +46,28 @@ class Texts(NamedTuple):
         return cls(list(numbers), codes)
 
 
+class Values(NamedTuple):
+    """A column as read.
+
+    Attributes
+    ----------
+    values
+        a value for each row: that of an empty cell where a cell could not be read.
+    good
+        which cells could be read, or may be empty.
+    stated
+        which cells are not empty.
+    """
+
+    values: NDArray[Any]
+    good: NDArray[np.bool_]
+    stated: NDArray[np.bool_]
+
+
 @array_values
 @dataclass(frozen=True, eq=False)
 class TextTable:
-    """The rows of a file that have the shape of its header.
+    """The rows of a file that have the shape of its header; `table["x"]` has the values of x.
 
     Parameters
     ----------
@@ -72,6 +91,8 @@ class TextTable:
         what the file calls the columns that it has.
     header
         the line in which the header begins.
+    read
+        what the cells mean, by column, where a schema has read them.
     """
 
     source: str
@@ -83,6 +104,10 @@ class TextTable:
     content: bytes
     titles: Mapping[str, str] = field(default_factory=dict)
     header: int = 0
+    read: Mapping[str, Values] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.read[name].values
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -110,7 +135,7 @@ class TextTable:
             used, renumbered = np.unique(codes[kept], return_inverse=True)
             columns[name] = Texts([distinct[code] for code in used.tolist()], renumbered)
         problems = self.problems.outside(lines)
-        return replace(self, lines=self.lines[kept], columns=columns, problems=problems)
+        return replace(self, lines=self.lines[kept], columns=columns, problems=problems, read={})
 
     def cells(self, name: str) -> list[str]:
         """Return the text of a column, row by row; '' throughout where the file lacks it."""
@@ -185,11 +210,12 @@ def read_table(
         problems.raise_any()
     places, unused = header.places(titles, line, problems, sample)
     if unused:
-        warnings.append(f"{source}: columns not used: {quoted_list(unused)}")
+        names = quoted_list(unused)
+        warnings.append(warning(source, say("columns not used: {titles}", titles=names)))
     row_lines, columns = _columns(body, len(titles), places, problems)
     _add_unreadable(unreadable, problems)
     if rows and not len(row_lines) and not len(problems):
-        problems.add(None, f"has no {rows} below its header; write one line for each")
+        problems.add(None, "has no {rows} below its header; write one line for each", rows=rows)
     absent = Texts([""], np.zeros(len(row_lines), dtype=np.int64))
     return TextTable(
         source,
@@ -238,11 +264,15 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
     if len(row) == width or (len(row) > width and not "".join(row[width:]).strip()):
         return True
     if "".join(row).strip():
-        problems.add(
-            line,
-            f"has {len(row)} {'cell' if len(row) == 1 else 'cells'}, but the header has {width}; "
-            "add what is missing, or quote cells that hold the separator",
+        problem = say_count(
+            "has {n} cell, but the header has {width}; add what is missing, or quote cells that "
+            "hold the separator",
+            "has {n} cells, but the header has {width}; add what is missing, or quote cells that "
+            "hold the separator",
+            len(row),
+            width=width,
         )
+        problems.add(line, problem)
     return False
 
 
