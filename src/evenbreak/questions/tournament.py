@@ -3,33 +3,16 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, fields
-from typing import Annotated, Any, ClassVar, TypeAlias
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, TypeAlias
 
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import Choice, File, Flag, Named, Number, Text, Whole
-from evenbreak.fields.question import Field, Question, Says, declared
-from evenbreak.questions.common import CHANCE, ChartName, ScaleOf, Seed
-from evenbreak.tournaments.evening.fold import ELIMINATIONS
-from evenbreak.tournaments.evening.format import LONGEST_RACE, Discipline, Format, Tables
-from evenbreak.tournaments.evening.opening import FORMATS, usual_seeding
-from evenbreak.words import say
-
-SEEDINGS = ("listed", "rating", "blind", "drawn")
-
-FORMAT_TITLES = {
-    "double": say("Double elimination"),
-    "single": say("Single elimination"),
-    "round-robin": say("Round robin"),
-    "groups": say("Groups, then knock-out"),
-    "consolation": say("Single elimination with consolation"),
-    "king-of-the-hill": say("King of the hill"),
-    "swiss": say("Swiss"),
-    "chips": say("Chip tournament"),
-    "pods": say("Pods: double elimination in small brackets, then single"),
-}
-
-_RACE = Whole(1, LONGEST_RACE)
+from evenbreak.fields.kinds import File, Flag, Named, Number, Text
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.questions.common import CHANCE, ScaleOf, Seed
+from evenbreak.questions.plan import TournamentPlan, refuse_lines
+from evenbreak.tournaments.evening.format import Discipline, Tables
+from evenbreak.words import Parameter
 
 
 def minutes_of_day(text: str) -> int:
@@ -98,125 +81,6 @@ class Starters(Question):
     ] = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class TournamentPlan(Format, Question):
-    """What is played: the format and the races."""
-
-    form: Annotated[
-        str,
-        Field(
-            Choice(FORMATS),
-            "The kind of tournament: " + ", ".join(FORMATS) + ".",
-            option="format",
-            label=say("Format"),
-            titles=FORMAT_TITLES,
-            metavar="FORMAT",
-            more="`double` elimination, `single` elimination, `pods` (double elimination in pods, "
-            "then single), `groups` (round robin in groups, then knock-out), `swiss` (needs "
-            "`pip install 'evenbreak[swiss]'`), `round-robin`, `consolation` (those who lose their "
-            "first match play a second event), `king-of-the-hill` (the first two of the list "
-            "play, the winner meets the third, and so on), or `chips`, which only "
-            "`tournament new` takes: it [runs a chip night]"
-            "(../../how-to/run-a-chip-tournament.md#run-the-night). For its odds before the first "
-            "rack, see [evenbreak chips](#evenbreak-chips).",
-        ),
-    ] = "double"
-    race: Annotated[int | None, Field(_RACE, "Even races to N games.")] = None
-    race_to: Annotated[
-        int | None,
-        Field(
-            _RACE,
-            "Handicapped races instead: the stronger player needs N games, the weaker as many as "
-            "is fairest.",
-        ),
-    ] = None
-    chart: Annotated[ChartName, Says("Races by this chart of rating differences instead.")] = None
-    seeding: Annotated[
-        str | None,
-        Field(
-            Choice(SEEDINGS),
-            "The order of the seeds: as the file lists them, by rating, or drawn at random.",
-            usual="listed; blind in a chip tournament",
-            label=say("Draw"),
-            titles={
-                "": say("Default: as listed; chip tournaments at random"),
-                "listed": say("Seeded as listed"),
-                "rating": say("Seeded by rating"),
-                "blind": say("Blind draw"),
-            },
-            more="`blind` is drawn at random. `drawn`: the draw has been made, and the first two "
-            "rows of the file meet, then the next two, and so on; it has 2, 4, 8, 16 … rows, some "
-            "of which may be named `bye 1`, `bye 2` …",
-        ),
-    ] = None
-    chips: Annotated[
-        str | None,
-        Field(
-            File("NAME|FILE.csv"),
-            "The chips at the start of a chip tournament: hoboken, pharaohs, or a file.",
-            section="Format",
-            formats=("chips",),
-            more="A [file](../files.md#chip-charts) has the columns rating_from and chips. Ratings "
-            "are then on the Fargo scale unless the file or `--scale` says otherwise, and there "
-            "are no races.",
-        ),
-    ] = None
-
-    def check(self) -> None:
-        """Refuse parts of a plan that do not go together, when there is a plan."""
-        if not self.planned:
-            return
-        self._check_races()
-        for one in declared(TournamentPlan):
-            if one.field.formats and one.name in self.given and self.form not in one.field.formats:
-                self.refuse(
-                    "{" + one.name + "} is for {form} {formats}, not {asked}",
-                    formats=" or ".join(one.field.formats),
-                    asked=self.form,
-                )
-        if self.qualifiers is not None:
-            self._check_qualifiers(self.qualifiers)
-        elif "placement" in self.given:
-            self.refuse("{placement} is for qualifiers; give {qualifiers} M, or leave it out")
-
-    @property
-    def planned(self) -> bool:
-        """Whether there is a plan; a tournament under way has its own."""
-        return True
-
-    def _check_races(self) -> None:
-        races = [one for one in (self.race, self.race_to, self.chart) if one is not None]
-        apart = self.losers_race is not None or self.final_race is not None
-        if self.form == "chips":
-            if races or apart:
-                self.refuse("a chip tournament is played by the rack; leave out the races")
-            if self.chips is None:
-                self.refuse("the chip chart is missing; give it with {chips}, such as hoboken")
-        elif len(races) != 1:
-            missing = "the races are given twice" if races else "the races are missing"
-            self.refuse(missing + "; give one of {race} N, {race_to} N and {chart} NAME")
-        elif self.chart is not None and apart:
-            self.refuse("{chart} sets all races; leave out {losers_race} and {final_race}")
-
-    def _check_qualifiers(self, qualifiers: int) -> None:
-        if "final" in self.given:
-            self.refuse("{qualifiers} leads to one final; leave out {final}")
-        if self.form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
-            self.refuse("{qualifiers} is {m}; give 2, 4, 8 or another power of 2", m=qualifiers)
-        if self.form == "pods" and qualifiers > 2:
-            self.refuse("{qualifiers} is {m}; 1 or 2 go on from a pod", m=qualifiers)
-
-    @property
-    def seeded(self) -> str:
-        """How the seeds are ordered."""
-        return self.seeding or usual_seeding(self.form)
-
-    @property
-    def of_format(self) -> dict[str, Any]:
-        """What the plan has for its format, by name."""
-        return {one.name: getattr(self, one.name) for one in fields(Format)}
-
-
 _DRAW = "The seed of the draw, and of what is simulated."
 Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
 
@@ -277,7 +141,8 @@ class OfEntrants(TournamentPlan, Starters):
             for name in ("file", "at"):
                 if name in self.given:
                     self.refuse(
-                        "{" + name + "} is for the tournament under way; leave out {list} or it",
+                        "{part} is for the tournament under way; leave out {list} or it",
+                        part=Parameter(name),
                         list=self.entrants,
                     )
             if self.form == "chips":
@@ -289,17 +154,12 @@ class OfEntrants(TournamentPlan, Starters):
         for name in self.given:
             if name not in ("file", "at", *self.under_way):
                 self.refuse(
-                    "{" + name + "} is for a list of entrants; name one, or leave the option out "
-                    "to ask about the tournament in {place}",
+                    "{part} is for a list of entrants; name one, or leave the option out to ask "
+                    "about the tournament in {place}",
+                    part=Parameter(name),
                     place=self.file or "tonight.db",
                 )
         return None
-
-
-def refuse_lines(asked: TournamentPlan) -> None:
-    """Refuse a draw made on paper for a format that draws otherwise."""
-    if asked.seeding == "drawn" and asked.form not in ELIMINATIONS:
-        asked.refuse("{seeding} drawn is for eliminations, not {asked}", asked=asked.form)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,8 @@ from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse
 from evenbreak.cli.kit.values import refuse
 from evenbreak.files.charts import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.questions.tournament import NewTournament, OfEntrants, TournamentPlan
+from evenbreak.questions.plan import TournamentPlan
+from evenbreak.questions.tournament import NewTournament, OfEntrants
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
