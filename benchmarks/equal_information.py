@@ -30,7 +30,7 @@ from evenbreak.arrays import Floats
 from evenbreak.files.results.results_file import read_results
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Levels, Results, walk_forward
-from evenbreak.ratings.walk_forward import even_races
+from evenbreak.ratings.validation.walk_forward import even_races
 
 PLACE = Path(__file__).resolve().parents[2] / "shared/data/snooker_2016_17_results.csv"
 

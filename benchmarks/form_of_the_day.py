@@ -17,7 +17,7 @@ from evenbreak.arrays import Bools, Floats
 from evenbreak.files import read_results
 from evenbreak.matches.form import centre_of_form
 from evenbreak.ratings import Forecasts, Levels, day_form, fit, walk_forward
-from evenbreak.ratings.within_matches import score_shapes
+from evenbreak.ratings.validation.within_matches import score_shapes
 
 
 def main(path: str, width: float, newcomers: float, date: str | None = None) -> None:

@@ -11,7 +11,7 @@ from scipy.special import expit
 
 from evenbreak.handicaps import chart
 from evenbreak.ratings import Results
-from evenbreak.ratings.within_matches import play_races
+from evenbreak.ratings.validation.within_matches import play_races
 
 Race = tuple[int, int]
 PLAYERS = 80

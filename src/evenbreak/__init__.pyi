@@ -80,7 +80,7 @@ from .ratings.fit import fit as fit
 from .ratings.prior import best_prior as best_prior
 from .ratings.results import Results as Results
 from .ratings.roster import Roster as Roster
-from .ratings.validate import validate as validate
+from .ratings.validation.validate import validate as validate
 from .stats.binomial import GamesWon as GamesWon
 from .stats.innings import InningsScore as InningsScore
 from .stats.runs import RunLength as RunLength

@@ -6,7 +6,7 @@ from scipy.special import expit
 
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, validate
-from evenbreak.ratings.within_matches import play_races
+from evenbreak.ratings.validation.within_matches import play_races
 from places import DATA
 
 PLAYERS = 24

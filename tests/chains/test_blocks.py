@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.chains.triangular_solve import eliminate_together
+from evenbreak.chains.factorisation import eliminate_together
 
 
 def test_the_factors_multiply_to_the_stack():

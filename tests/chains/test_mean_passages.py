@@ -15,9 +15,9 @@ from evenbreak.chains import (
     first_passage,
     kemeny_constant,
     mean_first_passages,
-    mean_passages,
     stationary_laws,
 )
+from evenbreak.chains import stationary as mean_passages
 from evenbreak.errors import AccuracyError, ChainError
 from evenbreak.games import OneBall, Race, Rack
 from tries import tries

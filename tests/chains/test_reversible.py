@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, spectrum, stochastic_limit
-from evenbreak.chains.reversible import reversible_classes, symmetric_form
+from evenbreak.chains.spectrum import reversible_classes, symmetric_form
 from evenbreak.errors import AccuracyError
 from evenbreak.games import Ahead, OneBall, Rack
 from evenbreak.handicaps import Ladder, chart, system_of

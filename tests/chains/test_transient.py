@@ -20,7 +20,7 @@ from evenbreak.chains import (
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.dissection import FrontElimination
 from evenbreak.chains.elimination import DecimalElimination, PlainElimination, decimal_law
-from evenbreak.chains.triangular_solve import TriangularSolve
+from evenbreak.chains.factorisation import TriangularSolve
 from evenbreak.errors import AccuracyError
 
 

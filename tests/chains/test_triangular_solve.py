@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from evenbreak.chains import triangular_solve
-from evenbreak.chains.triangular_solve import TriangularSolve
+from evenbreak.chains import factorisation as triangular_solve
+from evenbreak.chains.factorisation import TriangularSolve
 
 
 def test_single_states_and_classes_of_two_and_three_in_turn():

@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from evenbreak.games import BREAK_FORMATS, Rack, alternate_breaks, winner_breaks
-from evenbreak.matches import antidiagonals, race_odds
-from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches import endings as antidiagonals
+from evenbreak.matches import race_odds
+from evenbreak.matches.endings import race_endings
 
 P1, P2 = np.meshgrid([0.0, 0.3, 0.75, 1.0], [0.2, 0.5, 1.0])
 

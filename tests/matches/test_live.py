@@ -18,7 +18,7 @@ from evenbreak.games import (
     winner_breaks,
 )
 from evenbreak.matches import live_odds, match_length, match_odds, win_probability
-from evenbreak.matches.rack_graph import rack_moves
+from evenbreak.matches.rack_by_rack import rack_moves
 from tiers import examples
 
 SETS = Race(3, 1, Race(3, 3, Rack(2 / 3)))

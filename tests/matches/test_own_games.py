@@ -12,7 +12,7 @@ from evenbreak.matches import (
     match_odds,
     win_probability,
 )
-from evenbreak.matches.own_games import ends_of_game, rack_of_game
+from evenbreak.matches.parameters import ends_of_game, rack_of_game
 
 
 class Ends:

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
 from evenbreak.matches import match_length, rack_by_rack
-from evenbreak.matches.rack_by_rack import racks_within
-from evenbreak.matches.rack_graph import rack_moves
+from evenbreak.matches.rack_by_rack import rack_moves, racks_within
 
 MATCHES = [
     Ahead(4, 2, Rack(0.55)),

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
-from evenbreak.matches.rack_graph import breaker_in, rack_moves
+from evenbreak.matches.rack_by_rack import breaker_in, rack_moves
 
 MATCHES = [
     Race(4, 3, Rack(0.6)),

@@ -3,7 +3,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from evenbreak.matches.score_chain import NEVER, ScoreChain, ratio
+from evenbreak.matches.outcomes import NEVER, ScoreChain, ratio
 
 
 def test_gamblers_ruin_to_the_last_digits() -> None:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from evenbreak import InputError
 from evenbreak.physics.aimed import aimed_shot
+from evenbreak.physics.leg import pockets
 from evenbreak.physics.objects import Ball, PoolTable
-from evenbreak.physics.pockets import pockets
 from evenbreak.physics.shot import shot, spin_ratios
 from evenbreak.physics.strike import strike, strike_for_speed
 from evenbreak.physics.throw import aim

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from evenbreak import InputError
 from evenbreak.physics.aimed import pocketed_shot
+from evenbreak.physics.leg import pockets
 from evenbreak.physics.objects import Ball, PoolTable
-from evenbreak.physics.pockets import pockets
 from evenbreak.physics.strike import strike_for_speed
 from evenbreak.physics.units import INCH
 from tiers import examples

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
+from evenbreak.physics.leg import CORNER_MOUTH, POCKET_NAMES, pockets
 from evenbreak.physics.objects import Ball, PoolTable
-from evenbreak.physics.pockets import CORNER_MOUTH, POCKET_NAMES, pockets
 
 RADIUS = Ball().radius
 TABLE = PoolTable()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.plots.calibration import calibration_figure
+from evenbreak.plots.league import calibration_figure
 from evenbreak.ratings import Results, validate
 
 

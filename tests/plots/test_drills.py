@@ -3,7 +3,7 @@ import pytest
 from matplotlib.patches import Rectangle
 
 from evenbreak.games import Drill
-from evenbreak.plots.drills import drill_figure, log_figure
+from evenbreak.plots.practice import drill_figure, log_figure
 from evenbreak.practice import DrillLog, analyse_log, drill_statistics
 
 

@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.games import Rack, winner_breaks
 from evenbreak.matches import crossings, match_format, win_probability
-from evenbreak.plots.formats import plot_formats
+from evenbreak.plots.matches import plot_formats
 
 
 def test_curves_and_crossings():

@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.games import Race, Rack
 from evenbreak.matches import live_odds
-from evenbreak.plots.live_match import plot_course
+from evenbreak.plots.matches import plot_course
 
 
 @pytest.fixture

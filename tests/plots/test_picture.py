@@ -15,9 +15,8 @@ import evenbreak.plots
 from evenbreak.errors import InputError
 from evenbreak.games import Drill, OneBall
 from evenbreak.plots import draw, image_bytes, shots_figure
-from evenbreak.plots.drills import drill_figure
 from evenbreak.plots.picture import legend_below, new_axes
-from evenbreak.plots.practice_scores import plot_two_lists
+from evenbreak.plots.practice import drill_figure, plot_two_lists
 from evenbreak.practice import ShotChoice, drill_statistics
 
 

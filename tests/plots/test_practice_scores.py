@@ -4,7 +4,7 @@ from scipy.stats import linregress, t
 
 from evenbreak.answers.practice.practice import getting_better_answer, trend_line_of
 from evenbreak.files.practice import ScoresFile
-from evenbreak.plots.practice_scores import plot_scores, plot_two_lists
+from evenbreak.plots.practice import plot_scores, plot_two_lists
 from evenbreak.stats import mean_interval
 
 SCORES = np.array([50.0, 44.0, 46.0, 52.0])

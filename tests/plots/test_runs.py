@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
-from evenbreak.plots.runs import plot_score, plot_spot
+from evenbreak.plots.practice import plot_score, plot_spot
 from evenbreak.stats import InningsScore, RunLength
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from evenbreak.handicaps import Ladder
 from evenbreak.league import Watched, sandbagging
-from evenbreak.plots.sandbagging import MOST_NAMED, pay_figure, watch_figure
+from evenbreak.plots.league import MOST_NAMED, pay_figure, watch_figure
 
 
 def test_each_line_is_the_chance_to_win():

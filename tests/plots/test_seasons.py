@@ -4,8 +4,8 @@ import numpy as np
 
 from evenbreak.answers.league.season_tables import season_tables
 from evenbreak.league import FixedSchedule, LeaguePlayers, Season, run_chunk
+from evenbreak.plots.league import errors_figure, gaps_figure, standings_figure
 from evenbreak.plots.picture import image_bytes
-from evenbreak.plots.seasons import errors_figure, gaps_figure, standings_figure
 
 
 def seasons(season, replicas=40):

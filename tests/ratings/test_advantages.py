@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.advantages import break_advantage, first_breaks, known_breaks
+from evenbreak.ratings.validation.advantages import break_advantage, first_breaks, known_breaks
 
 
 def test_a_season_of_the_model_shows_no_advantage(plain):

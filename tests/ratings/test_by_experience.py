@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import walk_forward
-from evenbreak.ratings.advantages import by_experience
+from evenbreak.ratings.validation.advantages import by_experience
 from simulated_levels import league
 
 

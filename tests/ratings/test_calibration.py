@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import expit
 from scipy.stats import binomtest
 
-from evenbreak.ratings.calibration import (
+from evenbreak.ratings.validation.calibration import (
     bootstrap_ratio,
     brier,
     calibration,

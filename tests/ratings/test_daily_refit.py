@@ -3,8 +3,8 @@
 import numpy as np
 
 from evenbreak.ratings.covariance import count_pairs
-from evenbreak.ratings.daily_refit import DailyRefit
-from evenbreak.ratings.posterior import find_mode
+from evenbreak.ratings.mixed_posterior import find_mode
+from evenbreak.ratings.validation.walk_forward import DailyRefit
 
 RNG = np.random.default_rng(4)
 PLAYERS, MATCHES = 12, 60

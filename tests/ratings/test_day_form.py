@@ -7,8 +7,8 @@ import pytest
 from scipy.special import expit
 
 from evenbreak.ratings import fit
-from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.day_form import DayForm, day_form
+from evenbreak.ratings.validation.calibration import Estimate
 from ratings.test_match_form import league
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, fit, walk_forward
+from evenbreak.ratings.consistency import doubtful_scores
 from evenbreak.ratings.day_form import day_form
-from evenbreak.ratings.doubtful_scores import doubtful_scores
-from evenbreak.ratings.within_matches import dispersion, match_form, play_races
+from evenbreak.ratings.validation.within_matches import dispersion, match_form, play_races
 
 POINTS = 9
 """Matches written down in points, 30-19: the sum of many a long match."""

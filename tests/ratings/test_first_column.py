@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.advantages import first_column, side_advantage
+from evenbreak.ratings.validation.advantages import first_column, side_advantage
 
 
 def turned(season, swap):

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.race_fairness import handicap_fairness
+from evenbreak.ratings.validation.validate import handicap_fairness
 
 
 def test_spots_are_counted_from_the_side_that_gives():

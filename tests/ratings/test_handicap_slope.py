@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results
-from evenbreak.ratings.starts import handicap_slope
+from evenbreak.ratings.validation.starts import handicap_slope
 from handicapped import by_class
 
 WORTH = {"D": 0, "C": 1, "B": 2, "A": 3}

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import expit
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.within_matches import match_form, play_races, score_shapes
+from evenbreak.ratings.validation.within_matches import match_form, play_races, score_shapes
 
 
 def league(form_sd, seed, players=24, days=40, race=7):

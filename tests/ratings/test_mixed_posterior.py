@@ -14,7 +14,7 @@ from evenbreak.ratings import Results, fit
 from evenbreak.ratings.fit import BREAK_SD
 from evenbreak.ratings.likelihood_terms import likelihood_terms
 from evenbreak.ratings.mixed_posterior import find_mixed_mode
-from evenbreak.ratings.result_words import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 from tiers import examples
 
 LOG_ODDS = {"scale": math.log(2), "anchor": 0}  # a point is a log-odd

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.race_fairness import race_lengths
+from evenbreak.ratings.validation.validate import race_lengths
 
 
 def forecasts(races, *, longer=0):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Beginning, Levels, Results, fit
-from evenbreak.ratings.rating_sources import rating_sources
+from evenbreak.ratings.fitted import rating_sources
 
 SEASON = Results.from_names(
     ["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [17, 12, 9], [10, 14, 8], date=["2026-01-05"] * 3

@@ -1,6 +1,6 @@
 """One vocabulary for files and DataFrames: nothing in it is out of reach."""
 
-from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, FORMATS, letters
+from evenbreak.ratings.results_frame import FORFEIT_WORDS, FORMAT_WORDS, FORMATS, letters
 
 
 def test_every_word_is_written_as_it_is_compared():

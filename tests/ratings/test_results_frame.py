@@ -9,8 +9,7 @@ import pytest
 from evenbreak.errors import DataError, InputError
 from evenbreak.files import read_results
 from evenbreak.ratings import Results, fit
-from evenbreak.ratings.result_words import FORMATS
-from evenbreak.ratings.results_frame import FrameReader
+from evenbreak.ratings.results_frame import FORMATS, FrameReader
 from places import DATA
 
 

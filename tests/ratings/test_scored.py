@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import walk_forward
-from evenbreak.ratings.calibration import Predictions
+from evenbreak.ratings.validation.calibration import Predictions
 
 
 @pytest.fixture(scope="module")

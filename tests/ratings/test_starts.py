@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from evenbreak.ratings.starts import class_steps, even_start, starts
-from evenbreak.ratings.stated_strength import implied_difference
+from evenbreak.ratings.levels import implied_difference
+from evenbreak.ratings.validation.starts import class_steps, even_start, starts
 from handicapped import by_chart, by_class
 
 

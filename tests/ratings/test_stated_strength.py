@@ -6,7 +6,7 @@ from scipy.special import expit
 
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Results
-from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps, implied_difference
+from evenbreak.ratings.levels import StatedStrength, has_handicaps, implied_difference
 
 
 def season(a, b, race_a, race_b):

@@ -10,7 +10,7 @@ from scipy.special import expit
 from evenbreak.errors import InputError
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, fit
-from evenbreak.ratings.walk_forward import even_races, walk_forward
+from evenbreak.ratings.validation.walk_forward import even_races, walk_forward
 from tiers import examples
 
 

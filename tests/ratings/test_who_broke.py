@@ -2,7 +2,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results
-from evenbreak.ratings.result_words import FORMATS
+from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.who_broke import breakers, count_broken
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, walk_forward
-from evenbreak.ratings.within_matches import dispersion, play_races, streaks
+from evenbreak.ratings.validation.within_matches import dispersion, play_races, streaks
 
 
 def test_a_season_of_the_model_shows_nothing(plain):

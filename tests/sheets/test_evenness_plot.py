@@ -4,7 +4,7 @@ from evenbreak.answers.league.pairs import SurePair, chart_bands
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of
-from evenbreak.sheets.rating_bars import HEIGHT, WIDTH, evenness_plot
+from evenbreak.sheets.race_blocks import HEIGHT, WIDTH, evenness_plot
 
 NPL = scale_of("npl")
 

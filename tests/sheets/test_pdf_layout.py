@@ -11,7 +11,7 @@ from evenbreak.sheets.pdf_sheet import (
     rating_text,
     slanted_name,
 )
-from evenbreak.sheets.rating_bars import PlayerLine
+from evenbreak.sheets.race_blocks import PlayerLine
 
 ROOM = 7.0
 

@@ -1,8 +1,7 @@
 import pytest
 
 from evenbreak.answers.league.roster_matchups import OfferedRaces
-from evenbreak.sheets.race_blocks import parts_of, race_blocks, race_cards
-from evenbreak.sheets.rating_bars import Bars, player_lines
+from evenbreak.sheets.race_blocks import Bars, parts_of, player_lines, race_blocks, race_cards
 from leagues import league, sheet_of, two_groups
 
 

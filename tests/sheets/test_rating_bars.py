@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from evenbreak.ratings.scale import SCALES
-from evenbreak.sheets.rating_bars import Bars, player_lines
+from evenbreak.sheets.race_blocks import Bars, player_lines
 from leagues import CLUB, league, sheet_of
 
 NPL = SCALES["npl"]

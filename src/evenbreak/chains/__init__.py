@@ -8,16 +8,16 @@ nothing is subtracted. The graph gives the order, and the kernel suits the numbe
 | what is eliminated | by | for |
 |---|---|---|
 | a few arcs, in any numbers | `elimination` | floats, decimals, fractions, formulas, scores |
-| what remains dense in fractions | `lifting`, modulo a prime | `exact` |
-| one dense array | `dense_elimination` | `stationary`, `mean_passages`, and fronts |
-| a stack of small graphs | `blocks` | `triangular_solve`, and families of games (`families`) |
-| a class, in the fronts of a `dissection` | `front_elimination` | some hundreds of states |
-| a line | `line_elimination`; `birth_death` | closed forms and solves in linear time |
+| what remains dense in fractions | `exact`, modulo a prime | `limits`, `lumping` |
+| one dense array | `dense_elimination` | `stationary`, and fronts |
+| a stack of small graphs | `factorisation` | small classes, and families of games (`families`) |
+| a class, in fronts | `dissection` | some hundreds of states |
+| a line | `birth_death` | closed forms and solves in linear time |
 | a class too large for that | `certified` | any approximation, proved afterwards |
 
 `factorisation` chooses for each class and `transient` watches for underflow. On their two solves,
 visits and values, stand `limits`, `absorption`, `passage_times`, `rewards` and `sensitivity`. The
-other road, by eigenvectors (`spectrum`, `unit_pairs`), comes to the same limits and checks them.
+other road, by eigenvectors (`eigenpairs`, `spectrum`), comes to the same limits and checks them.
 """
 
 import lazy_loader

@@ -14,8 +14,6 @@ from .limits import limit_of as limit_of
 from .limits import stochastic_limit as stochastic_limit
 from .lumping import coarsest_lumping as coarsest_lumping
 from .lumping import lumped as lumped
-from .mean_passages import kemeny_constant as kemeny_constant
-from .mean_passages import mean_first_passages as mean_first_passages
 from .mixing import mixing_time as mixing_time
 from .mixing import spectral_gap as spectral_gap
 from .passage_times import PassageTime as PassageTime
@@ -29,6 +27,8 @@ from .sensitivity import Sensitivity as Sensitivity
 from .sensitivity import sensitivity as sensitivity
 from .spectrum import Spectrum as Spectrum
 from .spectrum import spectrum as spectrum
+from .stationary import kemeny_constant as kemeny_constant
+from .stationary import mean_first_passages as mean_first_passages
 from .stationary import stationary_laws as stationary_laws
 from .structure import Structure as Structure
 from .symbolic import symbolic_limit as symbolic_limit

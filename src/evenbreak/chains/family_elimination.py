@@ -15,8 +15,8 @@ import numpy as np
 
 from evenbreak.chains.dense_elimination import is_dense
 from evenbreak.chains.elimination import Rows, eliminated, limit_in
+from evenbreak.chains.factorisation import eliminate_together
 from evenbreak.chains.family_numbers import Disagreement, Numbers
-from evenbreak.chains.triangular_solve import eliminate_together
 
 if TYPE_CHECKING:
     from evenbreak.arrays import Bools

@@ -21,12 +21,19 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy.linalg
+import scipy.sparse.linalg
+from scipy.sparse import csc_array, csgraph, diags_array
 
 from evenbreak.arrays import Floats, array_values
+from evenbreak.chains.birth_death import line_order
 from evenbreak.chains.chain import check_chain
+from evenbreak.chains.double_double import two_product, two_sum
 from evenbreak.chains.eigenpairs import (
     DENSE,
+    SHIFT,
     TOLERANCE,
+    Eigenpairs,
     UnitPairs,
     leading_pairs,
     limit_by,
@@ -34,16 +41,15 @@ from evenbreak.chains.eigenpairs import (
     within_unit_disc,
 )
 from evenbreak.chains.mixing import mixing_time, spectral_gap
-from evenbreak.chains.reversible import DENSE as ALL_REVERSIBLE
-from evenbreak.chains.reversible import reversible_classes, reversible_pairs
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evenbreak.arrays import Floats
+    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
+
 
 MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they would fill the memory."""
@@ -205,3 +211,260 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     values, left, right = pairs.in_complex()
     values, left, right = within_unit_disc(values[:k]), left[:k], right[:, :k]
     return Spectrum(chain, values, units, residual, ones.error, vectors, right, left)
+
+
+# Eigenvectors of reversible chains, from a symmetric matrix that is similar to M.
+#
+# A class is reversible if some weights w > 0 balance every pair of its arcs, w_j M_ij = w_i M_ji;
+# in a closed class they are the stationary law. With D = diag(sqrt(w)) the matrix
+#
+#     S = D^-1 M D,    S_ij = sqrt(M_ij M_ji),
+#
+# is symmetric, so all eigenvalues are real and there are n orthonormal eigenvectors Q, however
+# many decades the law spans. M has the right vectors D Q and the left vectors Q^T D^-1. States in
+# a line are always reversible, and S is then tridiagonal.
+#
+# The weights come from a tree of arcs that reaches the whole class, as products of pairs of
+# doubles with their exponents apart; the arcs off the tree must agree with them (Kolmogorov's
+# criterion).
+#
+# All pairs of a chain are put together from those of its classes, if it has no transient states or
+# one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
+# within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of
+# M are
+#
+#     R = (D q, B D q / (lambda - 1)),    L = (q^T D^-1, 0);
+#
+# the pairs of eigenvalue 1 are the absorbing states and the chances of ending there.
+#
+# References: Kelly 1979, Reversibility and Stochastic Networks, chapter 1; Cuppen 1981 for
+# LAPACK's divide and conquer (through scipy).
+
+
+ALL_REVERSIBLE = 2000
+"""Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""
+_BALANCED = 1e-12
+_SAMPLE = 1000
+
+
+@dataclass(frozen=True, eq=False)
+class SymmetricForm:
+    """One reversible class: S and D.
+
+    Parameters
+    ----------
+    states
+        positions of the m states in the chain, increasing.
+    matrix
+        S, sparse, shape (m, m), in the order of `states`.
+    roots
+        shape (m,): the diagonal of D, the square roots of weights that sum to 1 (the stationary
+        law, if the class is closed); 0 where it is smaller than any float.
+    line
+        the order in which the states stand in a line, or None.
+    """
+
+    states: Places
+    matrix: csc_array
+    roots: Floats
+    line: Places | None
+
+    def pairs(self, k: int) -> tuple[Floats, Floats]:
+        """Return k eigenvalues of S, ascending, and their orthonormal vectors as columns.
+
+        All m of them up to `ALL_REVERSIBLE` states; beyond that those nearest to 1.
+
+        Raises
+        ------
+        AccuracyError
+            if the iteration for a large class does not converge.
+        """
+        m = len(self.states)
+        if self.line is not None:
+            S = csc_array(self.matrix[:, self.line])[self.line]
+            some: dict[str, Any] = {}
+            if k < m and m > ALL_REVERSIBLE:
+                some = {"select": "i", "select_range": (m - k, m - 1)}
+            values, along = scipy.linalg.eigh_tridiagonal(S.diagonal(), S.diagonal(1), **some)
+            vectors = np.empty_like(along)
+            vectors[self.line] = along
+            return np.asarray(values), vectors
+        if m <= ALL_REVERSIBLE or k >= m - 1:
+            values, vectors = np.linalg.eigh(self.matrix.toarray())  # lets Ctrl-C through
+            return np.asarray(values), np.asarray(vectors)
+        start = np.random.default_rng(0).standard_normal(m)
+        try:
+            found = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
+        except scipy.sparse.linalg.ArpackNoConvergence as error:
+            raise AccuracyError(
+                f"the iteration for {k} eigenvalues of {m} did not converge; ask for fewer"
+            ) from error
+        return np.asarray(found[0]), np.asarray(found[1])
+
+    def missed(self, values: NDArray[Any], vectors: NDArray[Any]) -> float:
+        """Return the largest entry of S Q - Q diag(values) and of Q^T Q - I."""
+        balance = np.abs(self.matrix @ vectors - vectors * values).max(initial=0.0)
+        overlap = np.abs(vectors.T @ vectors - np.eye(len(values))).max(initial=0.0)
+        return float(max(balance, overlap))
+
+
+def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
+    """Return the symmetric form of one class, or None if the class is not reversible.
+
+    Parameters
+    ----------
+    chain
+        the chain.
+    states
+        positions of the states of the class, increasing.
+
+    >>> from evenbreak.chains import chain_of
+    >>> walk = chain_of([(0, 1, 1.0), (1, 0, 0.2), (1, 2, 0.8), (2, 1, 1.0)])
+    >>> form = symmetric_form(walk, np.arange(3))
+    >>> (form.roots**2).round(15), abs(form.pairs(3)[0].round(12))
+    (array([0.1, 0.5, 0.4]), array([1., 0., 1.]))
+    """
+    there = chain.arcs.matrix()
+    if len(states) < len(chain):
+        there = csc_array(there[:, states][states])
+    there.sort_indices()
+    back = csc_array(there.T)
+    back.sort_indices()
+    if there.nnz != back.nnz or (there.indices != back.indices).any():
+        return None
+    weight, power = _weights(there)
+    sources = np.repeat(np.arange(len(states)), np.diff(there.indptr))
+    for some in (slice(_SAMPLE), slice(_SAMPLE, None)):  # most chains are not reversible
+        source, target = sources[some], there.indices[some]
+        (out, up), (home, down) = np.frexp(there.data[some]), np.frexp(back.data[some])
+        there_and_back = np.ldexp(
+            (weight[target] * home) / (weight[source] * out),
+            (power[target] + down - power[source] - up).clip(-99, 99),
+        )
+        if (np.abs(there_and_back - 1.0) > _BALANCED).any():
+            return None
+    beside = csc_array(
+        (np.sqrt(there.data) * np.sqrt(back.data), there.indices, there.indptr), shape=there.shape
+    )
+    loops = chain.matrix.diagonal()[states]
+    power -= power.max()
+    total = np.ldexp(weight, power).sum()
+    roots = np.ldexp(np.sqrt(np.ldexp(weight, power % 2) / total), power // 2)
+    return SymmetricForm(states, csc_array(beside + diags_array(loops)), roots, line_order(there))
+
+
+def _weights(T: csc_array) -> tuple[Floats, Places]:
+    """Return the weights along a tree of arcs, as numbers near 1 and whole exponents of 2."""
+    size = T.shape[0]
+    high, low, power = np.ones(size), np.zeros(size), np.zeros(size, dtype=np.int64)
+    if size == 1:
+        return high, power
+    _, parent = csgraph.breadth_first_order(T, 0)
+    child, parent[0] = np.arange(1, size), 0
+    (above, more), (below, less) = (
+        np.frexp(np.asarray(T[ends]).reshape(-1))
+        for ends in ((child, parent[1:]), (parent[1:], child))
+    )
+    high[1:], power[1:] = above / below, more - less
+    exact = two_product(high[1:], below)
+    low[1:] = ((above - exact.high) - exact.low) / below
+    # Pointer jumping: after k rounds `parent` is the ancestor 2^k steps above.
+    while parent.any():
+        exact = two_product(high, high[parent])
+        cross = high * low[parent] + low * high[parent]
+        high, low = two_sum(exact.high, exact.low + cross)
+        high, shift = np.frexp(high)
+        low, power = np.ldexp(low, -shift), power + power[parent] + shift
+        parent = parent[parent]
+    return high, power
+
+
+def reversible_classes(chain: Chain) -> list[SymmetricForm] | None:
+    """Return the symmetric forms of the classes, or None if this module does not serve the chain.
+
+    >>> from evenbreak.chains import chain_of
+    >>> reversible_classes(chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])) is None
+    True
+    """
+    structure = chain.structure
+    sizes = np.diff(structure.offsets)
+    open_classes = structure.count - int(structure.closed.sum())
+    if open_classes > 1 or (open_classes and (sizes[structure.closed] > 1).any()):
+        return None
+    forms = []
+    for label in range(structure.count):
+        form = symmetric_form(chain, np.sort(structure.members(label)))
+        if form is None:
+            return None
+        forms.append(form)
+    return sorted(forms, key=lambda form: not structure.recurrent[form.states[0]])
+
+
+def reversible_pairs(
+    chain: Chain, units: UnitPairs, forms: list[SymmetricForm], k: int
+) -> tuple[Eigenpairs, Floats, float]:
+    """Return k eigenpairs of a chain from the symmetric forms of its classes, closed ones first.
+
+    Returns
+    -------
+    (pairs, orthonormal, missed)
+        the pairs, in which an entry of a left vector that no float can hold is infinite; the
+        vectors Q of the symmetric forms, shape (n, k); and the largest entry of
+        S Q - Q diag(values) and of Q^T Q - I.
+
+    Raises
+    ------
+    AccuracyError
+        if the iteration for a large class does not converge.
+    """
+    n = len(chain)
+    recurrent, periods = chain.structure.recurrent, chain.structure.periods
+    values, vectors, known, missed = [], [], [], 0.0
+    scale = np.ones(n)
+    for form in forms:
+        states = form.states
+        scale[states] = form.roots
+        period = int(periods[chain.structure.label[states[0]]])
+        found, Q = form.pairs(min(k, len(states)))
+        if recurrent[states[0]]:
+            found, Q = _with_known(form, found, Q, period, chain.structure.phases[states])
+        missed = max(missed, form.missed(found, Q))
+        spread = np.zeros((n, len(found)))
+        spread[states] = Q
+        values.append(found)
+        vectors.append(spread)
+        known.append(np.arange(len(found)) == (0 if recurrent[states[0]] else -1))
+    value, Q, ones = np.concatenate(values), np.hstack(vectors), np.concatenate(known)
+    size = np.abs(value).round(10) if k == n or n <= DENSE else value
+    order = np.lexsort((-value, -size, ~ones))[:k]
+    value, Q, ones = value[order], Q[:, order], ones[order]
+    right = scale[:, None] * Q
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        left = np.where(Q == 0.0, 0.0, Q / scale[:, None]).T
+    turning = ~ones & (np.abs(Q[~recurrent]).max(axis=0, initial=0.0) > 0.0)
+    # What a vector holds of each absorbing state makes its product with the left ones zero.
+    ending = units.left[:, ~recurrent] @ right[~recurrent][:, turning]
+    right[np.ix_(recurrent, turning)] = -(units.right[recurrent] @ ending)
+    right[:, ones], left[ones] = units.right, units.left
+    return Eigenpairs(value, left, right), Q, missed
+
+
+def _with_known(
+    form: SymmetricForm, values: Floats, Q: Floats, period: int, phases: Places
+) -> tuple[Floats, Floats]:
+    """Put in what the structure knows of a closed class, the pair of eigenvalue 1 first.
+
+    Its vector is D itself; in a class of period 2 that of eigenvalue -1 is D with the signs of
+    the phases. The others are made orthogonal to these, which matters only where an eigenvalue
+    is very close.
+    """
+    known, places = [form.roots], [len(values) - 1]
+    if period == 2 and len(values) == len(form.roots) > 1:
+        known.append(np.where(phases % 2, -form.roots, form.roots))
+        places.append(0)
+    others = np.delete(np.arange(len(values)), places)
+    K, rest = np.stack(known, axis=1), Q[:, others]
+    rest = rest - K @ (K.T @ rest)
+    rest /= np.linalg.norm(rest, axis=0)
+    ends = np.array([1.0, -1.0])[: len(known)]
+    return np.concatenate((ends, values[others])), np.hstack((K, rest))

@@ -14,7 +14,7 @@ from evenbreak.files.tables.problems import quoted, warning
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import TextTable
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
-from evenbreak.ratings.result_words import letters
+from evenbreak.ratings.results_frame import letters
 from evenbreak.stats.confidence import LARGEST
 from evenbreak.words import Parameter, joined, say, say_count
 

@@ -19,6 +19,7 @@ from .minutes import MatchMinutes as MatchMinutes
 from .minutes import match_minutes as match_minutes
 from .odds import MatchOdds as MatchOdds
 from .odds import match_odds as match_odds
+from .outcomes import shutout_probability as shutout_probability
 from .pace import PACES as PACES
 from .pace import Pace as Pace
 from .pace import Turnover as Turnover
@@ -29,7 +30,6 @@ from .races import race_odds as race_odds
 from .scores import FinalScores as FinalScores
 from .scores import final_scores as final_scores
 from .scores import hill_hill_probability as hill_hill_probability
-from .shutout import shutout_probability as shutout_probability
 from .straight_pool import EvenPoints as EvenPoints
 from .straight_pool import Spot as Spot
 from .straight_pool import StraightPool as StraightPool

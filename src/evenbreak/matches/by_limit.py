@@ -13,8 +13,7 @@ from evenbreak.chains.passage_times import steps_to_absorption
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.matches.own_games import ends_of_game
-from evenbreak.matches.parameters import checked_match
+from evenbreak.matches.parameters import checked_match, ends_of_game
 
 if TYPE_CHECKING:
     from evenbreak.chains.ways import Way

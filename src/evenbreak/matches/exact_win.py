@@ -16,10 +16,8 @@ from evenbreak.chains.exact import exact_chance, exact_limit
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.matches.outcomes import score_arcs
-from evenbreak.matches.own_games import Ends, ends_of_game, rack_of_game
-from evenbreak.matches.parameters import first_breaker
-from evenbreak.matches.score_chain import NEVER, ScoreChain
+from evenbreak.matches.outcomes import NEVER, ScoreChain, score_arcs
+from evenbreak.matches.parameters import Ends, ends_of_game, first_breaker, rack_of_game
 
 _Outcomes = dict[tuple[int, int], Fraction]
 """The chance of each (winner, next breaker)."""

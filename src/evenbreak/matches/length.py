@@ -18,8 +18,7 @@ from evenbreak.games.rack import ChanceT
 from evenbreak.matches.endings import endings_of, is_bounded
 from evenbreak.matches.form import form_of, on_days
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.own_games import Ends, ends_of_game
-from evenbreak.matches.parameters import at_score, in_shape, rack_in
+from evenbreak.matches.parameters import Ends, at_score, ends_of_game, in_shape, rack_in
 from evenbreak.matches.quantiles import TIE
 
 if TYPE_CHECKING:

@@ -16,10 +16,9 @@ from evenbreak.errors import InputError
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
+from evenbreak.matches.outcomes import NEVER, ScoreChain
 from evenbreak.matches.parameters import checked_match, rack_in, unit_of
-from evenbreak.matches.rack_by_rack import racks_within
-from evenbreak.matches.rack_graph import RackMoves, breaker_in, rack_moves
-from evenbreak.matches.score_chain import NEVER, ScoreChain
+from evenbreak.matches.rack_by_rack import RackMoves, breaker_in, rack_moves, racks_within
 
 
 class Standing(NamedTuple):

@@ -147,10 +147,8 @@ def _by_kernel(match: Match) -> MatchOdds:
             p_shutout_2=race.p_shutout_2,
         )
     # A plain race, by far the most common question, does not load what follows.
-    from evenbreak.matches.outcomes import outcomes_of
-    from evenbreak.matches.rack_by_rack import racks_within
-    from evenbreak.matches.rack_graph import rack_moves
-    from evenbreak.matches.shutout import shutout_probability
+    from evenbreak.matches.outcomes import outcomes_of, shutout_probability
+    from evenbreak.matches.rack_by_rack import rack_moves, racks_within
 
     outcomes = outcomes_of(match)
     ends = outcomes.never == 0.0

@@ -5,12 +5,22 @@ Numpy is loaded only for arrays, because the scalar kernels use this module too.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from dataclasses import replace
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
-from evenbreak.errors import InputError
+from evenbreak.checks import whole
+from evenbreak.errors import GameError, InputError
+from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.games.rack import Rack
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+    from evenbreak.chains.chain import Chain
+    from evenbreak.chains.passage_times import PassageTime
+
 
 AnyMatch = TypeVar("AnyMatch", bound=Match)
 
@@ -28,7 +38,6 @@ def checked_match(match: AnyMatch) -> AnyMatch:
     innermost = match.innermost_rack
     if isinstance(innermost, Rack):
         return match
-    from evenbreak.matches.own_games import rack_of_game
 
     return with_rack(match, rack_of_game(innermost))
 
@@ -79,3 +88,130 @@ def in_shape(value: Any, shape: tuple[int, ...]) -> Any:
     import numpy as np
 
     return np.array(np.broadcast_to(value, shape), dtype=float)
+
+
+# How a game of anybody's own ends: its final states by winner, and its chances as a rack.
+
+
+_CERTAIN = 1e-9
+"""How far from 1 the chance may be that player 1 or 2 wins a rack."""
+
+
+class Ends(NamedTuple):
+    """The chain of a game, and its final states by winner; None stands for no winner."""
+
+    chain: Chain
+    by_winner: dict[int | None, list[Hashable]]
+
+    def reached(self, states: list[Hashable]) -> PassageTime | None:
+        """Return how many moves it takes to reach any of these states; None if there are none."""
+        from evenbreak.chains.passage_times import first_passage
+
+        return first_passage(self.chain, None, states) if states else None
+
+    def p_win(self, player: int) -> float:
+        """Return P(`player` wins the game)."""
+        time = self.reached(self.by_winner.get(player, []))
+        return 0.0 if time is None else min(time.p_reached, 1.0)
+
+
+def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) -> Ends:
+    """Return how a game ends: in which states, and who has won in each of them.
+
+    Parameters
+    ----------
+    game
+        any object with start, moves and winner, or a directed graph whose arcs have a
+        `probability` and whose final nodes have a `winner`.
+    start
+        the state from which it is played; None: its own start.
+
+    Raises
+    ------
+    InputError
+        if it is not a game.
+    GameError
+        if a winner is not the number of a player, somebody has won in a state that has moves,
+        or a probability is not one.
+    ChainError
+        if the probabilities of a state do not sum to 1, or the start is unknown.
+
+    >>> from evenbreak.games import OneBall
+    >>> ends_of_game(OneBall(0.5, 0.5)).by_winner
+    {1: ['W'], 2: ['L']}
+    """
+    from evenbreak.chains.explore import chain_of
+
+    if isinstance(game, Game):
+        chain = chain_of(game, start=start)
+        final = [state for state in _absorbing(chain) if not game.moves(state)]
+        winner_in = game.winner
+    elif hasattr(game, "adjacency"):
+        chain = chain_of(game, start=start)
+        final, winner_in = _absorbing(chain), lambda state: game.nodes[state].get("winner")
+    else:
+        raise InputError(
+            f"game is {game!r}; give an object with start, moves and winner, or a networkx.DiGraph"
+        )
+    _check_over(chain, final, winner_in)
+    by_winner: dict[int | None, list[Hashable]] = {}
+    for state in final:
+        by_winner.setdefault(_player(winner_in(state), state), []).append(state)
+    return Ends(chain, by_winner)
+
+
+def rack_of_game(game: Game) -> Rack[float]:
+    """Return the rack that each player wins with the same chance as the game.
+
+    Raises
+    ------
+    GameError
+        if the game has other players, or may end without a winner or not at all.
+
+    >>> from evenbreak.games import OneBall
+    >>> rack_of_game(OneBall(0.5, 0.0))
+    Rack(p1=1.0, p2=None)
+    """
+    ends = ends_of_game(game)
+    others = ends.by_winner.keys() - {1, 2, None}
+    if others:
+        raise GameError(
+            f"player {min(map(str, others))} can win the rack; give a game of two players"
+        )
+    p, q = ends.p_win(1), ends.p_win(2)
+    if not abs(p + q - 1.0) <= _CERTAIN:
+        raise GameError(
+            f"the rack has no winner with probability {1.0 - p - q:.6g}; give a game that player 1 "
+            "or player 2 wins in the end"
+        )
+    return Rack(p / (p + q), q1=q / (p + q))
+
+
+def _absorbing(chain: Chain) -> list[Hashable]:
+    states = chain.structure.recurrent & (chain.arcs.outflow == 0.0)
+    return [chain.states[k] for k in states.nonzero()[0].tolist()]
+
+
+def _check_over(
+    chain: Chain, final: list[Hashable], winner_in: Callable[[Any], int | None]
+) -> None:
+    """Refuse a winner in a state in which the game goes on: their win would not count."""
+    over = set(final)
+    for state in chain.states:
+        if state not in over and (winner := winner_in(state)) is not None:
+            raise GameError(
+                f"player {winner} has won in {state!r}, but there are moves from it; give no moves "
+                "from a state in which the game is over, and no winner in any other"
+            )
+
+
+def _player(winner: Any, state: Hashable) -> int | None:
+    if winner is None:
+        return None
+    try:
+        return whole(winner, "winner", at_least=1)
+    except InputError:
+        raise GameError(
+            f"the winner in {state!r} is {winner!r}; give the number of a player, 1, 2, ..., or "
+            "None for nobody"
+        ) from None

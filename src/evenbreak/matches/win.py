@@ -17,10 +17,9 @@ from evenbreak.game import Game
 from evenbreak.games.match import Match, Score
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.endings import race_endings
 from evenbreak.matches.outcomes import outcomes_of
-from evenbreak.matches.own_games import ends_of_game
-from evenbreak.matches.parameters import at_score, in_shape, rack_in
+from evenbreak.matches.parameters import at_score, ends_of_game, in_shape, rack_in
 from evenbreak.stats.beta_tail import beta_tail
 
 

@@ -21,7 +21,7 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.endings import is_bounded
 from evenbreak.matches.formats import MatchFormat, match_format
 from evenbreak.matches.parameters import checked_match, unit_of
-from evenbreak.matches.rack_graph import breaker_in, rack_moves
+from evenbreak.matches.rack_by_rack import breaker_in, rack_moves
 
 if TYPE_CHECKING:
     import sympy  # type: ignore[import-untyped]

@@ -17,9 +17,8 @@ from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import kind_of, kind_or_usual
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import BALL_FRICTION, SlipFriction, one_friction
-from evenbreak.physics.leg import State, on_table, place_of, time_to
+from evenbreak.physics.leg import Pocket, State, on_table, place_of, time_to
 from evenbreak.physics.objects import Cloth, PoolTable
-from evenbreak.physics.pockets import Pocket
 from evenbreak.physics.shot import Shot, shot, sound_strike, spin_ratios, travel_for
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import Strike
@@ -105,7 +104,7 @@ def aimed_shot(
     -----
     Source: P4.6, where the spin is given.
 
-    >>> from evenbreak.physics.pockets import pockets
+    >>> from evenbreak.physics.leg import pockets
     >>> from evenbreak.physics.strike import strike
     >>> corner = pockets(PoolTable())[3]
     >>> found = aimed_shot(strike(1.5, -0.2), (0.7, 0.4), (1.2, 0.4), (corner.x, corner.y))
@@ -232,7 +231,7 @@ def pocketed_shot(
     InputError
         as for `aimed_shot`.
 
-    >>> from evenbreak.physics.pockets import pockets
+    >>> from evenbreak.physics.leg import pockets
     >>> from evenbreak.physics.strike import strike
     >>> corner, radius = pockets(PoolTable())[2], 0.028575
     >>> found = pocketed_shot(strike(1.5), (0.5, radius), (1.3, radius), corner)

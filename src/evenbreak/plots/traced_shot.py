@@ -10,9 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Rectangle
 
 from evenbreak.physics.aimed import AimedShot
-from evenbreak.physics.leg import Leg
+from evenbreak.physics.leg import Leg, pockets
 from evenbreak.physics.objects import PoolTable
-from evenbreak.physics.pockets import pockets
 from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
 from evenbreak.plots.picture import LINES, Picture, in_our_look

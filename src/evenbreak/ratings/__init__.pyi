@@ -20,7 +20,7 @@ from .scale import Scale as Scale
 from .scale import scale_of as scale_of
 from .usual import rated_alike as rated_alike
 from .usual import usual_ratings as usual_ratings
-from .validate import Validation as Validation
-from .validate import validate as validate
-from .walk_forward import Forecasts as Forecasts
-from .walk_forward import walk_forward as walk_forward
+from .validation.validate import Validation as Validation
+from .validation.validate import validate as validate
+from .validation.walk_forward import Forecasts as Forecasts
+from .validation.walk_forward import walk_forward as walk_forward

@@ -6,7 +6,7 @@ with the corner c. By the Schur complement s = c - bᵀH⁻¹b,
 
     covariance of the ratings = H⁻¹ + H⁻¹b bᵀH⁻¹ / s,    variance of the advantage = 1 / s.
 
-Levels that players share, such as those of teams (see `evenbreak.ratings.prior_means`), are
+Levels that players share, such as those of teams (see `evenbreak.ratings.beginning`), are
 further unknowns of H. With θ the skills and b the levels, the law of total variance gives
 
     cov(θ) = cov(θ | b) + cov(θ, b) cov(b)⁻¹ cov(b, θ),
@@ -29,8 +29,8 @@ from scipy.special import expit
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
+from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
-from evenbreak.ratings.prior_means import PriorMeans
 
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""

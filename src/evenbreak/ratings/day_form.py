@@ -19,13 +19,13 @@ from scipy.special import expit, log_expit, logsumexp
 
 from evenbreak.arrays import Floats
 from evenbreak.matches.form import centre_of_form
-from evenbreak.ratings.calibration import Estimate, with_error
+from evenbreak.ratings.consistency import doubtful_scores
 from evenbreak.ratings.decay import until
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.fit import weights_of
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.validation.calibration import Estimate, with_error
 
 NODES = 15
 """Nodes of the Gauss-Hermite rule."""

@@ -22,8 +22,8 @@ from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
+from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.covariance import Curvature, sums_by_player
-from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.who_broke import BreakWinsTerms, count_broken
 

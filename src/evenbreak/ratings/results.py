@@ -18,8 +18,7 @@ from evenbreak.arrays import Bools, Ints, own_arrays
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 from evenbreak.ratings.consistency import find_problems
-from evenbreak.ratings.result_words import FORMATS
-from evenbreak.ratings.results_frame import FrameReader, columns_of
+from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -16,14 +16,13 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Bools, Floats
 from evenbreak.errors import InputError
+from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
-from evenbreak.ratings.levels import Levels, means_of
+from evenbreak.ratings.levels import Levels, StatedStrength, has_handicaps, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.mixed_posterior import GRADIENT, WayToRate, find_mixed_mode, find_modes
-from evenbreak.ratings.prior_means import PriorMeans
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE, scale_of
-from evenbreak.ratings.stated_strength import StatedStrength, has_handicaps
 
 STRETCHES = 30
 """How many stretches a season is divided into, if it has as many days."""

@@ -15,8 +15,8 @@ from scipy.special import logsumexp
 
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
-from evenbreak.ratings.result_words import FORMATS
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.results_frame import FORMATS
 
 # How many racks players won on their own break, where a match is known by its score alone.
 #

@@ -35,8 +35,16 @@ from evenbreak.sheets.pdf_page import (
     shortened,
     width_of,
 )
-from evenbreak.sheets.race_blocks import Block, Races, parts_of, race_blocks
-from evenbreak.sheets.rating_bars import Bars, PlayerLine, Tick, player_lines
+from evenbreak.sheets.race_blocks import (
+    Bars,
+    Block,
+    PlayerLine,
+    Races,
+    Tick,
+    parts_of,
+    player_lines,
+    race_blocks,
+)
 
 # How large everything on the paper sheet is, so that the table fills the page.
 

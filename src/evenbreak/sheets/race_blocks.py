@@ -4,10 +4,212 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+import matplotlib as mpl
 import pandas as pd
+from matplotlib.ticker import MaxNLocator
 
+from evenbreak.answers.kit.scales import decimals_of
+from evenbreak.answers.league.pairs import Band, SurePair
 from evenbreak.answers.league.sheet import NO_RACE
-from evenbreak.sheets.rating_bars import PlayerLine
+from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.ratings.scale import Scale
+
+# Ratings with their bars, on an axis from 0 to 100 per cent, for pages and for paper.
+
+
+NOT_OVER_THE_EDGE = (4, 96)
+"""A label nearer to an end of the axis would hang over it."""
+
+
+class PlayerLine(NamedTuple):
+    """A player's rating, and a bar of two standard errors either way, in per cent of the axis.
+
+    An error that is not stated is empty; counts are None where they are not stated.
+    """
+
+    place: int
+    name: str
+    rating: str
+    error: str
+    games: int | None
+    won: int | None
+    lost: int | None
+    group: int | None
+    low: float
+    middle: float
+    high: float
+
+
+class Tick(NamedTuple):
+    """A mark on an axis, at per cent of its length."""
+
+    at: float
+    label: str
+
+
+class Bars:
+    """The axis that the bars of some ratings share.
+
+    Parameters
+    ----------
+    rated
+        with the columns rating and standard_error (NaN: not stated).
+
+    >>> import pandas as pd
+    >>> bars = Bars(pd.DataFrame({"rating": [60.0, 100.0], "standard_error": [5.0, float("nan")]}))
+    >>> bars.place(80.0), [tick.label for tick in bars.ticks()]
+    (59.26, ['60', '70', '80', '90'])
+    """
+
+    def __init__(self, rated: pd.DataFrame) -> None:
+        error = rated["standard_error"].fillna(0.0)
+        low = float((rated["rating"] - 2 * error).min())
+        high = float((rated["rating"] + 2 * error).max())
+        edge = 0.04 * (high - low) or 1.0
+        self.low, self.high = low - edge, high + edge
+
+    def place(self, rating: float) -> float:
+        """Return where a rating stands, in per cent."""
+        return round(100 * (rating - self.low) / (self.high - self.low), 2)
+
+    def ticks(self) -> list[Tick]:
+        """Return the marks on the axis."""
+        found = round_numbers(self.low, self.high, most=6, steps=[1, 2, 2.5, 5, 10])
+        ticks = [Tick(self.place(tick), f"{tick:g}") for tick in found]
+        least, most = NOT_OVER_THE_EDGE
+        return [tick for tick in ticks if least < tick.at < most]
+
+
+def round_numbers(low: float, high: float, *, most: int, steps: list[float]) -> list[float]:
+    """Return the round numbers that mark an axis, about `most` of them.
+
+    >>> round_numbers(0.0, 100.0, most=5, steps=[1, 2, 5, 10])
+    [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]
+    """
+    with mpl.rc_context({"axes.autolimit_mode": "data"}):  # whatever the reader's own settings
+        return list(map(float, MaxNLocator(nbins=most, steps=steps).tick_values(low, high)))
+
+
+def player_lines(
+    rated: pd.DataFrame, scale: Scale, bars: Bars, *, grouped: bool
+) -> list[PlayerLine]:
+    """Return the lines of a list of ratings, in its order; the index is the place, from 0.
+
+    Parameters
+    ----------
+    rated
+        with the columns player, rating, standard_error (NaN: not stated), games (below 0: not
+        stated) and component (0: not stated); perhaps won and lost.
+    scale
+        of the ratings, which says how many decimals they need.
+    bars
+        their axis.
+    grouped
+        whether to say to which group a player belongs.
+    """
+    # Ratings in whole points are shown as the league knows them.
+    whole = bool((rated["rating"] % 1 == 0).all())
+    decimals = decimals_of(scale)
+    rows: Any = rated.itertuples(index=True)
+    lines = []
+    for row in rows:
+        unknown = math.isnan(row.standard_error)
+        reach = 0.0 if unknown else 2 * row.standard_error
+        lines.append(
+            PlayerLine(
+                row.Index + 1,
+                row.player,
+                f"{row.rating:.{0 if whole else decimals}f}",
+                "" if unknown else f"{row.standard_error:.{decimals}f}",
+                row.games if row.games >= 0 else None,
+                getattr(row, "won", None),
+                getattr(row, "lost", None),
+                row.component if grouped else None,
+                *(bars.place(row.rating + away) for away in (-reach, 0.0, reach)),
+            )
+        )
+    return lines
+
+
+# The small plot on the sheet's page: how even the races are, by rating difference.
+
+
+WIDTH, HEIGHT = 360, 230
+_LEFT, _RIGHT, _TOP, _BOTTOM = 40, 350, 12, 188
+_STEPS = 12
+_NAME = 26
+"""A band narrower than this has no room for the name of its race."""
+
+
+class Plot(NamedTuple):
+    """The plot in units of its own box, 360 wide and 230 high.
+
+    Attributes
+    ----------
+    curves
+        the stronger player's chance over each band of the chart, as points of a polyline.
+    names
+        the race of each band that has room for it: x, y and the race.
+    dots
+        the pairs.
+    x, y
+        the marks on the axes.
+    """
+
+    curves: Sequence[str]
+    names: Sequence[tuple[float, float, str]]
+    dots: Sequence[tuple[float, float]]
+    x: Sequence[Tick]
+    y: Sequence[Tick]
+    left: int = _LEFT
+    right: int = _RIGHT
+    top: int = _TOP
+    bottom: int = _BOTTOM
+
+
+def evenness_plot(
+    bands: Sequence[Band],
+    pairs: Sequence[SurePair],
+    scale: Scale,
+    error: float = 0.0,
+    form: float = 0.0,
+) -> Plot:
+    """Return P(the stronger wins) against the rating difference: the chart, and each pair.
+
+    `error` is the standard error of a difference over which the chart's chances are averaged, and
+    `form` how much the log-odds of a game vary from match to match.
+    """
+    chances = [p for band in bands for p in (band.p_first, band.p_after)]
+    chances += [pair.p_win for pair in pairs]
+    away = max(0.2, *(abs(p - 0.5) for p in chances)) + 0.02
+    furthest = max([band.after for band in bands] + [pair.difference for pair in pairs]) or 1.0
+
+    def x(points: float) -> float:
+        return round(_LEFT + (_RIGHT - _LEFT) * points / furthest, 2)
+
+    def y(p: float) -> float:
+        return round(_BOTTOM - (_BOTTOM - _TOP) * (p - 0.5 + away) / (2 * away), 2)
+
+    curves, names = [], []
+    for band in bands:
+        places = [band.first + (band.after - band.first) * k / _STEPS for k in range(_STEPS + 1)]
+        race = band.stronger, band.weaker
+        curve = win_given_ratings(places, error, *race, scale=scale, form=form)
+        points = zip(places, curve.tolist(), strict=True)
+        curves.append(" ".join(f"{x(d):g},{y(p):g}" for d, p in points))
+        if x(band.after) - x(band.first) >= _NAME:
+            middle = (x(band.first) + x(band.after)) / 2
+            names.append((round(middle, 2), _BOTTOM - 6.0, f"{band.stronger}:{band.weaker}"))
+    across = round_numbers(0.0, furthest, most=6, steps=[1, 2, 5, 10])
+    up = round_numbers(0.5 - away, 0.5 + away, most=5, steps=[1, 2, 5, 10])
+    return Plot(
+        curves,
+        names,
+        [(x(pair.difference), y(pair.p_win)) for pair in pairs],
+        [Tick(x(d), f"{d:g}") for d in across if 0 <= d <= furthest],
+        [Tick(y(p), f"{p:.1f}") for p in up if abs(p - 0.5) <= away],
+    )
+
 
 Races = Mapping[tuple[str, str], str]
 """The race of each two players, from the side of the first."""

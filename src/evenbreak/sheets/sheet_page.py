@@ -24,14 +24,15 @@ from evenbreak.answers.league.sheet import (
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.sheets.html_page import Section, drawn, drawn_page
-from evenbreak.sheets.race_blocks import race_blocks, race_cards
-from evenbreak.sheets.rating_bars import (
+from evenbreak.sheets.race_blocks import (
     HEIGHT,
     WIDTH,
     Bars,
     PlayerLine,
     evenness_plot,
     player_lines,
+    race_blocks,
+    race_cards,
 )
 
 MOST_LISTED = 500

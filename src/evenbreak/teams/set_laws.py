@@ -16,7 +16,7 @@ from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.given_ratings import averaging_rule
 from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
-from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
 

@@ -291,7 +291,7 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     """Yield what form of the day is worth, where it is established.
 
-    >>> from evenbreak.ratings.calibration import Estimate
+    >>> from evenbreak.ratings.validation.calibration import Estimate
     >>> from evenbreak.ratings.day_form import DayForm
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))

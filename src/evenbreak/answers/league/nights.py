@@ -19,7 +19,7 @@ from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.consistency import Problem
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.walk_forward import even_races
+from evenbreak.ratings.validation.walk_forward import even_races
 
 MOST_TRIED = 20
 """The most events that are tried: each of them takes as long as a watch without events."""

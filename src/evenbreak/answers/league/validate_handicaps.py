@@ -16,11 +16,10 @@ from evenbreak.answers.league.validate_judgement import (
     unfair_starts,
 )
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
-from evenbreak.ratings.calibration import Estimate
-from evenbreak.ratings.race_fairness import HandicapFairness
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.starts import StartGroup, Starts, even_start
-from evenbreak.ratings.validate import Validation
+from evenbreak.ratings.validation.calibration import Estimate
+from evenbreak.ratings.validation.starts import StartGroup, Starts, even_start
+from evenbreak.ratings.validation.validate import HandicapFairness, Validation
 
 WIDE = 0.4
 """The width from which the range of a share says nothing about it."""

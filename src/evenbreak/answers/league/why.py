@@ -18,9 +18,8 @@ from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_w
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.consistency import who_won
-from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.fitted import Ratings, rating_sources
 from evenbreak.ratings.prior import PriorChoice
-from evenbreak.ratings.rating_sources import rating_sources
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import Scale
 

@@ -8,7 +8,7 @@ from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.answers.physics.hit import IMPERIAL, Unit, Units
 from evenbreak.physics.rolling import TABLE_SPEEDS, lag_speed, table_speed
-from evenbreak.physics.tip import best_stick_ratio, break_energy_share
+from evenbreak.physics.strike import best_stick_ratio, break_energy_share
 
 _BREAK_WORDS = {
     "energy_share": ("share of the stroke's energy that reaches the cue ball", 3),

@@ -18,8 +18,7 @@ from evenbreak.answers.physics.hit import (
 from evenbreak.answers.physics.strike import tip_words
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.deflection import deflection
-from evenbreak.physics.leg import Leg, Phase
-from evenbreak.physics.pockets import Pocket
+from evenbreak.physics.leg import Leg, Phase, Pocket
 from evenbreak.physics.shot import Shot, spin_ratios
 
 _WORDS = {

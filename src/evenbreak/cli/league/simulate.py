@@ -204,7 +204,7 @@ def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
 
 
 def _pictures(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.plots.seasons import errors_figure, gaps_figure, standings_figure
+    from evenbreak.plots.league import errors_figure, gaps_figure, standings_figure
 
     figures = {
         "errors_by_week": errors_figure(tables.weeks),

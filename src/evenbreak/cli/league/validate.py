@@ -73,7 +73,7 @@ def command(
     except InputError as error:  # the options have been checked, so it is the data
         raise DataError([f"{file.source}: {error}"]) from None
     if plot is not None:
-        from evenbreak.plots.calibration import calibration_figure
+        from evenbreak.plots.league import calibration_figure
 
         write_plot(calibration_figure(found), plot)
     return answers.validate_answer(

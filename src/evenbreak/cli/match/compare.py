@@ -43,7 +43,7 @@ def command(asked: Compare) -> Answer:
     }
     answer = compare_answer(players, compared, pairs, hold=asked.hold)
     if asked.plot is not None:
-        from evenbreak.plots.formats import plot_formats
+        from evenbreak.plots.matches import plot_formats
 
         figure = plot_formats(
             read,

@@ -80,7 +80,7 @@ def command(
         first="ab".index(first) + 1,
     )
     if plot is not None:
-        from evenbreak.plots.runs import plot_spot
+        from evenbreak.plots.practice import plot_spot
 
         if not any(shots) or not safety:
             refuse("nobody ever makes a ball, so there is nothing to draw; leave --plot out")

@@ -111,7 +111,7 @@ def command(
     one, warnings = chart_for(system, chart)
     found = sandbag_pay(_wide(system, one), question)
     if plot is not None:
-        from evenbreak.plots.sandbagging import pay_figure
+        from evenbreak.plots.league import pay_figure
 
         write_plot(pay_figure(found.pays), plot)
     return sandbag_pay_answer(found, question, warnings)

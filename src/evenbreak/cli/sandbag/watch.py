@@ -130,7 +130,7 @@ def command(
             refuse(f"--player: {player!r} has no match in {season.source}{hint}")
         found = [found[place]]
     if plot is not None:
-        from evenbreak.plots.sandbagging import watch_figure
+        from evenbreak.plots.league import watch_figure
 
         write_plot(watch_figure(found, alpha=alpha), plot)
     if player is not None:

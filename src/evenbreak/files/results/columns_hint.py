@@ -12,7 +12,7 @@ from itertools import combinations, pairwise
 
 from evenbreak.files.results.matches import WALKOVERS
 from evenbreak.matches.formats import BETWEEN
-from evenbreak.ratings.result_words import letters
+from evenbreak.ratings.results_frame import letters
 from evenbreak.words import Parameter, say
 
 _SCORE = re.compile(rf"\d{{1,3}}\s*{BETWEEN}\s*\d{{1,3}}", re.ASCII)

@@ -24,8 +24,8 @@ from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import Texts, TextTable, Values
 from evenbreak.matches.formats import BETWEEN
 from evenbreak.ratings.consistency import find_problems
-from evenbreak.ratings.result_words import FORFEIT_WORDS, FORMAT_WORDS, letters
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.results_frame import FORFEIT_WORDS, FORMAT_WORDS, letters
 from evenbreak.words import Sentence, joined, say
 
 NAMES = ("player_a", "player_b")

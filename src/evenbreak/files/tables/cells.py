@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from evenbreak.checks import one_of
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.table import TextTable, Values
-from evenbreak.ratings.result_words import LARGEST_WHOLE, letters
+from evenbreak.ratings.results_frame import LARGEST_WHOLE, letters
 from evenbreak.words import Parameter, say
 
 # Spreadsheets that once saw a gap in a column write its whole numbers as 7.0.

@@ -17,8 +17,7 @@ from evenbreak.files.csv_writer import undefused
 from evenbreak.files.tables.cells import Column
 from evenbreak.files.tables.problems import first_ones, quoted, warning
 from evenbreak.files.tables.table import TextTable, Values
-from evenbreak.ratings.result_words import letters
-from evenbreak.ratings.results_frame import folded, usual_spellings
+from evenbreak.ratings.results_frame import folded, letters, usual_spellings
 from evenbreak.words import listed, say
 
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}

@@ -24,12 +24,12 @@ from evenbreak.handicaps.charts.played_chart import (
     level_numbers_of,
     played_chart,
 )
-from evenbreak.ratings.calibration import Estimate
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.starts import FEWEST, MOST_CLASSES, handicap_slope
-from evenbreak.ratings.stated_strength import implied_difference
+from evenbreak.ratings.validation.calibration import Estimate
+from evenbreak.ratings.validation.starts import FEWEST, MOST_CLASSES, handicap_slope
 
 FEWEST_STARTS = 7
 """Starts of different sizes, to either side, from which races show what they assume."""

@@ -17,7 +17,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, LevelChart, level_chart
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.starts import level_numbers, levels
+from evenbreak.ratings.validation.starts import level_numbers, levels
 
 Race = tuple[int, int]
 

@@ -25,7 +25,7 @@ from evenbreak.physics.offset import (
 )
 from evenbreak.physics.rolling import kinetic_energy
 from evenbreak.physics.slide import Slide, roll_speed
-from evenbreak.physics.tip import (
+from evenbreak.physics.strike import (
     CentreHit,
     best_stick_ratio,
     break_energy_share,

@@ -16,7 +16,7 @@ from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
-from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 

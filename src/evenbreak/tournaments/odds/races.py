@@ -22,7 +22,7 @@ from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.race_of_pair import Fairest as Fairest
 from evenbreak.handicaps.charts.race_of_pair import Race as Race
 from evenbreak.handicaps.charts.race_of_pair import games_needed as games_needed
-from evenbreak.matches.antidiagonals import race_endings
+from evenbreak.matches.endings import race_endings
 from evenbreak.matches.form import MOST_NODES, centre_of_form, form_of, normal_rule
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match

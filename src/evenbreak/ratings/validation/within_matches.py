@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import expit
 
 from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.ratings.calibration import Estimate, bootstrap_ratio, two_sided
+from evenbreak.ratings.consistency import doubtful_scores
 from evenbreak.ratings.day_form import (
     FEWEST,
     LONGEST,
@@ -24,8 +24,8 @@ from evenbreak.ratings.day_form import (
     log_odds_of,
     normal_nodes,
 )
-from evenbreak.ratings.doubtful_scores import doubtful_scores
-from evenbreak.ratings.walk_forward import Forecasts
+from evenbreak.ratings.validation.calibration import Estimate, bootstrap_ratio, two_sided
+from evenbreak.ratings.validation.walk_forward import Forecasts
 
 REPLICAS = 300
 """Simulated seasons."""

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import expit, ndtr, ndtri, xlog1py, xlogy
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.ratings.walk_forward import Forecasts
+from evenbreak.ratings.validation.walk_forward import Forecasts
 
 CONFIDENCE = 0.95
 """How often intervals cover the truth."""

@@ -1,0 +1,319 @@
+"""Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
+
+import math
+from collections.abc import Sequence
+from typing import overload
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from evenbreak.files.tables.problems import printable
+from evenbreak.league.sandbag_pay import Sandbagging
+from evenbreak.league.sandbag_watch import Watched
+from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
+from evenbreak.ratings.validation.calibration import CalibrationBin
+from evenbreak.ratings.validation.validate import Validation
+
+MOST_PLAYERS = 40
+"""How many players of the standings are drawn: the first half and the last half of them."""
+
+
+@overload
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def errors_figure(weeks: pd.DataFrame) -> Picture: ...
+@in_our_look
+def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how far off the ratings are, week by week.
+
+    Parameters
+    ----------
+    weeks
+        as `weeks_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> from evenbreak.answers.league.season_tables import weeks_frame
+    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
+    >>> season = Season(LeaguePlayers.of([92, 80], skill=[85, 80]), "npl", weeks=3)
+    >>> figure = errors_figure(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))
+    >>> figure.axes[0].get_xlabel()
+    'week'
+    """
+    figure, axes = new_axes(
+        "week",
+        "rating less true skill (points)",
+        title="How far off ratings are",
+        ax=ax,
+    )
+    week = weeks["week"].to_numpy()
+    for low, high, shade, part in (("05", "95", "0.88", 90), ("25", "75", "0.72", 50)):
+        axes.fill_between(
+            week,
+            weeks[f"error_p{low}"].to_numpy(float, na_value=np.nan),
+            weeks[f"error_p{high}"].to_numpy(float, na_value=np.nan),
+            color=shade,
+            linewidth=0,
+            label=f"{part}% of the players",
+        )
+    axes.axhline(0.0, color="0.5", linewidth=0.8)
+    mean, sd = weeks["error_mean"].to_numpy(), weeks["error_sd"].to_numpy()
+    axes.plot(week, mean, **LINES[0]._asdict(), label="mean")
+    axes.plot(week, sd, **LINES[1]._asdict(), label="standard deviation")
+    axes.set_xlim(float(week[0]), float(week[-1]))
+    axes.locator_params(axis="x", integer=True)
+    axes.legend(loc="upper right", frameon=False, ncols=2)
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, top + 0.25 * (top - bottom))  # room for the legend
+    return figure if ax is None else ax
+
+
+@overload
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def gaps_figure(fairness: pd.DataFrame) -> Picture: ...
+@in_our_look
+def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how often the stronger player wins, by the gap between the two skills.
+
+    The bars are two standard errors of the simulation, up and down.
+
+    Parameters
+    ----------
+    fairness
+        as `fairness_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+    """
+    rows = fairness[fairness["group"] == "gap"]
+    figure, axes = new_axes(
+        "gap between the true skills of the day (points)",
+        "share of matches won by the stronger player",
+        title="How fair matches are",
+        ax=ax,
+    )
+    start = rows["from"].to_numpy(float)
+    end = rows["to"].to_numpy(float, na_value=np.nan)
+    # The last gap has no upper limit; it is drawn as wide as the first.
+    middle = (start + np.where(np.isnan(end), start + np.nanmin(end, initial=np.inf), end)) / 2.0
+    axes.axhline(0.5, color="0.5", linewidth=0.8)
+    axes.errorbar(
+        middle,
+        rows["p_win"].to_numpy(),
+        yerr=2.0 * np.nan_to_num(rows["p_win_se"].to_numpy()),
+        fmt="o-",
+        color=LINES[0].color,
+        markersize=4,
+        capsize=2.5,
+        linewidth=1.0,
+    )
+    axes.set_xlim(left=0.0)
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, 0.4), max(high, 0.6))
+    axes.annotate("even", (0.99, 0.5), xycoords=("axes fraction", "data"), ha="right", va="bottom")
+    return figure if ax is None else ax
+
+
+@overload
+def standings_figure(standings: pd.DataFrame, *, ax: Axes) -> Axes: ...
+@overload
+def standings_figure(standings: pd.DataFrame) -> Picture: ...
+@in_our_look
+def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
+
+    Of more than 40 players the first 20 and the last 20 are drawn.
+
+    Parameters
+    ----------
+    standings
+        as `standings_frame` returns it.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+    """
+    rows, many, half = standings, len(standings), MOST_PLAYERS // 2
+    title = "Matches won in a season"
+    if many > MOST_PLAYERS:
+        rows = rows.iloc[[*range(half), *range(many - half, many)]]
+        title += f": the first and the last {half} of {many:,}"
+    size = (6.4, 1.4 + 0.22 * len(rows))
+    figure, axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
+    place = np.arange(len(rows))[::-1]
+    mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
+    low = rows["points_p10"].to_numpy(float, na_value=np.nan)
+    high = rows["points_p90"].to_numpy(float, na_value=np.nan)
+    # Where no histograms of the players are kept, as if normally distributed.
+    low = np.where(np.isnan(low), mean - 1.2816 * sd, low)
+    high = np.where(np.isnan(high), mean + 1.2816 * sd, high)
+    if not np.isnan(sd).all():  # one season has no spread
+        axes.hlines(place, low, high, color="0.65", linewidth=5, label="8 seasons in 10")
+    axes.plot(mean, place, "o", color=LINES[0].color, markersize=4, label="mean")
+    axes.set_yticks(place, [printable(str(name))[:32] for name in rows["player"]])
+    axes.set_ylim(-0.8, len(rows) - 0.2)
+    axes.set_xlim(left=0.0)
+    legend_below(figure, ax)
+    return figure if ax is None else ax
+
+
+# Pictures of sandbagging: what it pays, and the evidence for it.
+
+
+MOST_NAMED = 6
+"""How many players of a league are named; the others are thin lines."""
+
+
+@overload
+def pay_figure(pays: Sandbagging, *, ax: Axes) -> Axes: ...
+@overload
+def pay_figure(pays: Sandbagging) -> Picture: ...
+@in_our_look
+def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw the chance to win each match in earnest, for several numbers of dumped matches.
+
+    Parameters
+    ----------
+    pays
+        what `sandbagging` returned.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> from evenbreak.handicaps import Ladder
+    >>> from evenbreak.league import sandbagging
+    >>> figure = pay_figure(sandbagging(Ladder("npl"), dumped=8))
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
+    """
+    figure, axes = new_axes(
+        "match in earnest",
+        "chance to win it",
+        title="What dumped matches bring",
+        ax=ax,
+    )
+    most, many = len(pays.rows) - 1, pays.p_win.shape[1]
+    shown = sorted({round(most * part / 4) for part in range(5)})
+    matches = range(1, many + 1)
+    for dumped, line in zip(shown, LINES, strict=False):
+        label = f"{dumped} dumped" if dumped else "honest"
+        axes.plot(matches, pays.p_win[dumped], **line._asdict(), label=label)
+    axes.set_xlim(1, max(many, 2))
+    axes.locator_params(axis="x", integer=True)
+    # Room above the lines for their names.
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.25 * (high - low))
+    axes.legend(loc="upper center", fontsize=9, ncols=3)
+    return figure if ax is None else ax
+
+
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float, ax: Axes) -> Axes: ...
+@overload
+def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Picture: ...
+@in_our_look
+def watch_figure(
+    watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None
+) -> Picture | Axes:
+    """Draw the evidence against each player, match by match, on a logarithmic axis.
+
+    Parameters
+    ----------
+    watched
+        what `watch` returned.
+    alpha
+        the alarm is at 1 / alpha.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> import numpy as np
+    >>> from evenbreak.league import Watched
+    >>> rows, e = np.arange(3), np.log([1.0, 8.0, 200.0])
+    >>> figure = watch_figure([Watched("Ann", rows, rows > 0, e, e, "any", 0.01)], alpha=0.01)
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    ['alarm', 'Ann']
+    """
+    figure, axes = new_axes(
+        "match of the player",
+        "evidence",
+        title="Evidence for sandbagging",
+        size=(7.4, 4.2),
+        ax=ax,
+    )
+    named = sorted(watched, key=lambda one: -float(one.log_e.max()))[:MOST_NAMED]
+    axes.axhline(1.0 / alpha, color="#555555", linewidth=0.8, linestyle=":", label="alarm")
+    for one in watched:
+        if one not in named:
+            axes.plot(*_curve(one), color="#bbbbbb", linewidth=0.6)
+    for one, line in zip(named, LINES, strict=False):
+        axes.plot(*_curve(one), **line._asdict(), label=one.player)
+    axes.set_yscale("log")
+    axes.set_xlim(left=0)
+    axes.locator_params(axis="x", integer=True)
+    legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
+    for text in legend.get_texts():
+        text.set_parse_math(False)
+    return figure if ax is None else ax
+
+
+def _curve(one: Watched) -> tuple[range, list[float]]:
+    values = [1.0, *(math.exp(min(max(value, -300.0), 300.0)) for value in one.log_e)]
+    return range(len(values)), values
+
+
+# A picture of a validated season: the chances given, and how often favourites won.
+
+
+@overload
+def calibration_figure(found: Validation, *, ax: Axes) -> Axes: ...
+@overload
+def calibration_figure(found: Validation) -> Picture: ...
+@in_our_look
+def calibration_figure(found: Validation, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw how often favourites won against the chance that they had been given.
+
+    Points on the diagonal are right; below it the chances were too extreme. The bars are
+    95% intervals.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+
+    >>> from evenbreak.ratings import Results, validate
+    >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],
+    ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
+    >>> figure = calibration_figure(validate(season, prior_sd=0.5))
+    >>> figure.axes[0].get_xlabel()
+    'chance given to the favourite'
+    """
+    figure, axes = new_axes(
+        "chance given to the favourite",
+        "share that the favourite won",
+        title="Chances given, and how often favourites won",
+        size=(6.0, 5.4),
+        ax=ax,
+    )
+    axes.plot([0.5, 1.0], [0.5, 1.0], color="0.6", linewidth=1.0, zorder=0, label="right")
+    groups: tuple[tuple[str, Sequence[CalibrationBin], str, float, str], ...] = (
+        ("games", found.games, "o", -0.006, LINES[0].color),
+        ("matches", found.matches, "s", 0.0, LINES[1].color),
+        ("matches, ratings at face value", found.matches_plug_in, "^", 0.006, LINES[2].color),
+    )
+    lowest = 0.5
+    for name, bins, marker, shift, color in groups:
+        if not bins:
+            continue
+        axes.errorbar(
+            # Slightly apart, so that no bar hides another.
+            [row.predicted + shift for row in bins],
+            [row.seen for row in bins],
+            yerr=[[row.seen - row.low for row in bins], [row.high - row.seen for row in bins]],
+            fmt=marker,
+            color=color,
+            markerfacecolor="white" if marker == "^" else color,
+            markersize=5,
+            capsize=2.5,
+            linewidth=1.0,
+            label=name,
+        )
+        lowest = min(lowest, *(row.low for row in bins))
+    axes.set_xlim(0.49, 1.01)
+    axes.set_ylim(max(0.0, lowest - 0.02), 1.01)
+    axes.legend(loc="upper left", frameon=False)
+    return figure if ax is None else ax

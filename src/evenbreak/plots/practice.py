@@ -1,0 +1,434 @@
+"""Plots of practice scores: one list over time, or two side by side."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from evenbreak.files.practice import ScoresFile
+from evenbreak.matches.straight_pool import StraightPool, even_spot, straight_pool_odds
+from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
+from evenbreak.practice.drills import DrillStatistics
+from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.stats.confidence import MeanInterval
+from evenbreak.stats.innings import InningsScore
+from evenbreak.stats.runs import RunLength
+from evenbreak.stats.trend import TrendLine
+
+BAND = "0.85"
+STEP = 0.08
+"""The distance between equal scores, where the lists are 1 apart."""
+
+WIDEST = 0.3
+"""The largest distance of a score from the middle of its list."""
+
+
+@overload
+def plot_scores(
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    line: TrendLine | None = None,
+    *,
+    new: float | None = None,
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_scores(
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    line: TrendLine | None = None,
+    *,
+    new: float | None = None,
+) -> Picture: ...
+@in_our_look
+def plot_scores(
+    file: ScoresFile,
+    interval: MeanInterval | None,
+    line: TrendLine | None = None,
+    *,
+    new: float | None = None,
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    """Return a figure of the scores of a file, their mean and trend, and how sure these are.
+
+    Parameters
+    ----------
+    file
+        the scores, drawn over their dates, or in the order of the file if it has no dates.
+    interval
+        of the true mean; None draws no band.
+    line
+        of the trend on the date of each score; None draws none.
+    new
+        one more score, drawn after the others.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> import numpy as np
+    >>> from evenbreak.files.practice import ScoresFile
+    >>> figure = plot_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
+    >>> [text.get_text() for text in figure.legends[0].get_texts()]
+    ['scores', 'mean 47.00']
+    """
+    figure, axes = new_axes(
+        "number of the score" if file.dates is None else "date",
+        "score",
+        title=f"Practice scores of {Path(file.source).name}",
+        ax=ax,
+    )
+    if file.dates is None:
+        when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
+        later: float | np.datetime64 = len(file.scores) + 1.0
+        axes.locator_params(axis="x", integer=True)
+    else:
+        when = file.dates
+        # After the last score by the usual distance between scores, or a day.
+        apart = (when.max() - when.min()) // max(1, len(when) - 1)
+        later = when.max() + max(apart, np.timedelta64(1, "D"))
+        if ax is None:
+            figure.autofmt_xdate()
+    mean = float(file.scores.mean())
+    if interval is not None:
+        share = f"{100 * interval.confidence:g}% interval of the true mean"
+        axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
+    axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
+    axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
+    if line is not None:
+        _draw_trend(axes, when, line)
+    if new is not None:
+        label = f"new score {new:g}"
+        axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
+    legend_below(figure, ax)
+    return figure if ax is None else ax
+
+
+def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
+    """Draw the line of a trend, and the band in which the true one lies."""
+    order = np.argsort(when, kind="stable")
+    dates, (at, low, high) = when[order], (column[order] for column in line)
+    style = LINES[2]
+    axes.fill_between(
+        dates, low, high, color=style.color, alpha=0.15, linewidth=0, label="interval of the trend"
+    )
+    axes.plot(dates, at, **style._asdict(), label="trend")
+
+
+@overload
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+    *,
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+) -> Picture: ...
+@in_our_look
+def plot_two_lists(
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    names: tuple[str, str],
+    intervals: tuple[MeanInterval | None, MeanInterval | None],
+    *,
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    r"""Return a figure of two lists of scores side by side, each with its mean and interval.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+
+    >>> import numpy as np
+    >>> figure = plot_two_lists(
+    ...     np.array([50.0, 44.0]), np.array([53.0]), ("before", "after"), (None, None)
+    ... )
+    >>> [text.get_text() for text in figure.axes[0].get_xticklabels()]
+    ['before\n2 scores', 'after\n1 score']
+    """
+    shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
+    with_interval = f" with its {shares.pop()}% interval" if shares else ""
+    figure, axes = new_axes(
+        "", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax
+    )
+    for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
+        _strip(axes, place, scores, interval)
+    labels = [
+        f"{name}\n{len(scores)} score{'s' if len(scores) > 1 else ''}"
+        for name, scores in zip(names, (before, after), strict=True)
+    ]
+    axes.set_xticks([0, 1], labels)
+    axes.set_xlim(-0.5, 1.75)
+    return figure if ax is None else ax
+
+
+def _strip(
+    axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
+) -> None:
+    """Draw one list, with equal scores beside one another and the mean to their right."""
+    line = LINES[place]
+    values = scores.tolist()
+    counts, seen = Counter(values), Counter[float]()
+    step = min(STEP, 2 * WIDEST / max(counts.values()))
+    across = []
+    for value in values:
+        across.append(place + step * (seen[value] - (counts[value] - 1) / 2))
+        seen[value] += 1
+    axes.plot(across, scores, "os"[place], color=line.color, alpha=0.75)
+    mean = float(np.mean(scores))
+    beside = place + WIDEST + 0.1
+    if interval is not None:
+        away = [[mean - interval.low], [interval.high - mean]]
+        axes.errorbar([beside], [mean], yerr=away, color=line.color, capsize=5)
+    axes.plot([beside], [mean], "D", color=line.color, markersize=8)
+    axes.annotate(f"{mean:.2f}", (beside, mean), (9, -3), textcoords="offset points")
+
+
+# Pictures of a score, with its mean, median and mode, and of the spot in straight pool.
+
+
+_SHOWN = (0.001, 0.995)
+"""The quantiles between which scores are drawn."""
+
+_COLORS = ("#CC79A7", "#009E73", "#E69F00")
+_HATCHES = ("////", "\\\\\\\\", "....")
+"""The shading of the spans of scores that were asked for."""
+
+_POINTS = 150
+"""The most points that a curve is drawn through."""
+
+
+@overload
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+    ax: Axes,
+) -> Axes: ...
+@overload
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+) -> Picture: ...
+@in_our_look
+def plot_score(
+    law: RunLength | InningsScore,
+    innings: int = 1,
+    *,
+    asked: Sequence[tuple[str, int, int | None]] = (),
+    ax: Axes | None = None,
+) -> Picture | Axes:
+    """Return a figure of the probability of each score, with its mean, median and mode.
+
+    Parameters
+    ----------
+    law
+        the distribution of the score.
+    innings
+        the number of innings, for the label of the axis.
+    asked
+        spans of scores to shade, each with its name: the fewest balls, and the most or None.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> from evenbreak.stats import RunLength
+    >>> figure = plot_score(RunLength(0.9))
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    ['mean 9', 'median 6', 'mode 0']
+    """
+    low, high = (law.quantile(q) for q in _SHOWN)
+    scores = np.arange(low, high + 1)
+    chances = law.probability(scores)
+    played = "an inning" if innings == 1 else f"{innings} innings"
+    figure, axes = new_axes(f"balls made in {played}", "probability", ax=ax)
+    axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
+    axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
+    for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
+        inside = (scores >= least) & (scores <= (high if most is None else most))
+        p = float(law.at_least(least) if most is None else law.between(least, most))
+        sides = np.add.outer(scores[inside], [-0.5, 0.5]).ravel()
+        axes.fill_between(
+            sides,
+            np.repeat(chances[inside], 2),
+            facecolor="none",
+            edgecolor=color,
+            hatch=hatch,
+            linewidth=0.0,
+            label=f"{name} ({p:.4f})",
+        )
+    for line, (name, at) in zip(LINES, law.fair_line._asdict().items(), strict=False):
+        axes.axvline(at, **line._asdict(), linewidth=1.6, label=f"{name} {at:.4g}")
+    axes.set_ylim(0.0)
+    axes.margins(x=0.02)
+    axes.legend(frameon=False)
+    return figure if ax is None else ax
+
+
+@overload
+def plot_spot(match: StraightPool, *, ax: Axes) -> Axes: ...
+@overload
+def plot_spot(match: StraightPool) -> Picture: ...
+@in_our_look
+def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
+    """Return a figure of A's chance in straight pool against the weaker player's points.
+
+    The match as it stands is a dot on the curve. If any number of points makes it even (see
+    `even_spot`), a dashed line marks the one nearest to even.
+
+    Parameters
+    ----------
+    match
+        the match; player 1 is A.
+    ax
+        the axes to draw on, which are returned; None: those of a new figure, which is.
+
+    >>> from evenbreak.matches import StraightPool
+    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8))
+    >>> figure.axes[0].get_xlabel()
+    'points that B needs'
+    """
+    weaker, even, _ = even_spot(match)
+    name = f"points_{weaker}"
+    now = getattr(match, name)
+    most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
+    points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
+    wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
+    shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
+    figure, axes = new_axes(
+        f"points that {' AB'[weaker]} needs",
+        "P(A wins the match)",
+        title=shots,
+        ax=ax,
+    )
+    curve, half = LINES[:2]
+    axes.plot(points, wins, **curve._asdict())
+    axes.plot(
+        [now],
+        [straight_pool_odds(match).p_win_1],
+        "o",
+        color=curve.color,
+        label=f"{match.points_1} against {match.points_2}",
+    )
+    axes.axhline(0.5, color="0.7", linewidth=0.8)
+    if even is not None:
+        name = f"nearest to even: {even}"
+        axes.axvline(even, **half._asdict(), label=name)
+    axes.set_ylim(-0.02, 1.02)
+    axes.margins(x=0.02)
+    axes.legend(frameon=False)
+    return figure if ax is None else ax
+
+
+# Plots of a drill: the attempts at each level, in the long run and in a log.
+
+
+_LEVEL = "level"
+_FRACTION = "fraction of the attempts"
+_TICKS = 20
+"""Up to this many levels, each one has its own tick."""
+
+
+@overload
+def drill_figure(statistics: DrillStatistics, *, ax: Axes) -> Axes: ...
+@overload
+def drill_figure(statistics: DrillStatistics) -> Picture: ...
+@in_our_look
+def drill_figure(statistics: DrillStatistics, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw the fraction of attempts at each level of a drill in the long run.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+
+    Notes
+    -----
+    Source: Table 5.5.
+
+    >>> from evenbreak.games import Drill
+    >>> from evenbreak.practice import drill_statistics
+    >>> figure = drill_figure(drill_statistics(Drill.progressive(0.8)))
+    >>> len(figure.axes[0].patches)
+    9
+    """
+    law = statistics.distribution
+    figure, axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles", ax=ax)
+    levels = np.arange(1, len(law.values) + 1)
+    axes.bar(levels, [float(p) for p in law.probability], 0.8, color="0.75", edgecolor="black")
+    _mark_mean(axes, law.mean, f"mean {law.mean:.2f}", "0.75")
+    _finish(axes, levels.tolist())
+    return figure if ax is None else ax
+
+
+@overload
+def log_figure(analysis: LogAnalysis, *, ax: Axes) -> Axes: ...
+@overload
+def log_figure(analysis: LogAnalysis) -> Picture: ...
+@in_our_look
+def log_figure(analysis: LogAnalysis, *, ax: Axes | None = None) -> Picture | Axes:
+    """Draw the levels of a log beside those of the long run with its success rates.
+
+    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+
+    Notes
+    -----
+    Source: exercise 5.1.
+    """
+    figure, axes = new_axes(_LEVEL, _FRACTION, title="Your drill so far and in the long run", ax=ax)
+    levels = np.array([report.level for report in analysis.levels])
+    visited, implied = (
+        [getattr(report, name) for report in analysis.levels] for name in ("visited", "implied")
+    )
+    axes.bar(levels - 0.2, visited, 0.4, color="0.35", edgecolor="black", label="so far")
+    axes.bar(
+        levels + 0.2,
+        implied,
+        0.4,
+        color="white",
+        edgecolor="black",
+        hatch="////",
+        label="long run",
+    )
+    _mark_mean(axes, analysis.visited.mean, f"mean so far {analysis.visited.mean:.2f}", "0.35")
+    mean, low, high = analysis.implied.mean, analysis.mean_low, analysis.mean_high
+    height = _mark_mean(axes, mean, f"mean in the long run {mean:.2f}", "white", above=0.13)
+    axes.plot(
+        [low, high],
+        [height, height],
+        "|-",
+        color="black",
+        ms=9,
+        zorder=1,
+        label="its 95% interval",
+    )
+    _finish(axes, levels.tolist())
+    return figure if ax is None else ax
+
+
+def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:
+    """Draw a triangle above the highest bar, in the colour of the bars it belongs to."""
+    height = (1.0 + above) * max(
+        bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle)
+    )
+    axes.plot(
+        [mean], [height], "v", ms=9, label=label, markerfacecolor=color, markeredgecolor="black"
+    )
+    return height
+
+
+def _finish(axes: Axes, levels: Sequence[int]) -> None:
+    if len(levels) <= _TICKS:
+        axes.set_xticks(levels)
+    axes.set_xlim(0.4, len(levels) + 0.6)
+    # Leave room above the bars for the legend.
+    axes.set_ylim(0.0, 1.24 * axes.get_ylim()[1])
+    axes.legend(loc="upper right", frameon=False, ncols=2)
