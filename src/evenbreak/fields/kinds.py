@@ -146,6 +146,32 @@ class Number(Kind):
 
 
 @dataclass(frozen=True)
+class NumberOr(Kind):
+    """A number, or a word in place of it.
+
+    >>> kind = NumberOr("best", 0.0, 1e6, "a number of points")
+    >>> kind.read("20"), kind.read("best")
+    (20.0, 'best')
+    """
+
+    word: str = "none"
+    low: float = 0.0
+    high: float = 1e6
+    wanted: str = "a number of points"
+    metavar: str = "X"
+
+    def read(self, text: str) -> float | str:
+        """Return the number, or the word."""
+        if text.strip().lower() == self.word:
+            return self.word
+        return Number(self.low, self.high, f"; give {self.wanted}, or {self.word}").read(text)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"anyOf": [Number(self.low, self.high).schema(), {"const": self.word}]}
+
+
+@dataclass(frozen=True)
 class TwoWhole(Kind):
     """Two whole numbers with a sign between them, such as 7:5.
 

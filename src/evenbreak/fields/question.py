@@ -69,6 +69,8 @@ class Field:
         whether its values are typed on the terminal without the name of an option.
     many
         whether it takes several values: all that are typed, or an option that is repeated.
+    words
+        how many words make one of its values, such as 2 for a pair of names.
     option
         how the terminal calls it, where that is not its name; a short form may follow a slash.
     old
@@ -79,8 +81,6 @@ class Field:
         what a form calls the words of a choice, '' being the one that leaves it out.
     more
         what the reference adds, in Markdown.
-    eager
-        whether it is read before the others, because they go by it.
     """
 
     kind: Kind
@@ -92,12 +92,12 @@ class Field:
     formats: tuple[str, ...] = ()
     argument: bool = False
     many: bool = False
+    words: int = 1
     option: str = ""
     old: tuple[str, ...] = ()
     label: str = ""
     titles: Mapping[str, str] = field(default_factory=dict)
     more: str = ""
-    eager: bool = False
 
 
 class Says:
@@ -154,10 +154,12 @@ class Declared:
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of it."""
         one: dict[str, Any] = self.kind.schema()
+        if self.field.words > 1:
+            one = {"type": "array", "items": one}
         said = {"type": "array", "items": one} if self.field.many else dict(one)
         said["description"] = self.field.help
         if self.usual and not self.field.usual:
-            said["default"] = self.usual if said["type"] == "string" else self.default
+            said["default"] = self.usual if said.get("type") == "string" else self.default
         return said
 
 

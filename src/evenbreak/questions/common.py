@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import LONGEST, Choice, File, Named, Number, TwoWhole, Whole
+from evenbreak.fields.kinds import LONGEST, Choice, File, Folder, Named, Number, TwoWhole, Whole
 from evenbreak.fields.question import Field
 from evenbreak.ratings.scale import Scale, scale_of
 
@@ -95,6 +95,11 @@ def picture(text: str) -> str:
     if wrong:
         raise InputError(f"{text!r}; {wrong}")
     return text
+
+
+OutFolder: TypeAlias = Annotated[
+    str, Field(Folder(), "Where the files go; created if it does not exist.")
+]
 
 
 PlotFile: TypeAlias = Annotated[

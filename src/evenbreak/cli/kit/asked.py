@@ -72,17 +72,14 @@ def _param(one: Declared, question: type) -> click.Parameter:
             metavar=one.metavar,
         )
     words = [one.name, one.option, *([one.short] if one.short else [])]
-    more: dict[str, Any] = {
-        "help": help_of(one, question),
-        "required": one.required,
-        "is_eager": field.eager,
-    }
+    more: dict[str, Any] = {"help": help_of(one, question), "required": one.required}
     if isinstance(one.kind, Flag):
         return click.Option(words, is_flag=True, show_default=False, **more)
     return click.Option(
         words,
         type=Typed(one.kind),
         multiple=field.many,
+        nargs=field.words,
         metavar=one.metavar,
         show_default=False,
         **more,

@@ -1,0 +1,137 @@
+"""What every question about results asks: the files, and how they are to be read."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeAlias
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Flag, Named, Text
+from evenbreak.fields.question import Field, Question
+from evenbreak.files.tables.cells import is_two_dates, read_date
+from evenbreak.words import Parameter
+
+_READING = "Reading the file"
+_DAYS_AHEAD = 366
+
+Day: TypeAlias = Annotated[str | None, Field(Text("DATE"), "A day.")]
+"""A day as it is typed; `Results.day` reads it, in the order that --dates states."""
+
+
+def columns_in(text: str) -> dict[str, str]:
+    """Return the title of each column that a text names.
+
+    >>> columns_in("player_a=Home,player_b=Away")
+    {'player_a': 'Home', 'player_b': 'Away'}
+    """
+    columns: dict[str, str] = {}
+    # A title may have a comma in it, but hardly words and an equals sign after it.
+    for part in re.split(r",(?=[\w ]+=)", text):
+        name, sign, title = (piece.strip() for piece in part.partition("="))
+        name = name.lower().replace(" ", "_")
+        if not (name and sign and title):
+            raise InputError(
+                f"{part.strip()!r}; give the column and the title that it has in the file, such as "
+                "player_a=Home,player_b=Away"
+            )
+        if name in columns or title.casefold() in map(str.casefold, columns.values()):
+            raise InputError(f"{part.strip()!r}; one of them was given before")
+        columns[name] = title
+    return columns
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading(Question):
+    """How a file of results is to be read."""
+
+    aliases: Annotated[
+        str | None,
+        Field(
+            File("ALIASES.csv"),
+            "Names that mean the same player: a file with the columns name and means.",
+            section=_READING,
+        ),
+    ] = None
+    columns: Annotated[
+        tuple[dict[str, str], ...],
+        Field(
+            Named(columns_in, "NAME=TITLE,..."),
+            "What the file calls its columns, such as player_a=Home,player_b=Away.",
+            many=True,
+            section=_READING,
+        ),
+    ] = ()
+    skip_bad: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Leave out rows that cannot be read and scores that can hardly be games, and list "
+            "them.",
+            usual="refuse the file",
+            section=_READING,
+        ),
+    ] = False
+    dates: Annotated[
+        Literal["mdy", "dmy"] | None,
+        Field(
+            Choice(("mdy", "dmy")),
+            "The order in dates such as 9/3/2024: month first or day first.",
+            usual="as other dates of the file show",
+            section=_READING,
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a column that is named twice."""
+        pairs = [pair for part in self.columns for pair in part.items()]
+        titles = [title.casefold() for _, title in pairs]
+        for k, (name, title) in enumerate(pairs):
+            if name in dict(pairs[:k]) or titles[k] in titles[:k]:
+                self.refuse(
+                    "{columns} has {part!r}, but one of them was given before",
+                    part=f"{name}={title}",
+                )
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """How to read the results, as `files.read_results` takes it."""
+        columns = {name: title for part in self.columns for name, title in part.items()}
+        return {
+            "aliases": self.aliases,
+            "columns": columns,
+            "dates": self.dates,
+            "skip_bad": self.skip_bad,
+        }
+
+    def day(self, name: str) -> str | None:
+        """Return the day in a field, written in any way of a results file, as 2026-01-31.
+
+        In 9/3/2024 `dates` says which is the month. The day may lie up to a year ahead, for a
+        tournament to come; a later one was mistyped.
+        """
+        text: str | None = getattr(self, name)
+        if text is None:
+            return None
+        day = read_date(text.strip(), self.dates)
+        if day is None:
+            remedy = "give a day, such as 2026-01-31, 31.1.2026 or 1/31/2026"
+            if is_two_dates(text.strip()):
+                remedy = "say with {dates} mdy or {dates} dmy what comes first, or write 2026-01-31"
+            self.refuse("{part} is {day!r}; " + remedy, part=Parameter(name), day=text)
+        if day > np.datetime64("today", "D") + _DAYS_AHEAD:
+            self.refuse(
+                "{part} is {day!r}, more than a year from today; give an earlier day",
+                part=Parameter(name),
+                day=text,
+            )
+        return str(day)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Results(Reading):
+    """A question about results, in one file or several."""
+
+    results: Annotated[tuple[str, ...], Field(File("RESULTS.csv..."), argument=True, many=True)]
