@@ -56,7 +56,7 @@ SAID = say refuse worded say_as:1c,2 say_count:1,2 EvenbreakError InputError Dat
 
 catalogues:       ## collect the sentences that pages show into each language's catalogue
 	$(PYTHON) -m babel.messages.frontend -q extract -F babel.cfg --no-default-keywords $(addprefix -k ,$(SAID)) \
-		--add-location file --width 100 -o evenbreak.pot .
+		--no-location --sort-output --width 100 -o evenbreak.pot .
 	for po in src/evenbreak/words/locale/*/LC_MESSAGES/evenbreak.po; do \
 		$(PYTHON) -m babel.messages.frontend -q update -i evenbreak.pot -o $$po -D evenbreak \
 		-l $$(basename $$(dirname $$(dirname $$po))) -N --ignore-obsolete --width 100 \

@@ -189,7 +189,7 @@ def test_points_that_cannot_be_are_refused(point: Point, what: str) -> None:
 
 
 def test_nights_that_cannot_be_are_refused() -> None:
-    with pytest.raises(InputError, match="cannot fill 3 sets"):
+    with pytest.raises(InputError, match="can't fill 3 sets"):
         TeamNight(squad(2, "a"), squad(3, "b"), law(chances(2, 3, 1)), sets=3)
     capped = squad(3, "a", Cap((3, 3, 3), 5, "the sum of the levels"))
     with pytest.raises(InputError, match="sum of the levels to 5"):

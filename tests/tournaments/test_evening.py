@@ -398,7 +398,7 @@ def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> N
     events.append(Event(AT, moves.call(state, "W1.2", 2)))
     with pytest.raises(InputError, match="table 2"):
         moves.change(evening(events), tables=1)
-    with pytest.raises(InputError, match="--tables"):
+    with pytest.raises(InputError, match="set tables, race"):
         moves.change(evening(events))
 
 
@@ -481,10 +481,10 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
         (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in W1.1"),
         (lambda s: moves.score(s, "W1.1", (5, 0)), "result W1.1 5:0"),
-        (lambda s: stand(s, "W1.1"), "cannot stand"),
+        (lambda s: stand(s, "W1.1"), "nothing to let stand"),
         (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
         (lambda s: moves.drop(s, "P99"), "P99"),
-        (lambda s: moves.late(s, Entrant("p1", 1.0)), "P1 has entered"),
+        (lambda s: moves.late(s, Entrant("p1", 1.0)), "P1 has already entered"),
         (lambda s: moves.call(s, "W1.1", 5), "table 5"),
         (lambda s: moves.draw(s, np.random.default_rng()), "draw"),
     ],

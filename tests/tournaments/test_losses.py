@@ -185,7 +185,7 @@ def test_a_match_called_back_keeps_its_score_and_may_be_called_again() -> None:
     assert not after.on_tables
     assert after.live == before.live
     assert moves.free_tables(after) == [1, 2, 3]
-    with pytest.raises(InputError, match="on no table"):
+    with pytest.raises(InputError, match="is not on a table"):
         moves.call_back(after, "W1.1")
     _, again = night.add(moves.call(after, "W1.1", 2))
     assert again.on_tables["W1.1"].call.table == 2

@@ -172,7 +172,7 @@ def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
     with running(six.site.path) as site:
         six.director.site = site
         shown = six.director.send_raw("/desk/drop", sent)
-    assert "nothing was entered a second time" in shown.words.lower()
+    assert "nothing was entered twice" in shown.words.lower()
     assert read_events(six.site.path) == entered
 
 
@@ -199,7 +199,7 @@ def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) 
             continue
         shown = six.director.send_raw(action, fields)
         assert shown.status == 409, (action, shown.words)
-        assert "Another tournament has started since" in shown.words
+        assert "Another tournament was started in the meantime" in shown.words
         seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
     assert {"/desk/result", "/desk/undo", "/desk/drop", "/new", "/m/{token}/score"} <= seen
     assert (read_events(six.site.path), six.site.pin) == (before, secret)

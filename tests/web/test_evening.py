@@ -104,7 +104,7 @@ def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -
     phone, _ = scored_by_phones(hall, "W1.1", (3, 1))
     assert "W1.1" in hall.state.counted
     hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
-    assert "says:" not in hall.director.open("/desk").words
+    assert " reports " not in hall.director.open("/desk").words
     token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
     assert "counts once" in phone.send(f"/m/{token}/score", a=3, b=1, **asked).words
     assert "W1.1" not in hall.state.counted
@@ -265,7 +265,7 @@ def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> Non
     assert "216.00 is paid" in hall.guest.open("/prizes", fee="13,50", payout="100").words
     for wrong in ("1e5", "nan", "-1", "12.345", "99999999"):
         assert hall.guest.open("/prizes", fee=wrong).status == 400
-    assert "give your own shares" in hall.guest.open("/prizes", fee="5", payout="hoboken").words
+    assert "enter your own shares" in hall.guest.open("/prizes", fee="5", payout="hoboken").words
     assert kept_prizes(hall.site.path) == PrizeMoney(20.0, 80.0, payout="50/30/20")
     state = hall.state.events
     new_tournament(hall.site.path, state[:1], in_place_of=len(state))

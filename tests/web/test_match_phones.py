@@ -75,7 +75,7 @@ def test_the_director_alone_releases_a_side(hall: Hall) -> None:
     assert "Release" not in owner.phone.open(owner.to).words
     assert "Release" in hall.director.open(owner.to).words
     assert hall.director.send(f"{owner.to}/release", me=0).status == 200
-    assert "says:" not in hall.director.open("/desk").words  # what the thief sent is void
+    assert " reports " not in hall.director.open("/desk").words  # what the thief sent is void
     assert owner.claims(0).status == 200
     assert thief.claims(0).status == 409
     history = hall.director.open("/desk/history").words

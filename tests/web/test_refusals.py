@@ -269,8 +269,8 @@ def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:
     ("path", "fields", "why"),
     [
         ("/desk/result", {"match": "W1.1", "a": "x", "b": 0, "how": "new"}, "whole number"),
-        ("/desk/result", {"match": "W1.1", "a": 9, "b": 0, "how": "new"}, "does not end"),
-        ("/desk/result", {"match": "W9.9", "a": 3, "b": 0, "how": "new"}, "does not exist"),
+        ("/desk/result", {"match": "W1.1", "a": 9, "b": 0, "how": "new"}, "can't be the final"),
+        ("/desk/result", {"match": "W9.9", "a": 3, "b": 0, "how": "new"}, "There is no match"),
         ("/desk/result", {"match": "W1.1", "a": 3, "b": 0, "how": "else"}, "must be one of"),
         ("/desk/call", {"match": "W2.1", "table": 1}, "not ready"),
         ("/desk/late", {"name": " "}, "at least one"),

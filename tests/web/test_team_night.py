@@ -428,7 +428,7 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
         ({"players_b": "player,rating\nUli,high"}, "Cues: line 2: rating 'high'"),
         ({"cap": "5"}, "no line-up"),
         ({"cap": "-1"}, "number above 0"),
-        ({"sets": "9"}, "cannot fill 9 sets"),
+        ({"sets": "9"}, "can't fill 9 sets"),
         ({"race": "0"}, "whole number"),
         ({"races": "sideways"}, "must be one of"),
         ({"pattern": "AXB"}, "order is"),

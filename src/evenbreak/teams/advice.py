@@ -131,7 +131,7 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
     night = solution.night
     k, a, b = _states(night, point)
     if k == night.sets:
-        raise InputError(f"all {k} sets have been named; there is nobody left to put up")
+        raise InputError("all {k} sets have been named; there is nobody left to put up", k=k)
     games, letter = _games(solution, point, k, a, b)
     mine, others = night.our_line_ups, night.their_line_ups
     rows = np.flatnonzero(mine.after[k][a] >= 0)
@@ -212,8 +212,9 @@ def _turns(
         found = [i for i, names in enumerate(first) if tuple(sorted(names)) == wanted]
         if not found:
             raise InputError(
-                f"{' and '.join(named)} cannot be named now: used up, kept out by a cap, or not in "
-                "the squad that names first"
+                "{named} cannot be named now: used up, kept out by a cap, or not in the "
+                "squad that names first",
+                named=" and ".join(named),
             )
         values = games[found[0]]
         order = np.argsort(sign * values, kind="stable")
@@ -243,22 +244,31 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     for used in (point.used_ours, point.used_theirs):
         if len(used) not in played:
             raise InputError(
-                f"{', '.join(used)} cannot be the players used so far: they do not fill whole sets"
+                "{used} cannot be the players used so far: they do not fill whole sets",
+                used=", ".join(used),
             )
     k = played.index(len(point.used_ours))
     if len(point.used_theirs) != len(point.used_ours):
         raise InputError(
-            f"players used: {len(point.used_ours)} of ours and {len(point.used_theirs)} of "
-            "theirs; give both sides of every set played"
+            "players used: {n_used_ours} of ours and {n_used_theirs} of theirs; give both "
+            "sides of every set played",
+            n_used_ours=len(point.used_ours),
+            n_used_theirs=len(point.used_theirs),
         )
     over = k - len(point.in_play)
     if over < 0:
-        raise InputError(f"{len(point.in_play)} matches are in play, but {k} sets were named")
+        raise InputError(
+            "{n_in_play} matches are in play, but {k} sets were named",
+            n_in_play=len(point.in_play),
+            k=k,
+        )
     whole(abs(point.lead), "lead")
     if point.lead not in night.leads_after(over):
         raise InputError(
-            f"a lead of {point.lead} is not possible with {over} set{'s' * (over != 1)} over, as "
-            "the players used say"
+            "a lead of {lead} is not possible with {over} set{what} over, as the players used say",
+            lead=point.lead,
+            over=over,
+            what="s" * (over != 1),
         )
     return (
         k,
@@ -276,8 +286,9 @@ def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
         return line_ups.used[k].index(wanted)
     except ValueError:
         raise InputError(
-            f"{', '.join(used)} cannot be the players used so far: one plays too often, or the "
-            "line-up can no longer keep its caps"
+            "{used} cannot be the players used so far: one plays too often, or the line-up "
+            "can no longer keep its caps",
+            used=", ".join(used),
         ) from None
 
 
@@ -302,7 +313,7 @@ def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple
 def _last_won(point: Point, letter: str) -> bool:
     if point.last_won is None:
         who = "winner" if letter == WINNER else "loser"
-        raise InputError(f"the {who} of the last set names first; say who won it")
+        raise InputError("the {who} of the last set names first; say who won it", who=who)
     return point.last_won
 
 

@@ -56,7 +56,7 @@ def league_nights(
     """
     count = len(squads)
     if count < 2:
-        raise InputError(f"{count} teams; give at least two")
+        raise InputError("{count} teams; give at least two", count=count)
     found = np.full((count, count), np.nan)
     for i in range(count):
         for j in range(count):

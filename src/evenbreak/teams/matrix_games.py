@@ -61,7 +61,10 @@ def matrix_game(payoff: ArrayLike) -> MatrixGame:
     """
     given = floats(payoff, "payoff")
     if given.ndim < 2 or 0 in given.shape[-2:]:
-        raise InputError(f"payoff has shape {given.shape}; give a row and a column for each choice")
+        raise InputError(
+            "payoff has shape {given_shape}; give a row and a column for each choice",
+            given_shape=given.shape,
+        )
     games = given.reshape(-1, *given.shape[-2:])
     low = games.min(axis=(1, 2))
     spread = games.max(axis=(1, 2)) - low

@@ -78,7 +78,11 @@ class TeamNight:
         given: list[Any] = [laws] * sets if sets is not None else list(laws)  # type: ignore[arg-type]
         each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
         if len(each) != len(given):
-            raise InputError(f"sizes has {len(each)} sets and laws {len(given)}; give one each")
+            raise InputError(
+                "sizes has {n_each} sets and laws {n_given}; give one each",
+                n_each=len(each),
+                n_given=len(given),
+            )
         for size in each:
             one_of(size, "sizes", (1, 2))
         mine, others = line_ups(ours, each), line_ups(theirs, each)
@@ -143,16 +147,23 @@ def _law(given: ArrayLike, ours: int, theirs: int) -> Floats:
     law = floats(given, "laws", low=0.0, high=1.0)
     if law.ndim != 4 or law.shape[2] != 2 or not law.shape[3] % 2:
         raise InputError(
-            f"a law has shape {law.shape}; give (our picks, their picks, 2, an odd number)"
+            "a law has shape {law_shape}; give (our picks, their picks, 2, an odd number)",
+            law_shape=law.shape,
         )
     if law.shape[:2] != (ours, theirs):
         raise InputError(
-            f"a law has shape {law.shape}; the squads have {ours} and {theirs} picks for the set"
+            "a law has shape {law_shape}; the squads have {ours} and {theirs} picks for the set",
+            law_shape=law.shape,
+            ours=ours,
+            theirs=theirs,
         )
     off = np.abs(law.sum(axis=(2, 3)) - 1.0)
     if off.max() > 1e-9:
         i, j = np.unravel_index(off.argmax(), off.shape)
         raise InputError(
-            f"the chances of picks {i} and {j} add up to {law[i, j].sum():.9g}; they must be 1"
+            "the chances of picks {i} and {j} add up to {sum:.9g}; they must be 1",
+            i=i,
+            j=j,
+            sum=law[i, j].sum(),
         )
     return law

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
+from evenbreak.words import Parameter, say
 
 OURS, THEIRS, BOTH, WINNER, LOSER = "A", "B", "=", "W", "L"
 _MIRROR = {OURS: THEIRS, THEIRS: OURS}
@@ -40,18 +41,33 @@ def order_of(text: str, sets: int) -> str:
     """
     whole(sets, "sets", at_least=1)
     pattern = NAMED.get(text.strip().lower(), "")[:sets] or text.strip().upper()
-    wanted = (
+    wanted = say(
         "write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
-        f"(who won or lost the last set); or a name: {', '.join(NAMED)}"
+        "(who won or lost the last set); or a name: {names}",
+        names=", ".join(NAMED),
     )
     if not pattern or set(pattern) - {OURS, THEIRS, BOTH, WINNER, LOSER}:
-        raise InputError(f"order is {text!r}; {wanted}")
+        raise InputError(
+            "{order} is {text!r}; {wanted}", order=Parameter("order"), text=text, wanted=wanted
+        )
     if len(pattern) > sets:
-        raise InputError(f"order {text!r} has {len(pattern)} letters for {sets} sets; {wanted}")
+        raise InputError(
+            "{order} is {text!r}, {letters} letters for {sets} sets; {wanted}",
+            order=Parameter("order"),
+            text=text,
+            letters=len(pattern),
+            sets=sets,
+            wanted=wanted,
+        )
     repeated = pattern[-1:] if pattern[-1] in (WINNER, LOSER) else pattern
     found = (pattern + repeated * sets)[:sets]
     if found[0] in (WINNER, LOSER):
-        raise InputError(f"order is {text!r}, but nobody has won before the first set; {wanted}")
+        raise InputError(
+            "{order} is {text!r}, but nobody has won before the first set; {wanted}",
+            order=Parameter("order"),
+            text=text,
+            wanted=wanted,
+        )
     return found
 
 

@@ -132,8 +132,10 @@ def round_law(
         raise InputError("give one of games and race")
     if not everybody and len(ours) != len(theirs):
         raise InputError(
-            f"one team has {len(ours)} players and the other {len(theirs)}; leave out those who "
-            "do not play, or let everybody meet everybody"
+            "one team has {n_ours} players and the other {n_theirs}; leave out those who do "
+            "not play, or let everybody meet everybody",
+            n_ours=len(ours),
+            n_theirs=len(theirs),
         )
     scale = scale_of(scale)
     if race is None:

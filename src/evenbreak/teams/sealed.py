@@ -87,10 +87,12 @@ def sealed(night: TeamNight) -> SealedNight:
     0.6
     """
     if set(night.sizes) != {1} or any(law is not night.laws[0] for law in night.laws):
-        raise InputError("sealed line-ups are solved for sets that are alike, one player a side")
+        raise InputError(
+            "line-ups can only be sealed if all sets are alike, with one player a side"
+        )
     ours, theirs = night.our_line_ups.used[-1], night.their_line_ups.used[-1]
     if len(ours) * len(theirs) > MOST_PAIRS:
-        raise InputError("there are too many line-ups; leave out those who will not play tonight")
+        raise InputError("there are too many line-ups; leave out those who won't play tonight")
     games = _mean_over_pairings(night, ours, theirs)
     solution = matrix_game(games)
     return SealedNight(

@@ -47,7 +47,11 @@ class Points:
         for name in ("win", "shutout", "hill"):
             whole(getattr(self, name), name)
         if self.win <= self.hill:
-            raise InputError(f"win is {self.win} and hill {self.hill}; give more for winning")
+            raise InputError(
+                "winning must count more ({win}) than losing hill-hill ({hill})",
+                win=self.win,
+                hill=self.hill,
+            )
 
 
 Count: TypeAlias = Literal["sets", "games"] | Points
@@ -168,7 +172,9 @@ def law_in_play(
     m, n = (int(needs[0, 0]) for needs in games_needed(points, race, scale))
     a, b = (whole(games, "score") for games in score)
     if a >= m or b >= n:
-        raise InputError(f"the score {a}:{b} ends a race {m}:{n}; give that of a match in play")
+        raise InputError(
+            "{a}:{b} ends a race {m}:{n}; enter the score of a match in play", a=a, b=b, m=m, n=n
+        )
     nodes, weights = averaging_rule(float(errors[0, 0]), m + n, scale)
     p = scale.win_probability(points[0, 0] + nodes * errors[0, 0])
     weights = weights * p**a * (1.0 - p) ** b
@@ -202,8 +208,9 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
     """
     (m, n), (a, b) = needs, (whole(games, "score") for games in score)
     if (a == m) == (b == n) or a > m or b > n:
-        race = f"to {m}" if m == n else f"{m}:{n}"
-        raise InputError(f"{a}:{b} does not end a race {race}")
+        if m == n:
+            raise InputError("{a}:{b} can't be the final score of a race to {n}", a=a, b=b, n=n)
+        raise InputError("{a}:{b} can't be the final score of a race {m}:{n}", a=a, b=b, m=m, n=n)
     if count == "games":
         return a, b
     won = a == m
@@ -243,7 +250,9 @@ def rating_differences(ours: Roster, theirs: Roster, size: int = 1) -> tuple[Flo
     for roster in (ours, theirs):
         if np.isnan(roster.rating).any():
             name = roster.players[int(np.isnan(roster.rating).argmax())]
-            raise InputError(f"{name!r} has no rating; give one, or leave the player out")
+            raise InputError(
+                "{player!r} has no rating; add one, or leave the player out", player=name
+            )
         variance = np.nan_to_num(roster.standard_error) ** 2
         sides.append((_of_picks(roster.rating, size), _of_picks(variance, size) / size))
     (mine, mine_off), (others, others_off) = sides

@@ -206,8 +206,10 @@ def refuse_large(night: TeamNight) -> None:
         if it has.
     """
     if steps_of(night) > MOST_STEPS:
-        sizes = f"{len(night.ours.names)} and {len(night.theirs.names)} players"
         raise InputError(
-            f"squads of {sizes} allow too many line-ups of {night.sets} sets; leave out those who "
-            "will not play tonight"
+            "squads of {ours} and {theirs} players allow too many line-ups of {sets} sets; "
+            "leave out those who won't play tonight",
+            ours=len(night.ours.names),
+            theirs=len(night.theirs.names),
+            sets=night.sets,
         )

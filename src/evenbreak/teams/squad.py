@@ -12,6 +12,7 @@ import numpy as np
 from evenbreak.arrays import Ints
 from evenbreak.checks import names, number, whole
 from evenbreak.errors import InputError
+from evenbreak.words import Sentence, listed, say
 
 MOST_STATES = 20_000
 """The most groups of players used up after a set; more would take minutes."""
@@ -43,7 +44,7 @@ class Cap:
 
     weights: tuple[float, ...]
     most: float
-    name: str = "the cap"
+    name: str = say("the cap")
 
     def __post_init__(self) -> None:
         given = tuple(number(value, "weights") for value in self.weights)
@@ -74,11 +75,13 @@ def caps_of(
     """
     found = []
     if most is not None:
-        found.append(Cap(tuple(weights), most, "the sum of the levels"))
+        found.append(Cap(tuple(weights), most, say("the sum of the levels")))
     if at_most is not None:
         many, high = at_most
         above = tuple(float(level >= high) for level in weights)
-        found.append(Cap(above, many, f"the number of players of level {high:g} or more"))
+        found.append(
+            Cap(above, many, say("the number of players at level {level:g} or above", level=high))
+        )
     return tuple(found)
 
 
@@ -113,8 +116,10 @@ class Squad:
         for cap in self.caps:
             if len(cap.weights) != len(self.names):
                 raise InputError(
-                    f"{cap.name} has {len(cap.weights)} weights for {len(self.names)} players; "
-                    "give one each"
+                    "{cap} has {weights} weights for {players} players; there must be one for each",
+                    cap=cap.name,
+                    weights=len(cap.weights),
+                    players=len(self.names),
                 )
 
     def place(self, name: str) -> int:
@@ -128,8 +133,11 @@ class Squad:
         try:
             return self.names.index(name)
         except ValueError:
-            listed = ", ".join(self.names)
-            raise InputError(f"{name!r} is not in the squad; its players are {listed}") from None
+            raise InputError(
+                "{player!r} is not in the squad; its players are {squad}",
+                player=name,
+                squad=", ".join(self.names),
+            ) from None
 
 
 class LineUps(NamedTuple):
@@ -173,21 +181,27 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
         used.append(list(dict.fromkeys(filter(None, each))))
         if len(used[-1]) > MOST_STATES:
             raise InputError(
-                f"{count} players allow too many line-ups of {len(sizes)} sets; leave out those "
-                "who will not play tonight"
+                "{players} players allow too many line-ups of {sets} sets; leave out those "
+                "who won't play tonight",
+                players=count,
+                sets=len(sizes),
             )
     if not used[-1]:
         raise InputError(
-            f"{', '.join(squad.names)} cannot fill {len(sizes)} sets; add players, or let them "
-            "play more than once"
+            "{players} can't fill {sets} sets; add players, or let them play more than once",
+            players=", ".join(squad.names),
+            sets=len(sizes),
         )
     used[-1] = [
         counts for counts in used[-1] if all(cap.total(counts) <= cap.most for cap in squad.caps)
     ]
     if not used[-1]:
         raise InputError(
-            f"no line-up of {len(sizes)} sets of {', '.join(squad.names)} keeps {_asked(squad)}; "
-            "raise the limit, or add players who count for less"
+            "no line-up of {players} for {sets} sets keeps {caps}; raise the limit, or add "
+            "players who count for less",
+            players=", ".join(squad.names),
+            sets=len(sizes),
+            caps=_asked(squad),
         )
     after: list[Ints] = []
     for k in reversed(range(len(sizes))):
@@ -222,5 +236,7 @@ def _with(squad: Squad, counts: Counts, pick: Sequence[int]) -> Counts:
     return tuple(more)
 
 
-def _asked(squad: Squad) -> str:
-    return " and ".join(f"{cap.name} to {cap.most:g} or less" for cap in squad.caps)
+def _asked(squad: Squad) -> Sentence:
+    return listed(
+        [say("{cap} to {most:g} or less", cap=cap.name, most=cap.most) for cap in squad.caps]
+    )

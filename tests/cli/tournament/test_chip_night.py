@@ -127,7 +127,7 @@ def test_what_a_chip_night_has_not_is_refused_in_one_line(begun):
         (("show", "--out", "x.html"), "--out"),
         (("print", "bracket"), "bracket"),
         (("change", "--race", "3"), "tables"),
-        (("late", "ann"), "entered already"),
+        (("late", "ann"), "already entered"),
     ):
         assert said in begun(*words, fails=2)
 

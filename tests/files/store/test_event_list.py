@@ -86,7 +86,7 @@ def test_a_bracket_of_another_program_is_kept(tmp_path: Path) -> None:
         ('1,late,dropped,"{""name"": ""Bo""}"\n', "events.csv:2: .* at is 'late'"),
         ("1,x,opened,{},Ann,Bo\n", "events.csv:2"),
         (f"1,{AT},undone,{{}}\n", "nothing to undo"),
-        ("", "does not open"),
+        ("", "does not start"),
     ],
 )
 def test_other_rows_are_one_problem(tmp_path: Path, rows: str, said: str) -> None:

@@ -108,5 +108,5 @@ def test_events_survive_as_plain_data(what):
 def test_what_is_no_event_is_refused():
     with pytest.raises(InputError, match="number is missing"):
         event_of("put up", {"team": 1})
-    with pytest.raises(InputError, match="not an event of a team night"):
+    with pytest.raises(InputError, match="not an entry of a team night"):
         event_of("put down", {"team": 1})

@@ -28,13 +28,13 @@ def test_what_is_there_already_gives_no_event():
     [
         (after(), lambda s: moves.put_up(s, 1, 1, ("Wim",)), "Racks names first"),
         (after(ANN), lambda s: moves.put_up(s, 0, 1, ("Bo",)), "already"),
-        (after(ANN), lambda s: moves.put_up(s, 1, 2, ("Wim",)), "set 1 comes next"),
-        (after(ANN), lambda s: moves.put_up(s, 1, 1, ("Uli", "Vic")), "one player"),
-        (after(ANN, WIM), lambda s: moves.put_up(s, 1, 2, ("Wim",)), "cannot be put up"),
+        (after(ANN), lambda s: moves.put_up(s, 1, 2, ("Wim",)), "set 1 is next"),
+        (after(ANN), lambda s: moves.put_up(s, 1, 1, ("Uli", "Vic")), "1 player in"),
+        (after(ANN, WIM), lambda s: moves.put_up(s, 1, 2, ("Wim",)), "can't be put up"),
         (after(ANN, WIM, order="winner"), lambda s: moves.put_up(s, 0, 2, ("Bo",)), "result"),
-        (after(), lambda s: moves.propose(s, 0, 1, (4, 0)), "nobody plays"),
+        (after(), lambda s: moves.propose(s, 0, 1, (4, 0)), "has no players"),
         (after(), lambda s: moves.result(s, 9, (4, 0)), "no set 9"),
-        (after(ANN, WIM), lambda s: moves.propose(s, 0, 1, (4, 4)), "does not end"),
+        (after(ANN, WIM), lambda s: moves.propose(s, 0, 1, (4, 4)), "can't be the final score"),
         (
             after(ANN, WIM, Result(1, (4, 0))),
             lambda s: moves.propose(s, 0, 1, (0, 4)),
@@ -50,7 +50,7 @@ def test_what_is_there_already_gives_no_event():
         (
             after(order="sealed", cap=15),
             lambda s: moves.hand_in(s, 0, (("Ann",), ("Bo",), ("Cleo",))),
-            "15 is the most",
+            "the limit is 15",
         ),
         (after(order="sealed"), lambda s: moves.hand_in(s, 0, (("Bo",),)), "3 players"),
         (
@@ -91,7 +91,7 @@ def test_who_can_still_be_put_up_under_a_cap():
     ("how", "why"),
     [
         ({"cap": 5}, "no line-up"),
-        ({"sets": 4}, "cannot fill"),
+        ({"sets": 4}, "can't fill"),
         ({"race": 0}, "race is 0"),
         ({"doubles": (9,)}, "set 9"),
         ({"order": "sideways"}, "order is"),

@@ -25,11 +25,11 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
     What,
+    score_words,
 )
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.losses import losses
-from evenbreak.tournaments.evening.moves import score_words
 from evenbreak.tournaments.evening.settling import TieBreak
 
 

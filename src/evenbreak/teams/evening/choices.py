@@ -99,11 +99,14 @@ def check_line_up(state: TeamEvening, team: int, picks: Sequence[Pick]) -> None:
     counts = _counts(squad, named)
     often = [name for name, many in zip(squad.names, counts, strict=True) if many > squad.times]
     if often:
-        raise InputError(f"{often[0]} is named more often than they may play")
+        raise InputError("{player} is named more often than they may play", player=often[0])
     for cap in squad.caps:
         if cap.total(counts) > cap.most:
             raise InputError(
-                f"{cap.name} is {cap.total(counts):g}, and {cap.most:g} is the most allowed"
+                "{cap} is {total:g}; the limit is {most:g}",
+                cap=cap.name,
+                total=cap.total(counts),
+                most=cap.most,
             )
 
 

@@ -111,5 +111,5 @@ def event_of(kind: str, data: Any) -> What:
     HandedIn(team=1, picks=(('Cy',), ('Di',)))
     """
     if kind not in KINDS:
-        raise InputError(f"{kind[:40]!r} is not an event of a team night")
+        raise InputError("{kind!r} is not an entry of a team night", kind=kind[:40])
     return made(KINDS[kind], data)

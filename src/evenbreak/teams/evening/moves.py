@@ -21,6 +21,7 @@ from evenbreak.teams.evening.fold import SetLine, TeamEvening
 from evenbreak.teams.evening.plan import NightPlan
 from evenbreak.teams.order import WINNER
 from evenbreak.teams.set_laws import brought
+from evenbreak.words import listed, say, say_count
 
 
 def begin(state: TeamEvening | None, plan: NightPlan) -> list[What]:
@@ -46,8 +47,9 @@ def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]
         return []
     if there and state.open(number):
         raise InputError(
-            f"{' and '.join(there)} has been put up in set {number} already; only the director "
-            "can take that back"
+            "{players} has already been put up in set {n}; only the director can take that back",
+            players=listed(there),
+            n=number,
         )
     _check_turn(state, team, number, replaces=bool(there))
     wanted = sorted(pick)
@@ -57,25 +59,34 @@ def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]
     size = state.meeting.sizes[number - 1]
     if len(pick) != size:
         raise InputError(
-            f"set {number} is played by {'two players' if size == 2 else 'one player'}"
+            "a team puts up {players} in set {n}",
+            players=say_count("{n} player", "{n} players", size),
+            n=number,
         )
-    raise InputError(f"{' and '.join(pick)} cannot be put up in set {number}")
+    raise InputError("{players} can't be put up in set {n}", players=listed(pick), n=number)
 
 
 def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -> None:
     """Refuse a pick that is not due."""
     line = state.to_name
     if line is None or line.number != number:
-        due = f"set {line.number} comes next" if line else "all sets have their players"
-        raise InputError(f"nobody can be put up in set {number} now: {due}")
+        due = say("set {n} is next", n=line.number) if line else say("all sets have their players")
+        raise InputError("nobody can be put up in set {n} now: {due}", n=number, due=due)
     if team in state.due or replaces:
         return
     if not state.due:
-        who = "winner" if state.meeting.order[number - 1] == WINNER else "loser"
+        if state.meeting.order[number - 1] == WINNER:
+            raise InputError(
+                "the winner of set {last} names first in set {n}; enter its result first",
+                last=number - 1,
+                n=number,
+            )
         raise InputError(
-            f"the {who} of set {number - 1} names first in set {number}; enter its result first"
+            "the loser of set {last} names first in set {n}; enter its result first",
+            last=number - 1,
+            n=number,
         )
-    raise InputError(f"{state.teams[1 - team]} names first in set {number}")
+    raise InputError("{team} names first in set {n}", team=state.teams[1 - team], n=number)
 
 
 def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What]:
@@ -93,7 +104,7 @@ def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What
     if state.to_name is None:
         raise InputError("both line-ups are in; only the director can take that back")
     if len(picks) != len(state.sets) or not all(len(pick) == 1 for pick in picks):
-        raise InputError(f"a line-up has {len(state.sets)} players, one for each set")
+        raise InputError("a line-up has {n} players, one for each set", n=len(state.sets))
     check_line_up(state, team, picks)
     return [HandedIn(team, picks)]
 
@@ -111,7 +122,10 @@ def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[Wh
         return []
     if line.score is not None:
         raise InputError(
-            f"{line.score[0]}:{line.score[1]} counts in set {number}; the director can correct it"
+            "{a}:{b} counts in set {n}; the director can correct it",
+            a=line.score[0],
+            b=line.score[1],
+            n=number,
         )
     return [Proposed(team, number, score)]
 
@@ -131,12 +145,14 @@ def result(state: TeamEvening, number: int, score: Score) -> list[What]:
 def _checked(state: TeamEvening, number: int, score: Score) -> SetLine:
     line = _line(state, number)
     if not line.named:
-        raise InputError(f"nobody plays set {number} yet")
+        raise InputError("set {n} has no players yet", n=number)
     brought(state.needs(line), score, state.meeting.count)
     return line
 
 
 def _line(state: TeamEvening, number: int) -> SetLine:
     if not 1 <= number <= len(state.sets):
-        raise InputError(f"there is no set {number}; there are {len(state.sets)}")
+        raise InputError(
+            "there is no set {n}; the sets are 1 to {sets}", n=number, sets=len(state.sets)
+        )
     return state.sets[number - 1]

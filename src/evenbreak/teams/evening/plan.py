@@ -118,7 +118,7 @@ def meeting_of(plan: NightPlan) -> Meeting:
     wrong = [k for k in plan.doubles if not 1 <= k <= plan.sets]
     if wrong:
         raise InputError(
-            f"set {wrong[0]} is to be doubles; give numbers of sets from 1 to {plan.sets}"
+            "set {n} can't be doubles: the sets are 1 to {sets}", n=wrong[0], sets=plan.sets
         )
     sides = [team.roster for team in plan.teams]
     squads = [
@@ -149,7 +149,7 @@ def check_plan(plan: NightPlan) -> None:
     """
     first, second = (team.name for team in plan.teams)
     if first.casefold() == second.casefold():
-        raise InputError(f"both teams are called {first}; give them two names")
+        raise InputError("both teams are called {name}; give them different names", name=first)
     meeting = meeting_of(plan)
     night = meeting.night()
     if meeting.order == SEALED:

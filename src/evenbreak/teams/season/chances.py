@@ -138,10 +138,16 @@ def season_chances(
     """
     for many in places:
         if not 1 <= whole(many, "places") <= len(season.teams):
-            raise InputError(f"places has {many} for {len(season.teams)} teams")
+            raise InputError(
+                "places has {many} for {n_teams} teams", many=many, n_teams=len(season.teams)
+            )
     for match in matches:
         if not 0 <= whole(match, "matches") < len(season.to_come):
-            raise InputError(f"matches has {match}; {len(season.to_come)} are to come")
+            raise InputError(
+                "matches has {match}; {n_to_come} are to come",
+                match=match,
+                n_to_come=len(season.to_come),
+            )
     watched = Watched(tuple(places), tuple(matches))
     if strengths is None and len(season.scores) ** len(season.to_come) <= MOST_ENDINGS:
         return _exact(season, watched)

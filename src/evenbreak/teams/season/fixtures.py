@@ -67,8 +67,12 @@ def still_to_play(teams: Sequence[str], times: int, played: Ints) -> Ints:
     for pair, many in met.items():
         if many > times:
             raise InputError(
-                f"{teams[pair[0]]} and {teams[pair[1]]} have met {many} times, more than the "
-                f"{times} of this round robin"
+                "{team} and {team_2} have met {many} times, more than the {times} of this "
+                "round robin",
+                team=teams[pair[0]],
+                team_2=teams[pair[1]],
+                many=many,
+                times=times,
             )
     left = []
     for home, away in circle(len(teams), times).tolist():

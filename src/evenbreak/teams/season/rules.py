@@ -46,8 +46,11 @@ class TableRules:
             object.__setattr__(self, name, number(getattr(self, name), name))
         if not self.loss <= self.draw <= self.win or self.a_set < 0.0:
             raise InputError(
-                f"points are {self.win:g}, {self.draw:g}, {self.loss:g} for a win, a draw and a "
-                "loss; give no more for a loss than for a draw, and for a draw than for a win"
+                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss; give "
+                "no more for a loss than for a draw, and for a draw than for a win",
+                win=self.win,
+                draw=self.draw,
+                loss=self.loss,
             )
         if self.win == self.loss and self.a_set == 0.0:
             raise InputError("a win is worth no more than a loss; give points for a win or a set")

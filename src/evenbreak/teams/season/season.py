@@ -67,7 +67,11 @@ class TeamSeason:
     ) -> None:
         known = names(teams, "teams")
         if not 2 <= len(known) <= MOST_TEAMS:
-            raise InputError(f"there are {len(known)} teams; a table takes 2 to {MOST_TEAMS}")
+            raise InputError(
+                "there are {n_known} teams; a table takes 2 to {most_teams}",
+                n_known=len(known),
+                most_teams=MOST_TEAMS,
+            )
         done = _rows(played, "played", 4, len(known))
         left = _rows(to_come, "to_come", 2, len(known))
         ends = _rows(scores, "scores", 2, None)
@@ -76,8 +80,10 @@ class TeamSeason:
             law = law[None]
         if law.ndim != 3 or law.shape[1:] != (len(left), len(ends)):
             raise InputError(
-                f"chances has shape {law.shape}; give (layers, {len(left)} matches, "
-                f"{len(ends)} scores)"
+                "chances has shape {law_shape}; give (layers, {n_left} matches, {n_ends} scores)",
+                law_shape=law.shape,
+                n_left=len(left),
+                n_ends=len(ends),
             )
         if law.size and np.abs(law.sum(axis=2) - 1.0).max() > 1e-9:
             raise InputError("the chances of the scores of a match must add up to 1")
@@ -171,11 +177,21 @@ def _rows(given: ArrayLike, name: str, wide: int, teams: int | None) -> Ints:
         return np.zeros((0, wide), dtype=np.int64)
     found = whole_numbers(rows, name, at_least=0)
     if found.ndim != 2 or found.shape[1] != wide:
-        raise InputError(f"{name} has shape {found.shape}; give {wide} columns")
+        raise InputError(
+            "{name} has shape {found_shape}; give {wide} columns",
+            name=name,
+            found_shape=found.shape,
+            wide=wide,
+        )
     if teams is not None:
         if found[:, :2].max() >= teams:
-            raise InputError(f"{name} has team {found[:, :2].max()}, but there are {teams} teams")
+            raise InputError(
+                "{name} has team {max}, but there are {teams} teams",
+                name=name,
+                max=found[:, :2].max(),
+                teams=teams,
+            )
         if (found[:, 0] == found[:, 1]).any():
             row = int((found[:, 0] == found[:, 1]).argmax())
-            raise InputError(f"{name}[{row}] has a team that plays itself")
+            raise InputError("{name}[{row}] has a team that plays itself", name=name, row=row)
     return np.asarray(found, dtype=np.int64)

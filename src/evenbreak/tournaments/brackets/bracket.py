@@ -221,7 +221,11 @@ class Bracket:
             if the bracket has no match of this name.
         """
         if name not in self.by_name:
-            raise InputError(f"match is {name!r}; give one of {some_of(list(self.by_name))}")
+            raise InputError(
+                "match is {name!r}; give one of {by_name}",
+                name=name,
+                by_name=some_of(list(self.by_name)),
+            )
         return self.by_name[name]
 
     def player(self, name: str) -> int:
@@ -233,7 +237,11 @@ class Bracket:
             if nobody in the bracket has this name.
         """
         if name not in self.players:
-            raise InputError(f"player is {name!r}; give one of {some_of(self.players)}")
+            raise InputError(
+                "player is {name!r}; give one of {players}",
+                name=name,
+                players=some_of(self.players),
+            )
         return self.players.index(name)
 
 

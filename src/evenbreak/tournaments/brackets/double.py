@@ -27,6 +27,7 @@ from evenbreak.tournaments.brackets.drafts import (
 )
 from evenbreak.tournaments.brackets.drops import DROPS, Drops, drop_orders
 from evenbreak.tournaments.brackets.knockout import checked_lines, knockout
+from evenbreak.words import Parameter
 
 Final = Literal["true", "single"]
 Placement = Literal["half shift", "redraw"]
@@ -127,7 +128,12 @@ def pods(
     one_of(qualifiers, "qualifiers", (1, 2))
     entrants = checked_lines(lines, len(names))
     if len(entrants) < 2 * size:
-        raise InputError(f"players has {len(names)} names; give more than {size}, or smaller pods")
+        raise InputError(
+            "{players} players are too few: pods of {size} need more than {size} players, or "
+            "smaller pods",
+            players=len(names),
+            size=size,
+        )
     orders = drop_orders(len(entrants), drops, pod=size)
     last = 2 * len(entrants) // size
     drafts, winning, losing, ranks = double_down(list(entrants), last, orders)
@@ -243,7 +249,10 @@ def _checked_qualifiers(qualifiers: int, size: int) -> int:
     last = whole(qualifiers, "qualifiers", at_least=2)
     if last & (last - 1) or last > size:
         raise InputError(
-            f"qualifiers is {qualifiers!r}; give a power of 2, at most {size} for this bracket"
+            "{name} must be a power of 2, at most {most} for this bracket; it is {value!r}",
+            name=Parameter("qualifiers"),
+            most=size,
+            value=qualifiers,
         )
     return last
 

@@ -50,17 +50,26 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     evenbreak.errors.InputError: players has 'Ann' twice; give each player a name of their own
     """
     if isinstance(players, str):
-        raise InputError(f"players is {players!r}; give a list of names, or how many there are")
+        raise InputError(
+            "players is {players!r}; give a list of names, or how many there are", players=players
+        )
     if isinstance(players, Sequence):
         names = tuple(str(player) for player in players)
     else:
         names = tuple(str(k) for k in range(1, whole(players, "players") + 1))
     if not fewest <= len(names) <= MOST:
-        raise InputError(f"players has {len(names)} names; give {fewest} to {MOST}")
+        raise InputError(
+            "players has {n_names} names; give {fewest} to {most}",
+            n_names=len(names),
+            fewest=fewest,
+            most=MOST,
+        )
     seen: set[str] = set()
     for name in names:
         if name in seen:
-            raise InputError(f"players has {name!r} twice; give each player a name of their own")
+            raise InputError(
+                "players has {name!r} twice; give each player a name of their own", name=name
+            )
         seen.add(name)
     return names
 

@@ -73,7 +73,11 @@ def drop_orders(
     if isinstance(drops, str):
         if drops not in DROPS:
             listed = ", ".join(repr(name) for name in DROPS)
-            raise InputError(f"drops is {drops!r}; give {listed}, or the orders themselves")
+            raise InputError(
+                "drops is {drops!r}; give {listed}, or the orders themselves",
+                drops=drops,
+                listed=listed,
+            )
         masks = [*_MASKS[drops].get(pod or size, ()), *[0] * len(counts)]
         return [
             [(i ^ mask) + 1 for i in range(count)]
@@ -81,10 +85,17 @@ def drop_orders(
         ]
     given = [list(order) for order in drops]
     if len(given) > len(counts):
-        raise InputError(f"drops has {len(given)} orders; give {len(counts)} at most")
+        raise InputError(
+            "drops has {n_given} orders; give {n_counts} at most",
+            n_given=len(given),
+            n_counts=len(counts),
+        )
     for number, (order, count) in enumerate(zip(given, counts, strict=False), 1):
         if sorted(order) != list(range(1, count + 1)):
             raise InputError(
-                f"drops has {order} for its round {number}; give 1 to {count}, each once"
+                "drops has {order} for its round {number}; give 1 to {count}, each once",
+                order=order,
+                number=number,
+                count=count,
             )
     return given + [list(range(1, count + 1)) for count in counts[len(given) :]]

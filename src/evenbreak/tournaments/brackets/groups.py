@@ -15,6 +15,7 @@ from evenbreak.tournaments.brackets.drafts import (
 )
 from evenbreak.tournaments.brackets.knockout import knockout
 from evenbreak.tournaments.brackets.seeding import apart_by_club, seeded_lines
+from evenbreak.words import Parameter
 
 
 def round_robin(players: Sequence[str] | int, *, times: int = 1) -> Bracket:
@@ -79,11 +80,17 @@ def groups_then_knockout(
     going_on = whole(qualifiers, "qualifiers", at_least=1)
     if len(names) // count < max(2, going_on):
         raise InputError(
-            f"groups is {groups!r} for {len(names)} players; give fewer, so that each has "
-            f"{max(2, going_on)} players or more"
+            "{name} is {value!r} for {players} players; with fewer groups each has the "
+            "{fewest} players it needs",
+            name=Parameter("groups"),
+            value=groups,
+            players=len(names),
+            fewest=max(2, going_on),
         )
     if count * going_on < 2:
-        raise InputError("qualifiers is 1 of one group; give 2 or more")
+        raise InputError(
+            "{name} must be 2 or more if there is a single group", name=Parameter("qualifiers")
+        )
     dealt = [_dealt(len(names), count, k) for k in range(count)]
     places = _group_places([len(members) for members in dealt], going_on)
     made = [

@@ -163,9 +163,15 @@ def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int 
     listed = list(lines)
     seated = [player for player in listed if player is not None]
     if sorted(seated) != list(range(players)):
-        raise InputError(f"lines is {lines!r}; give each position from 0 to {players - 1} once")
+        raise InputError(
+            "lines is {lines!r}; give each position from 0 to {players} once",
+            lines=lines,
+            players=players - 1,
+        )
     if len(listed) != bracket_size(len(listed)):
-        raise InputError(f"lines has {len(listed)} entries; give 2, 4, 8, 16, ... of them")
+        raise InputError(
+            "lines has {n_listed} entries; give 2, 4, 8, 16, ... of them", n_listed=len(listed)
+        )
     return listed
 
 

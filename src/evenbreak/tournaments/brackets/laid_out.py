@@ -49,8 +49,10 @@ def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
                 continue
             if slot.match not in by_name or (slot in taken and not _again(draft)):
                 raise InputError(
-                    f"{draft.name} waits for the {slot.outcome} of {slot.match}, "
-                    "who does not come there"
+                    "{draft} waits for the {outcome} of {match}, who does not come there",
+                    draft=draft.name,
+                    outcome=slot.outcome,
+                    match=slot.match,
                 )
             taken.add(slot)
             feeds[draft.name].add(slot.match)
@@ -95,7 +97,7 @@ def _ranks(drafts: Sequence[Draft]) -> list[Rank]:
     """Return who leaves at which point: the nearer to the final, the better the place."""
     ends = [draft for draft in drafts if draft.side in ("final", "second final")]
     if not ends or len(ends) > 2:
-        raise InputError(f"the bracket has {len(ends) or 'no'} finals")
+        raise InputError("the bracket has {what} finals", what=len(ends) or "no")
     names = tuple(draft.name for draft in ends)
     ranks = [Rank(tuple(map(winner, names)), 1), Rank(tuple(map(loser, names)), 1)]
     follows = {

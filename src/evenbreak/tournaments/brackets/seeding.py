@@ -101,7 +101,11 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
     ['A', 'B', 'D', 'C']
     """
     if len(clubs) != len(players):
-        raise InputError(f"clubs has {len(clubs)} values; give one for each of {len(players)}")
+        raise InputError(
+            "clubs has {n_clubs} values; give one for each of {n_players}",
+            n_clubs=len(clubs),
+            n_players=len(players),
+        )
     size = bracket_size(len(players))
     line = {seed: k for k, seed in enumerate(standard_lines(size), 1)}
     early = np.zeros((size, size))

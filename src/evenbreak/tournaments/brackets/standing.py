@@ -123,7 +123,9 @@ def _check_names(bracket: Bracket, results: dict[str, str | Sequence[str]]) -> N
     for name in results:
         if name not in known:
             listed = some_of(list(bracket.by_name))
-            raise InputError(f"results has match {name!r}; give one of {listed}")
+            raise InputError(
+                "results has match {name!r}; give one of {listed}", name=name, listed=listed
+            )
 
 
 def _winner(
@@ -141,7 +143,10 @@ def _winner(
     if None not in seats and player not in seats:
         names = " and ".join(bracket.players[k] for k in seats if k is not None and k >= 0)
         raise InputError(
-            f"results has {given!r} as winner of {match.name}, which is between {names or 'nobody'}"
+            "results has {given!r} as winner of {match}, which is between {what}",
+            given=given,
+            match=match.name,
+            what=names or "nobody",
         )
     return player
 
@@ -171,8 +176,10 @@ def _settled_ranks(
         order = [bracket.player(name) for name in given[group.name]]
         if sorted(order) != sorted(group.members):
             raise InputError(
-                f"results has {given[group.name]!r} for group {group.name}; give its players "
-                "in the order of their ranks"
+                "results has {given!r} for group {group}; give its players in the order of "
+                "their ranks",
+                given=given[group.name],
+                group=group.name,
             )
     else:
         places = ranked(group.members, group.pairs, [winners[name] for name in group.matches])

@@ -15,6 +15,7 @@ from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Place, Slot, Source
 from evenbreak.tournaments.brackets.drafts import checked_players
+from evenbreak.words import Parameter
 
 System: TypeAlias = Literal["dutch", "casual"]
 
@@ -71,8 +72,12 @@ class Swiss:
         most = len(self.players) - 1 + len(self.players) % 2
         if self.rounds > most:
             raise InputError(
-                f"rounds is {self.rounds} for {len(self.players)} players; give {most} at most, "
-                "so that nobody has to play the same opponent twice"
+                "{name} must be at most {most} for {players} players, so that nobody has to "
+                "play the same opponent twice; it is {value}",
+                name=Parameter("rounds"),
+                most=most,
+                players=len(self.players),
+                value=self.rounds,
             )
 
 
@@ -117,7 +122,7 @@ def swiss_round(
     """
     check_rounds(event, played)
     if len(played) == event.rounds:
-        raise InputError(f"all {event.rounds} rounds have been played")
+        raise InputError("all {rounds} rounds have been played", rounds=event.rounds)
     rows = _histories(event, played)
     if played:
         rows = [row for row in rows if row["name"] not in without]
@@ -127,7 +132,7 @@ def swiss_round(
         engine: Any = import_module("caissify_pairings")
     except ImportError:
         raise InputError(
-            "pairing a Swiss needs caissify-pairings; pip install 'evenbreak[swiss]'"
+            "pairing a Swiss needs caissify-pairings: pip install 'evenbreak[swiss]'"
         ) from None
     met = {
         (event.players.index(p.first) + 1, event.players.index(p.second) + 1)
@@ -218,20 +223,28 @@ def swiss_bracket(
 def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
     """Raise an error if a round has a player twice, lacks one of a later round, or a winner."""
     if len(played) > event.rounds:
-        raise InputError(f"played has {len(played)} rounds, the event has {event.rounds}")
+        raise InputError(
+            "{played} rounds have been played, but the event has {rounds}",
+            played=len(played),
+            rounds=event.rounds,
+        )
     before = set(event.players)
     for number, pairings in enumerate(played, 1):
         seats = [player for p in pairings for player in (p.first, p.second) if player is not None]
         if number == 1 and sorted(seats) != sorted(event.players):
             raise InputError("round 1 does not have every player once")
         if len(set(seats)) < len(seats) or not set(seats) <= before:
-            raise InputError(f"round {number} has a player twice, or one who had gone home")
+            raise InputError("round {n} has a player twice, or one who had withdrawn", n=number)
         before = set(seats)
         for first, second, winner in pairings:
             if second is not None and winner not in (first, second):
                 raise InputError(
-                    f"round {number}: {first} against {second} was won by {winner!r}; name one "
-                    "of the two"
+                    "round {n}: {first} against {second} was won by {winner!r}; name one of "
+                    "the two",
+                    n=number,
+                    first=first,
+                    second=second,
+                    winner=winner,
                 )
 
 

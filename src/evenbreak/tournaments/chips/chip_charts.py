@@ -56,13 +56,18 @@ class ChipChart:
         for weaker, stronger in pairwise(rows):
             if not stronger.rating_from > weaker.rating_from:
                 raise InputError(
-                    f"the row from {stronger.rating_from:g} does not begin above the one from "
-                    f"{weaker.rating_from:g}; give each rating once, the lowest first"
+                    "the row from {above:g} must start above the one from {below:g}; give "
+                    "each rating once, the lowest first",
+                    above=stronger.rating_from,
+                    below=weaker.rating_from,
                 )
             if stronger.chips > weaker.chips:
                 raise InputError(
-                    f"players from {stronger.rating_from:g} on get {stronger.chips} chips, more "
-                    f"than weaker players, who get {weaker.chips}"
+                    "players from {rating:g} on get {chips} chips, more than weaker players, "
+                    "who get {weaker}",
+                    rating=stronger.rating_from,
+                    chips=stronger.chips,
+                    weaker=weaker.chips,
                 )
 
     def chips(self, ratings: ArrayLike) -> NDArray[np.int64]:
@@ -79,7 +84,10 @@ class ChipChart:
         if (place < 0).any():
             lowest = float(rated.min())
             raise InputError(
-                f"a rating of {lowest:g} is below {starts[0]:g}, where the chart {self.name} begins"
+                "a rating of {rating:g} is below {start:g}, where the chart {chart} starts",
+                rating=lowest,
+                start=starts[0],
+                chart=self.name,
             )
         return np.array([row.chips for row in self.rows])[place]
 
@@ -125,5 +133,9 @@ def chip_chart(name: str | ChipChart) -> ChipChart:
     if isinstance(name, ChipChart):
         return name
     if name not in CHIP_CHARTS:
-        raise InputError(f"chip chart is {name!r}; give one of {', '.join(CHIP_CHARTS)}")
+        raise InputError(
+            "there is no chip chart {name!r}; choose one of {charts}",
+            name=name,
+            charts=", ".join(CHIP_CHARTS),
+        )
     return CHIP_CHARTS[name]

@@ -137,7 +137,11 @@ def fairest_chips(
     rated = column(ratings, "ratings", np.size(ratings), "players")
     low, high = whole(fewest, "fewest", at_least=1), whole(most, "most", at_least=1)
     if low > high or len(rated) < 2:
-        raise InputError(f"fewest is {fewest!r} and most {most!r}; give fewer first, two players")
+        raise InputError(
+            "fewest is {fewest!r} and most {most!r}; give fewer first, two players",
+            fewest=fewest,
+            most=most,
+        )
     row = _rows_of(rated, bands)
     counts = np.full(row.max() + 1, (low + high) // 2)
 

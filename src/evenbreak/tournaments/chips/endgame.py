@@ -140,10 +140,14 @@ def last_players(
     table = checked_racks(racks, len(counts))
     order = tuple(range(len(counts))) if line is None else tuple(int(k) for k in line)
     if len(counts) < 2 or sorted(order) != list(range(len(counts))):
-        raise InputError(f"line is {line!r}; give each of {len(counts)} players once, two or more")
+        raise InputError(
+            "line is {line!r}; give each of {n_counts} players once, two or more",
+            line=line,
+            n_counts=len(counts),
+        )
     if prod(counts) * factorial(len(counts)) > _MOST_STATES:
         raise InputError(
-            f"chips is {chips!r}: too many states to be exact; simulate with play_chips"
+            "chips is {chips!r}: too many states to be exact; simulate with play_chips", chips=chips
         )
     game = LastPlayers(counts, order, tuple(map(tuple, table.tolist())))
     chain = chain_of(game)

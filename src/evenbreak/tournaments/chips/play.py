@@ -97,13 +97,17 @@ def play_chips(
     """
     counts = np.array([whole(count, "chips", at_least=1) for count in np.asarray(chips).tolist()])
     if len(counts) < 2:
-        raise InputError(f"chips is {chips!r}; give two players or more")
+        raise InputError("chips is {chips!r}; give two players or more", chips=chips)
     table = np.asarray(racks, dtype=float)
     each = np.moveaxis(table.reshape(*table.shape[:2], -1), 2, 0)
     table = np.stack([checked_racks(one, len(counts)) for one in each])
     order = None if line is None else np.array(line)
     if order is not None and sorted(order.tolist()) != list(range(len(counts))):
-        raise InputError(f"line is {line!r}; give each of {len(counts)} players once")
+        raise InputError(
+            "line is {line!r}; give each of {n_counts} players once",
+            line=line,
+            n_counts=len(counts),
+        )
     rng = rng or np.random.default_rng(0)
     room = _Room(counts, table, whole(tables, "tables", at_least=1), order, in_use, runs, rng)
     if to_the_end:

@@ -41,7 +41,9 @@ def checked_racks(racks: ArrayLike, players: int) -> Floats:
     table = floats(racks, "racks", low=0.0, high=1.0)
     if table.shape != (players, players):
         raise InputError(
-            f"racks has shape {table.shape}; give a row and a column for each of {players} players"
+            "racks has shape {table_shape}; give a row and a column for each of {players} players",
+            table_shape=table.shape,
+            players=players,
         )
     return table
 

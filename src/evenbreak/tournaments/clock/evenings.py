@@ -108,7 +108,7 @@ def play_evenings(
     for name in names:
         if name not in laws:
             raise InputError(
-                f"laws has no match {name!r}; give the odds of every match (`pair_odds`)"
+                "laws has no match {name!r}; give the odds of every match (`pair_odds`)", name=name
             )
     rng = np.random.default_rng(seed)
     evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
@@ -183,11 +183,18 @@ def _under_way(
     """
     one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
     if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
-        raise InputError(f"playing has {match.match!r}; give matches whose players are known")
+        raise InputError(
+            "playing has {match!r}; give matches whose players are known", match=match.match
+        )
     since = match.started if match.scored is None else match.scored
     elapsed = clock - since
     if elapsed < 0.0:
-        raise InputError(f"{match.match} started at {since:g}; it is {clock:g} now")
+        raise InputError(
+            "{match} started at {since:g}; it is {clock:g} now",
+            match=match.match,
+            since=since,
+            clock=clock,
+        )
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
     usual = np.maximum(pace.mean_minutes(games) - pace.mean_minutes(match.games), 1e-9)

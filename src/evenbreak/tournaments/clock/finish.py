@@ -121,7 +121,7 @@ class Finish:
     def start(self, match: str) -> Start:
         """Return when a match begins."""
         if match not in self.names:
-            raise InputError(f"match is {match!r}; give one that is still to be begun")
+            raise InputError("match is {match!r}; give one that is still to be begun", match=match)
         times = self.starts[:, self.names.index(match)]
         return _start(times[~np.isnan(times)], times.size)
 
@@ -316,7 +316,9 @@ def finish(
     where = standing(bracket, results)
     if where.assumed:
         name = next(iter(where.assumed))
-        raise InputError(f"results has {name!r}; give results of matches whose players are known")
+        raise InputError(
+            "results has {name!r}; give results of matches whose players are known", name=name
+        )
     clock = number(now, "now", low=0.0)
     speed = learned_pace(pace, played)
     evenings = play_evenings(
@@ -368,5 +370,9 @@ def _tables(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
     else:
         free = np.zeros(whole(tables, "tables", at_least=1))
     if len(free) < max(busy, 1):
-        raise InputError(f"tables is {tables!r}, with {busy} matches under way; give more tables")
+        raise InputError(
+            "tables is {tables!r}, with {busy} matches under way; give more tables",
+            tables=tables,
+            busy=busy,
+        )
     return np.maximum(free, clock)

@@ -30,6 +30,7 @@ from evenbreak.tournaments.evening.events import (
     Plan,
     Result,
 )
+from evenbreak.words import Parameter
 
 
 class Rack(NamedTuple):
@@ -111,7 +112,10 @@ def rack_bracket(players: tuple[str, ...], racks: Sequence[Match] = ()) -> Brack
 def chips_of(plan: Plan, entrant: Entrant) -> int:
     """Return the chips that an entrant starts with."""
     if plan.chips is None:
-        raise InputError("a chip tournament needs a chip chart; give one with --chips")
+        raise InputError(
+            "a chip tournament needs a chip chart; choose one with {chips}",
+            chips=Parameter("chips"),
+        )
     return int(plan.chips.chips([entrant.rating])[0])
 
 
@@ -128,7 +132,7 @@ def chip_night(events: Sequence[Event]) -> ChipNight:
     ({'Ann': 3, 'Bo': 4, 'Cy': 4}, ('Bo', 'Cy'), ('Ann',))
     """
     if not events or not isinstance(opened := events[0].what, Opened):
-        raise InputError("the first event does not open a tournament")
+        raise InputError("the first entry does not start a tournament")
     walk = _Walk(opened.plan)
     entrants = {one.name: one for one in opened.entrants}
     for event in events[1:]:
@@ -197,7 +201,9 @@ class _Walk:
         rack = self.racks.get(result.match)
         if rack is None or {result.winner, result.loser} != set(rack.players):
             players = " against ".join(result.players)
-            raise InputError(f"{result.match} is not a rack of {players}")
+            raise InputError(
+                "{match} is not a rack of {players}", match=result.match, players=players
+            )
         if rack.name in self.won:
             self.correct(rack, result.winner)
             return

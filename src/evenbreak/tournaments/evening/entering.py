@@ -51,16 +51,16 @@ def refuse_strangers(what: What, entrants: Mapping[str, Entrant]) -> None:
             pass
         case Result(players=names, winner=winner):
             if winner not in names:
-                raise InputError(f"{winner} has won and is not in the match")
+                raise InputError("{player} won a match they are not in", player=winner)
         case Drawn(order=names):
             if sorted(names) != sorted(entrants):
-                raise InputError("the draw is not of the players who have entered")
+                raise InputError("the draw does not match the players who have entered")
         case Dropped(name=name) | Edited(name=name):
             names = (name,)
         case Late(entrant=entrant) if entrant.name in entrants:
-            raise InputError(f"{entrant.name} has entered already")
+            raise InputError("{player} has already entered", player=entrant.name)
         case _:
             return
     for name in names:
         if name not in entrants:
-            raise InputError(f"{name} has not entered")
+            raise InputError("{player} has not entered", player=name)

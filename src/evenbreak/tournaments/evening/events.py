@@ -6,7 +6,7 @@ An event is a frozen value; `as_dict` and `event_of` turn it into plain data and
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Annotated, Any, TypeAlias
 
 from evenbreak.checks import Between, made
@@ -16,6 +16,7 @@ from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
 from evenbreak.tournaments.evening.format import Discipline, Format, Race, Table, Tables
+from evenbreak.words import Sentence, say
 
 Games: TypeAlias = Annotated[int, Between(0, 10_000)]
 Seat: TypeAlias = Annotated[int, Between(0, 255)]
@@ -310,5 +311,39 @@ def event_of(kind: str, data: Any) -> What:
     Dropped(name='Bo')
     """
     if kind not in KINDS:
-        raise InputError(f"{kind[:40]!r} is not an event of a tournament")
+        raise InputError("{kind!r} is not an entry of a tournament", kind=kind[:40])
     return made(KINDS[kind], data)
+
+
+def score_words(found: Result) -> Sentence:
+    """Return a result in words.
+
+    >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
+    'Bo beat Ann 7:5'
+    """
+    if found.forfeit:
+        return say("{loser} forfeited to {winner}", loser=found.loser, winner=found.winner)
+    if found.stands:
+        beaten = replace(found, winner=found.loser, stands=False)
+        return say(
+            "{result}, but {winner} has played on", result=score_words(beaten), winner=found.winner
+        )
+    won, lost = found.games[found.winner], found.games[found.loser]
+    return say(
+        "{winner} beat {loser} {won}:{lost}",
+        winner=found.winner,
+        loser=found.loser,
+        won=won,
+        lost=lost,
+    )
+
+
+def race_words(needs: tuple[int, int]) -> Sentence:
+    """Return a race in words.
+
+    >>> race_words((7, 7)), race_words((7, 5))
+    ('race to 7', 'race 7:5')
+    """
+    if needs[0] == needs[1]:
+        return say("race to {n}", n=needs[0])
+    return say("race {race}", race=":".join(map(str, needs)))

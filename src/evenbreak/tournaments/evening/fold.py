@@ -43,6 +43,7 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.later_draws import bracket_now, whole_bracket
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
+from evenbreak.words import Command
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
 
@@ -133,7 +134,8 @@ class Evening:
         """
         if not self.order:
             raise InputError(
-                "the draw has not been made yet; make it with evenbreak tournament draw"
+                "the draw has not been made yet; to make it: {draw}",
+                draw=Command("tournament draw"),
             )
         if self.plan.form == "chips":
             return self.chip_night.bracket
@@ -380,5 +382,5 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, dict[int, Event]]:
         if entry == 1 or kept.pop(entry, None) is None:
             raise InputError("there is nothing to undo")
     if 1 not in kept or not isinstance(first := kept[1].what, Opened):
-        raise InputError("the first event does not open a tournament")
+        raise InputError("the first entry does not start a tournament")
     return first, kept

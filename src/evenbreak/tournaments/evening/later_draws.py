@@ -18,6 +18,7 @@ from evenbreak.tournaments.brackets.swiss import (
     swiss_round,
 )
 from evenbreak.tournaments.evening.events import LaterDraw, Plan, Result
+from evenbreak.words import Command, listed
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
@@ -124,12 +125,16 @@ def draw_later(state: Evening, rng: np.random.Generator) -> LaterDraw:
     """
     stage = stage_to_draw(state)
     if stage is None:
-        raise InputError("the draw has been made already; undo takes it back")
+        raise InputError(
+            "the draw has already been made; to take it back: {undo}",
+            undo=Command("tournament undo"),
+        )
     if not can_draw(state):
         open_matches = [name for name in state.standing.to_play if name[0] != "K"]
         raise InputError(
-            f"{stage} cannot be drawn yet; enter the result of {' and '.join(open_matches[:3])} "
-            "first"
+            "{stage} can't be drawn yet; first enter the result of {matches}",
+            stage=stage,
+            matches=listed(open_matches[:3]),
         )
     if state.plan.form == "swiss":
         played = pairings(state.later, state.counted)

@@ -29,12 +29,15 @@ from evenbreak.tournaments.evening.events import (
     LaterDraw,
     Result,
     Scored,
+    race_words,
+    score_words,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.later_draws import draw_later
 from evenbreak.tournaments.evening.losses import losses
 from evenbreak.tournaments.evening.opening import refuse_bye
+from evenbreak.words import Command, Parameter, listed, say
 
 
 def draw(state: Evening, rng: np.random.Generator) -> Drawn:
@@ -46,10 +49,17 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
         if it has been made, or there are too few players.
     """
     if state.drawn:
-        raise InputError("the draw has been made already; undo takes it back")
+        raise InputError(
+            "the draw has already been made; to take it back: {undo}",
+            undo=Command("tournament undo"),
+        )
     names = list(state.entrants)
     if len(names) < 2:
-        raise InputError(f"a tournament takes 2 to 256 players, and {len(names)} entered")
+        raise InputError(
+            "a tournament takes 2 to {most} players, and {entered:,} entered",
+            most=MOST_PLAYERS,
+            entered=len(names),
+        )
     if state.plan.seeding == "rating":
         names = by_rating(names, [state.entrants[name].rating for name in names])
     elif state.plan.seeding == "blind":
@@ -88,8 +98,17 @@ def result(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
     """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
-        words = "was forfeited" if before.forfeit else f"has a result, {score_words(before)}"
-        raise InputError(f"{name} {words}; change it with correct {name}")
+        correct_it = Command("tournament correct", name)
+        if before.forfeit:
+            raise InputError(
+                "{match} was forfeited; to change that: {correct}", match=name, correct=correct_it
+            )
+        raise InputError(
+            "{match} already has a result ({result}); to change it: {correct}",
+            match=name,
+            result=score_words(before),
+            correct=correct_it,
+        )
     _refuse_waiting(state, name)
     pair = state.pair(name)
     games = _games(state, name, pair, score)
@@ -100,30 +119,45 @@ def correct(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
     """Correct the result of a match; in a chip tournament a table is that of its last rack."""
     name = known_match(state, match, over=True)
     if name not in state.counted:
-        raise InputError(f"{name} has no result to correct; enter it with result {name}")
+        raise InputError(
+            "{match} has no result to correct; to enter one: {enter}",
+            match=name,
+            enter=Command("tournament result", name),
+        )
     pair = state.pair(name)
     games = _games(state, name, pair, score)
     found = Result(name, pair, games, _winner(state, name, pair, games), corrects=True)
     before = state.counted[name]
     if not before.forfeit and before.games == found.games and before.winner == found.winner:
-        raise InputError(f"{name} has that result already: {score_words(before)}")
+        raise InputError(
+            "{match} already has that result: {result}", match=name, result=score_words(before)
+        )
     return found
 
 
 def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     """Enter the score of a match in play."""
     if state.plan.form == "chips":
-        raise InputError(f"a rack has no score; enter its winner with result {match}")
+        raise InputError(
+            "a rack has no score; to enter its winner: {enter}",
+            enter=Command("tournament result", match),
+        )
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
-        raise InputError(f"{name} has a result, {score_words(before)}")
+        raise InputError(
+            "{match} already has a result: {result}", match=name, result=score_words(before)
+        )
     _refuse_waiting(state, name)
     pair = state.pair(name)
     needs = state.needed(name, pair)
     if score[0] >= needs[0] or score[1] >= needs[1]:
         raise InputError(
-            f"{score[0]}:{score[1]} ends {name}, a race {_race_words(needs)}; enter it with "
-            f"result {name} {score[0]}:{score[1]}"
+            "{a}:{b} ends {match}, a {race}; to enter it: {enter}",
+            a=score[0],
+            b=score[1],
+            match=name,
+            race=race_words(needs),
+            enter=Command("tournament result", name, f"{score[0]}:{score[1]}"),
         )
     return Scored(name, pair, score)
 
@@ -134,16 +168,34 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
     if match is None:
         ready = [name for name in state.standing.to_play if loser in state.pair(name)]
         if len(ready) != 1:
-            which = f"say which: {', '.join(ready)}" if ready else "it can be forfeited when it is"
-            raise InputError(f"{loser} has {len(ready) or 'no'} matches ready; {which}")
+            if not ready:
+                raise InputError(
+                    "{player} has no match ready that could be forfeited", player=loser
+                )
+            raise InputError(
+                "{player} has {n} matches ready; say which: {matches}",
+                player=loser,
+                n=len(ready),
+                matches=", ".join(ready),
+            )
         match = ready[0]
     name = known_match(state, match)
     if name in state.counted:
-        raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
+        raise InputError(
+            "{match} already has a result: {result}",
+            match=name,
+            result=score_words(state.counted[name]),
+        )
     _refuse_waiting(state, name)
     pair = state.pair(name)
     if loser not in pair:
-        raise InputError(f"{loser} is not in {name}, which is {pair[0]} against {pair[1]}")
+        raise InputError(
+            "{player} is not in {match}: it is {a} against {b}",
+            player=loser,
+            match=name,
+            a=pair[0],
+            b=pair[1],
+        )
     return Result(name, pair, (0, 0), pair[loser == pair[0]], forfeit=True)
 
 
@@ -151,9 +203,9 @@ def drop(state: Evening, player: str) -> Dropped:
     """Let a player, by their full name, go home."""
     name = _entered(state, player)
     if name in state.dropped:
-        raise InputError(f"{name} has dropped out already")
+        raise InputError("{player} has already withdrawn", player=name)
     if not state.drawn and len(state.entrants) <= 1:
-        raise InputError(f"{name} is the only player")
+        raise InputError("{player} is the only player", player=name)
     return Dropped(name)
 
 
@@ -165,10 +217,10 @@ def late(state: Evening, entrant: Entrant) -> Late:
     """
     _check_entrant(state, entrant)
     if len(state.entrants) >= MOST_PLAYERS:
-        raise InputError(f"a tournament takes {MOST_PLAYERS} players at most")
+        raise InputError("a tournament takes at most {most} players", most=MOST_PLAYERS)
     if state.plan.form == "chips":
         if state.drawn and len(state.chip_night.order) < 2:
-            raise InputError(f"{entrant.name} cannot enter: the tournament is over")
+            raise InputError("{player} can't enter: the tournament is over", player=entrant.name)
         return Late(entrant)
     if not state.drawn:
         return Late(entrant)
@@ -177,33 +229,50 @@ def late(state: Evening, entrant: Entrant) -> Late:
         if _fits(state, entrant, line):
             return Late(entrant, line)
     if state.lines is None:
-        reason = "this format has no byes"
+        reason = say("this format has no byes")
+    elif byes:
+        reason = say("every player with a bye has already played on")
     else:
-        reason = "all byes have been played past" if byes else "the bracket has no bye"
-    raise InputError(f"{entrant.name} cannot enter after the draw: {reason}")
+        reason = say("the bracket has no bye")
+    raise InputError(
+        "{player} can't enter after the draw: {reason}", player=entrant.name, reason=reason
+    )
 
 
 def call(state: Evening, match: str, table: int | None) -> Called:
     """Call a match to a table, or move it to another; None: the first that is free."""
     name = known_match(state, match)
     if name in state.counted:
-        raise InputError(f"{name} has a result, {score_words(state.counted[name])}")
+        raise InputError(
+            "{match} already has a result: {result}",
+            match=name,
+            result=score_words(state.counted[name]),
+        )
     _refuse_waiting(state, name)
     on = state.on_tables.get(name)
     if on is not None and table in (None, on.call.table):
-        raise InputError(f"{name} is on table {on.call.table} already")
+        raise InputError("{match} is already on table {table}", match=name, table=on.call.table)
     free = free_tables(state)
     if table is None and not free:
-        raise InputError(f"no table is free; there are {state.plan.tables}")
+        raise InputError("no table is free (there are {tables})", tables=state.plan.tables)
     chosen = free[0] if table is None else table
     if not 1 <= chosen <= state.plan.tables:
-        raise InputError(f"table {chosen} does not exist; there are {state.plan.tables}")
+        raise InputError(
+            "there is no table {table}; the tables are 1 to {tables}",
+            table=chosen,
+            tables=state.plan.tables,
+        )
     if chosen not in free:
         there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
-        raise InputError(f"table {chosen} is taken by {there}")
+        raise InputError("table {table} is taken by {match}", table=chosen, match=there)
     for there, one in state.on_tables.items():
         for player in set(state.pair(name)) & set(one.call.players) if there != name else ():
-            raise InputError(f"{player} is playing {there} on table {one.call.table}")
+            raise InputError(
+                "{player} is playing {match} on table {table}",
+                player=player,
+                match=there,
+                table=one.call.table,
+            )
     return Called(name, chosen, state.pair(name))
 
 
@@ -218,20 +287,33 @@ def change(
     """Change the tables, or the races of the matches that have not begun."""
     found = Changed(tables, race, losers_race, final_race)
     if found == Changed():
-        raise InputError("nothing is changed; give --tables, --race, --losers-race or --final-race")
+        raise InputError(
+            "nothing would change; set {changes}",
+            changes=listed(
+                [Parameter(name) for name in ("tables", "race", "losers_race", "final_race")], "or"
+            ),
+        )
     if state.plan.chart is not None and found != Changed(tables):
-        raise InputError("the races come from a chart, so only the tables can be changed")
+        raise InputError("the races come from a chart, so only the number of tables can change")
     if state.plan.form == "chips" and found != Changed(tables):
-        raise InputError("a chip tournament is played by the rack; only the tables can be changed")
+        raise InputError(
+            "a chip tournament is played by the rack, so only the number of tables can change"
+        )
     sides = {match.side for match in state.whole.matches} if state.drawn else {"losers", "final"}
     if losers_race is not None and not sides & {"losers", "consolation"}:
-        raise InputError("there is no losers' side, so it has no race; change --race")
+        raise InputError(
+            "there is no losers' side; to change the races, set {race}", race=Parameter("race")
+        )
     if final_race is not None and "final" not in sides:
-        raise InputError("there is no final, so it has no race; change --race")
+        raise InputError(
+            "there is no final; to change the races, set {race}", race=Parameter("race")
+        )
     if tables is not None and state.drawn and state.plan.form != "chips":  # there it closes later
         taken = max((one.call.table for one in state.on_tables.values()), default=0)
         if tables < taken:
-            raise InputError(f"a match is on table {taken}; end it before you close the table")
+            raise InputError(
+                "a match is on table {table}; finish it before you close the table", table=taken
+            )
     return found
 
 
@@ -241,7 +323,7 @@ def call_back(state: Evening, match: str) -> CalledBack:
     if state.plan.form == "chips":
         raise InputError("a chip tournament has no calls: the players at the tables play on")
     if name not in state.on_tables:
-        raise InputError(f"{name} is on no table, so it cannot be called back")
+        raise InputError("{match} is not on a table", match=name)
     return CalledBack(name, state.pair(name))
 
 
@@ -249,11 +331,13 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
     """Correct the name or the rating of a player, by their full name, before the draw."""
     before = state.entrants[_entered(state, player)]
     if state.drawn:
-        raise InputError("the draw has been made; names and ratings stay as they are")
+        raise InputError("the draw has been made, so names and ratings can no longer change")
     rated = before if rating is None else Entrant(player, rating)
     after = replace(rated, name=name or player)
     if after == before:
-        raise InputError(f"nothing about {player} is changed; give another name or rating")
+        raise InputError(
+            "nothing about {player} would change; enter another name or rating", player=player
+        )
     _check_entrant(state, after, besides=player)
     return Edited(player, after)
 
@@ -270,15 +354,21 @@ def known_match(state: Evening, text: str, *, over: bool = False) -> str:
     In a chip tournament it may be the number of a table: that of the rack on it, or of the last one
     that is over.
     """
-    listed = list(state.bracket.by_name)
-    names = {name.casefold(): name for name in listed}
+    listed_names = list(state.bracket.by_name)
+    names = {name.casefold(): name for name in listed_names}
     if state.plan.form == "chips":
         racks = state.chip_night.racks.values()
         names |= {str(r.table): r.name for r in racks if (r.name in state.counted) == over}
         if text.casefold() not in names and text.upper() in state.records:
-            raise InputError(f"{text.upper()} does not count: a player had no chips left")
+            raise InputError(
+                "{match} does not count: a player had no chips left", match=text.upper()
+            )
     if text.casefold() not in names:
-        raise InputError(f"match {text!r} does not exist; give one of {some_of(listed)}")
+        raise InputError(
+            "there is no match {text!r}; the matches are {matches}",
+            text=text,
+            matches=some_of(listed_names),
+        )
     return names[text.casefold()]
 
 
@@ -294,10 +384,19 @@ def known_player(state: Evening, text: str) -> str:
         if len(begin) == 1:
             return names[begin[0]]
         if begin:
-            raise InputError(f"{text!r} may be {some_of([names[name] for name in begin])}")
+            raise InputError(
+                "{text!r} could be {players}",
+                text=text,
+                players=some_of([names[name] for name in begin]),
+            )
         near = get_close_matches(wanted, names, 1)
-        hint = f"; did you mean {names[near[0]]}?" if near else ""
-        raise InputError(f"{text!r} is not in this tournament{hint}")
+        if near:
+            raise InputError(
+                "{player!r} is not in this tournament; did you mean {near}?",
+                player=text,
+                near=names[near[0]],
+            )
+        raise InputError("{player!r} is not in this tournament", player=text)
     return names[wanted]
 
 
@@ -305,10 +404,14 @@ def _check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
     """Refuse an entrant without a name or rating of their own."""
     refuse_bye(entrant.name)
     if not math.isfinite(entrant.rating):
-        raise InputError(f"the rating of {entrant.name} is {entrant.rating}; give a finite number")
+        raise InputError(
+            "the rating of {player} must be a finite number; it is {rating}",
+            player=entrant.name,
+            rating=entrant.rating,
+        )
     names = {folded(name): name for name in state.entrants if name != besides}
     if folded(entrant.name) in names:
-        raise InputError(f"{names[folded(entrant.name)]} has entered already")
+        raise InputError("{player} has already entered", player=names[folded(entrant.name)])
     if state.plan.form == "chips":
         chips_of(state.plan, entrant)  # refuses a rating below the chart
 
@@ -316,7 +419,7 @@ def _check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
 def _entered(state: Evening, name: str) -> str:
     """Return a name that is given in full: somebody else's that begins like it never counts."""
     if name not in state.entrants:
-        raise InputError(f"{name!r} is not in this tournament")
+        raise InputError("{player!r} is not in this tournament", player=name)
     return name
 
 
@@ -327,36 +430,33 @@ def _games(
     if not isinstance(score, str):
         return score
     if state.plan.form != "chips":
-        raise InputError(f"{score!r} is not a score; give the games of each player, such as 7:5")
+        raise InputError(
+            "{score!r} is not a score; write the games of each player, such as 7:5", score=score
+        )
     winner = known_player(state, score)
     if winner not in pair:
-        raise InputError(f"{winner} is not in {name}, which is {pair[0]} against {pair[1]}")
+        raise InputError(
+            "{player} is not in {match}: it is {a} against {b}",
+            player=winner,
+            match=name,
+            a=pair[0],
+            b=pair[1],
+        )
     return (1, 0) if winner == pair[0] else (0, 1)
-
-
-def score_words(found: Result) -> str:
-    """Return a result in words.
-
-    >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
-    'Bo beat Ann 7:5'
-    """
-    if found.forfeit:
-        return f"{found.loser} forfeited to {found.winner}"
-    if found.stands:
-        beaten = replace(found, winner=found.loser, stands=False)
-        return f"{score_words(beaten)}, but {found.winner} has played on"
-    won, lost = found.games[found.winner], found.games[found.loser]
-    return f"{found.winner} beat {found.loser} {won}:{lost}"
 
 
 def _refuse_waiting(state: Evening, name: str) -> None:
     if name in state.standing.to_play:
         return
     if name in state.standing.winners:
-        raise InputError(f"{name} is not needed")
+        raise InputError("{match} is not needed", match=name)
     slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
     waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
-    raise InputError(f"{name} is not ready: it waits for {' and '.join(dict.fromkeys(waits))}")
+    raise InputError(
+        "{match} is not ready: it is waiting for {waits}",
+        match=name,
+        waits=listed(list(dict.fromkeys(waits))),
+    )
 
 
 def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int]) -> str:
@@ -368,13 +468,14 @@ def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, 
     if other == n and one < m:
         return pair[1]
     raise InputError(
-        f"{one}:{other} does not end {name}, {pair[0]} against {pair[1]}, a race "
-        f"{_race_words((m, n))}"
+        "{a}:{b} can't be the final score of {match}, {player_a} against {player_b}: it's a {race}",
+        a=one,
+        b=other,
+        match=name,
+        player_a=pair[0],
+        player_b=pair[1],
+        race=race_words((m, n)),
     )
-
-
-def _race_words(needs: tuple[int, int]) -> str:
-    return f"to {needs[0]}" if needs[0] == needs[1] else f"{needs[0]}:{needs[1]}"
 
 
 def _rival(state: Evening, line: int) -> int:

@@ -67,11 +67,16 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     >>> opened(Plan("double", 5, qualifiers=4), two)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: qualifiers is 4; give a power of 2, at most 2 for this bracket
+    evenbreak.errors.InputError: qualifiers must be a power of 2, at most 2 for this
+    bracket; it is 4
     """
     names = tuple(one.name for one in entrants)
     if not 2 <= len(names) <= MOST_PLAYERS:
-        raise InputError(f"a tournament takes 2 to 256 players, and {len(names):,} entered")
+        raise InputError(
+            "a tournament takes 2 to {most} players, and {entered:,} entered",
+            most=MOST_PLAYERS,
+            entered=len(names),
+        )
     for name in names:
         refuse_bye(name)
     if plan.chips is not None:
@@ -86,4 +91,6 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
 def refuse_bye(name: str) -> None:
     """Refuse a bye in place of a player."""
     if BYE.fullmatch(name):
-        raise InputError(f"{name!r} is a bye and no player; leave it out, the draw gives the byes")
+        raise InputError(
+            "{name!r} is a bye, not a player; leave it out, the draw adds the byes", name=name
+        )

@@ -12,6 +12,7 @@ from evenbreak.tournaments.brackets.bracket import Group, Source
 from evenbreak.tournaments.evening.events import Ranked, Result
 from evenbreak.tournaments.evening.fold import Evening, tied_ranks
 from evenbreak.tournaments.evening.moves import known_match
+from evenbreak.words import Command, listed
 
 
 def stand(state: Evening, match: str) -> list[Result]:
@@ -31,15 +32,20 @@ def stand(state: Evening, match: str) -> list[Result]:
         if the match was not played by other players, or an earlier one must stand first.
     """
     if state.plan.form == "chips":
-        raise InputError("a rack of a player without chips cannot stand; play it again, or undo")
+        raise InputError("a rack of a player without chips can't stand; play it again, or undo")
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:
         if not played:
-            raise InputError(f"{name} was not played by the wrong players, so it cannot stand")
+            raise InputError(
+                "{match} was not played by the wrong players, so there is nothing to let stand",
+                match=name,
+            )
         raise InputError(
-            f"{name} was not played by the wrong players, so it cannot stand; "
-            f"{' and '.join(played)} can"
+            "{match} was not played by the wrong players, so there is nothing to let stand; "
+            "{others} can stand",
+            match=name,
+            others=listed(list(played)),
         )
     wanted = set(played[name].players)
     found = []
@@ -54,11 +60,18 @@ def stand(state: Evening, match: str) -> list[Result]:
         before = state.counted.get(slot.match) if isinstance(slot, Source) else None
         if before is None:
             first = slot.match if isinstance(slot, Source) else name
-            raise InputError(f"{first}, which leads to {name}, is open; settle {first} first")
+            raise InputError(
+                "{first}, which leads to {match}, is open; settle {first} first",
+                first=first,
+                match=name,
+            )
         if not missing & set(before.players):
             raise InputError(
-                f"{' and '.join(sorted(missing))} did not come from {before.match}, so {name} "
-                "cannot stand; play it again, or undo"
+                "{players} did not come from {before}, so {match} can't stand; play it "
+                "again, or undo",
+                players=listed(sorted(missing)),
+                before=before.match,
+                match=name,
             )
         found.append(replace(before, winner=before.loser, corrects=True, stands=not before.stands))
     return found
@@ -122,8 +135,11 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
             if len(set(ahead)) < len(ahead):
                 return _broken(state, group, ahead, rng, only_lots=only_lots)
     if broken:
-        raise InputError("the ties are broken already; undo takes that back")
-    raise InputError("there is no tie to break; ties are broken when all matches are played")
+        raise InputError(
+            "the ties are already broken; to take that back: {undo}",
+            undo=Command("tournament undo"),
+        )
+    raise InputError("there is no tie to break; ties are broken once all matches are played")
 
 
 def _broken(

@@ -29,5 +29,5 @@ def undo(state: Evening, entry: int | None = None) -> Undone:
     if entry is None and not own:
         raise InputError("there is nothing to undo")
     if entry is not None and entry not in can:
-        raise InputError(f"entry {entry} is not the last one, so it cannot be undone")
+        raise InputError("entry {entry} is not the last one, so it can't be undone", entry=entry)
     return Undone(own[0] if entry is None else entry)

@@ -124,7 +124,7 @@ def lot_worth(
     """
     auction = _Auction.of(fair, sold, paid_out)
     if player not in auction.to_come:
-        raise InputError(f"player is {player!r}; give one who is still to be sold")
+        raise InputError("player is {player!r}; give one who is still to be sold", player=player)
     share = auction.to_come[player]
     others = sum(auction.to_come.values()) - share
     if others >= 1.0:
@@ -149,10 +149,10 @@ class _Auction:
         shares = {name: number(s, f"fair share of {name}", low=0.0) for name, s in fair.items()}
         if abs(sum(shares.values()) - 1.0) > 1e-6:
             total = sum(shares.values())
-            raise InputError(f"fair shares sum to {total:g}; give shares that sum to 1")
+            raise InputError("fair shares sum to {total:g}; give shares that sum to 1", total=total)
         for name in bids:
             if name not in shares:
-                raise InputError(f"sold has {name!r}, who is not among the players")
+                raise InputError("sold has {name!r}, who is not among the players", name=name)
         total = sum(number(bid, f"bid for {name}", low=0.0) for name, bid in bids.items())
         return cls(total, {name: part * s for name, s in shares.items() if name not in bids})
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
+from evenbreak.words import joined, say
 
 
 class PayoutRow(NamedTuple):
@@ -66,11 +67,15 @@ class Payouts:
             first = whole(row.entrants_from, "entrants_from", at_least=1)
             last = float("inf") if row.entrants_to is None else row.entrants_to
             if first <= before or last < first:
-                raise InputError(f"row {row} overlaps another or ends before it begins")
+                raise InputError("row {row} overlaps another, or ends before it starts", row=row)
             before = int(min(last, 10**9))
             total = sum(number(share, "share", low=0.0) for share in row.shares)
             if not row.shares or total > 1.0 + 1e-9:
-                raise InputError(f"shares are {row.shares}; give one or more, 1 at most together")
+                raise InputError(
+                    "shares must be one or more numbers that add up to at most 1; they are "
+                    "{shares}",
+                    shares=row.shares,
+                )
 
     def shares(self, entrants: int) -> tuple[float, ...]:
         """Return the shares of the places for a number of entrants.
@@ -84,13 +89,18 @@ class Payouts:
         for row in self.rows:
             if row.entrants_from <= count and (row.entrants_to is None or count <= row.entrants_to):
                 return row.shares
-        spans = ", ".join(
-            f"{row.entrants_from} or more"
+        spans = [
+            say("{n} or more", n=row.entrants_from)
             if row.entrants_to is None
             else f"{row.entrants_from}-{row.entrants_to}"
             for row in self.rows
+        ]
+        raise InputError(
+            "{payouts} pays {spans} entrants, not {entrants}; enter your own shares",
+            payouts=self.name,
+            spans=joined(spans, ", "),
+            entrants=count,
         )
-        raise InputError(f"{self.name} pays {spans} entrants, not {count}; give your own shares")
 
     def amounts(self, entrants: int, pot: float) -> list[float]:
         """Return the money for first place, second, ..."""
@@ -139,7 +149,11 @@ def payout_table(name_or_shares: str | Sequence[float] | Payouts) -> Payouts:
     if isinstance(name_or_shares, str):
         if name_or_shares not in PAYOUTS:
             listed = ", ".join(PAYOUTS)
-            raise InputError(f"payouts is {name_or_shares!r}; give {listed}, or shares")
+            raise InputError(
+                "there is no payout table {name!r}; choose one of {tables}, or give shares",
+                name=name_or_shares,
+                tables=listed,
+            )
         return PAYOUTS[name_or_shares]
     shares = tuple(float(share) for share in np.asarray(name_or_shares, dtype=float).ravel())
     return Payouts("own shares", (PayoutRow(1, None, shares),))

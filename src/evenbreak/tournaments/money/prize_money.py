@@ -68,8 +68,15 @@ def _payouts(text: str) -> Payouts:
     percents = [float(one) for one in text.split("/")] if _PERCENTS.fullmatch(text) else []
     if not any(percents):
         raise InputError(
-            f"payout is {text!r}; give {', '.join(PAYOUTS)}, or percentages such as 50/30/20"
+            "there is no payout table {text!r}; choose one of {tables}, or percentages such "
+            "as 50/30/20",
+            text=text,
+            tables=", ".join(PAYOUTS),
         )
     if sum(percents) > 100.0 + 1e-6:
-        raise InputError(f"payout {text!r} adds up to {sum(percents):g}; give 100 percent at most")
+        raise InputError(
+            "the payout {text!r} adds up to {total:g}%; it must be at most 100%",
+            text=text,
+            total=sum(percents),
+        )
     return replace(payout_table([one / 100.0 for one in percents]), name=text)

@@ -107,7 +107,9 @@ def chances_of(
         p = number_probability(chance, f"live chance of {name}")
         seats = now.seats.get(bracket.match(name).name, (None, None))
         if name in now.winners or None in seats:
-            raise InputError(f"live has match {name!r}; give matches whose players are known")
+            raise InputError(
+                "live has match {name!r}; give matches whose players are known", name=name
+            )
         one, other = seats
         table = tables[name].copy()
         table[one, other], table[other, one] = p, 1.0 - p
@@ -122,7 +124,9 @@ def _given(win: Wins, name: str) -> Any:
     if not isinstance(win, Mapping):
         return win
     if name not in win:
-        raise InputError(f"win has no chances for match {name!r}; give them for every match")
+        raise InputError(
+            "win has no chances for match {name!r}; give them for every match", name=name
+        )
     return win[name]
 
 
@@ -135,16 +139,19 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     table = floats(given, "win", low=0.0, high=1.0).copy()
     if table.shape[:2] != (len(players), len(players)) or table.ndim > 3:
         raise InputError(
-            f"win has shape {table.shape}; give a row and a column for each of "
-            f"{len(players)} players"
+            "win has shape {table_shape}; give a row and a column for each of {n_players} players",
+            table_shape=table.shape,
+            n_players=len(players),
         )
     off = np.abs(table + table.swapaxes(0, 1) - 1.0)
     off[np.arange(len(players)), np.arange(len(players))] = 0.0
     if off.max() > 1e-9:
         i, j, *_ = np.unravel_index(off.argmax(), off.shape)
         raise InputError(
-            f"win[{players[i]}, {players[j]}] and win[{players[j]}, {players[i]}] do not add up "
-            "to 1; give the chances of both players of one match"
+            "win[{player}, {player_2}] and win[{player_2}, {player}] do not add up to 1; "
+            "give the chances of both players of one match",
+            player=players[i],
+            player_2=players[j],
         )
     return table
 

@@ -154,8 +154,10 @@ def fairest_races(
     combinations = [Races(race, other, last) for race, other, last in chosen]
     if not 1 <= len(combinations) <= _MOST_CHOICES:
         raise InputError(
-            f"there are {len(combinations)} combinations of races; give lists that make 1 to "
-            f"{_MOST_CHOICES}"
+            "there are {n_combinations} combinations of races; give lists that make 1 to "
+            "{most_choices}",
+            n_combinations=len(combinations),
+            most_choices=_MOST_CHOICES,
         )
     found = [
         tournament_fairness(bracket, ratings, races, scale=scale, break_advantage=break_advantage)

@@ -118,7 +118,9 @@ def leverages(
 def _plan(now: Standing) -> Plan:
     if now.assumed:
         name = next(iter(now.assumed))
-        raise InputError(f"results has {name!r}; give results of matches whose players are known")
+        raise InputError(
+            "results has {name!r}; give results of matches whose players are known", name=name
+        )
     plan = exact_plan(now.remaining, (), MOST_STATES / len(now.bracket.players))
     if plan is None:
         raise InputError(

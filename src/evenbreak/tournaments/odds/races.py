@@ -238,7 +238,9 @@ def _checked(
     plan = races if isinstance(races, Races) else Races(races)
     unknown = set(plan.by_match) - set(bracket.by_name)
     if unknown:
-        raise InputError(f"by_match has match {min(unknown)!r}, which the bracket does not have")
+        raise InputError(
+            "by_match has match {unknown!r}, which the bracket does not have", unknown=min(unknown)
+        )
     return plan, scale_of(scale), rated, number(break_advantage, "break_advantage")
 
 

@@ -60,7 +60,10 @@ def swiss_odds(
     table = floats(win, "win", low=0.0, high=1.0)
     count = len(event.players)
     if table.shape[:2] != (count, count) or table.ndim > 3:
-        raise InputError(f"win has shape {table.shape}; give a row and a column for each player")
+        raise InputError(
+            "win has shape {table_shape}; give a row and a column for each player",
+            table_shape=table.shape,
+        )
     tables = np.moveaxis(table.reshape(count, count, -1), 2, 0)
     complete, begun = _begun(played)
     check_rounds(event, complete)

@@ -155,8 +155,10 @@ def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
     given = np.asarray(payouts, dtype=float)
     if given.ndim != 1 or len(given) > len(bracket.players) or not np.isfinite(given).all():
         raise InputError(
-            f"payouts is {payouts!r}; give an amount for each paid place, at most "
-            f"{len(bracket.players)} of them"
+            "payouts is {payouts!r}; give an amount for each paid place, at most {n_players} "
+            "of them",
+            payouts=payouts,
+            n_players=len(bracket.players),
         )
     paid[: len(given)] = given
     sums = np.concatenate([[0.0], np.cumsum(paid)])
@@ -281,8 +283,9 @@ def _sampled(
 ) -> TitleOdds:
     if now.assumed:
         raise InputError(
-            f"results has {next(iter(now.assumed))!r}, whose players are not known yet; the odds "
-            "of this bracket are sampled, so give only results of matches that can be played"
+            "results has {assumed!r}, whose players are not known yet; the odds of this "
+            "bracket are sampled, so give only results of matches that can be played",
+            assumed=next(iter(now.assumed)),
         )
     found = sampled_odds(now, chances, samples, rng, batches=batches)
     meetings: dict[str, Meeting] = meetings_so_far(now)

@@ -104,7 +104,9 @@ def over_ratings(
     now = standing(bracket, results)
     if now.assumed:
         name = next(iter(now.assumed))
-        raise InputError(f"results has {name!r}; give results of matches whose players are known")
+        raise InputError(
+            "results has {name!r}; give results of matches whose players are known", name=name
+        )
     mean = column(ratings, "ratings", len(bracket.players), "players")
     remaining = now.remaining
     plan = exact_plan(remaining, (), _MOST_STATES)
@@ -174,8 +176,10 @@ def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Ge
         root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
     else:
         raise InputError(
-            f"spread has shape {given.shape}; give a standard deviation for each of {players} "
-            "players, or their covariance matrix"
+            "spread has shape {given_shape}; give a standard deviation for each of {players} "
+            "players, or their covariance matrix",
+            given_shape=given.shape,
+            players=players,
         )
     errors = rng.standard_normal((pairs, players)) @ root
     return np.concatenate([mean + errors, mean - errors])

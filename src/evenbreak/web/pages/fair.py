@@ -99,7 +99,7 @@ def _races(sides: tuple[Side, ...], scale: Scale, length: int) -> list[FairRace]
     gap, error = one.rating - other.rating, (one.error**2 + other.error**2) ** 0.5
     if not abs(gap) < 1e6:  # neither too large nor not a number
         raise RefusalError(
-            "{value!r} is not a rating. Enter a number, such as 520.", value=f"{one.rating:g}"
+            "{value!r} is not a rating. Enter a number, such as 520.", value=format(one.rating, "g")
         )
     if error:
         return nearest_races_given_ratings(gap, error, scale=scale, race_to=length, top=3)
