@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 from evenbreak.errors import DataError, EvenbreakError, InputError
-from evenbreak.files.foreign import brackets_manager as export_brackets_manager
-from evenbreak.files.foreign import challonge as export_challonge
-from evenbreak.files.foreign import cuescore as export_cuescore
-from evenbreak.files.foreign.brackets import (
-    SavedBracket,
+from evenbreak.files.foreign.results import PROGRAMS, match_problem, saved_in
+from evenbreak.files.foreign.saved import (
+    MISSHAPEN,
+    Played,
+    Remark,
     SavedMatch,
-    of_brackets_manager,
-    of_challonge,
-    of_cuescore,
+    SavedTournament,
+    misshapen,
 )
-from evenbreak.files.foreign.match import FEWER_GAMES, ExportError, Found, Match
-from evenbreak.files.foreign.results import PROGRAMS
-from evenbreak.files.tables.rows import text_of
+from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.rows import content_of
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
@@ -42,12 +39,8 @@ from evenbreak.tournaments.evening.events import (
     event_of,
 )
 from evenbreak.tournaments.evening.fold import evening
+from evenbreak.words import Parameter, listed, say
 
-_READERS: tuple[tuple[Any, Callable[[Any], SavedBracket]], ...] = (
-    (export_cuescore, of_cuescore),
-    (export_challonge, of_challonge),
-    (export_brackets_manager, of_brackets_manager),
-)
 _DISCIPLINES = {"8": "8-ball", "9": "9-ball", "10": "10-ball"}
 
 
@@ -75,55 +68,40 @@ def read_saved_tournament(
     DataError
         if the file is not such a tournament, or contradicts itself.
     """
-    source = str(path)
+    source, content = content_of(path)
+    found = saved_in(content, source)
+    if found is None:
+        other = say("is not a tournament saved from {programs}", programs=PROGRAMS)
+        raise DataError([warning(source, other)])
+    saved, _ = found
+    wrong = (
+        match_problem(number, match.problem)
+        for number, match in enumerate(saved.matches, 1)
+        if match.problem
+    )
+    if problem := saved.refusal or next(wrong, ""):
+        raise DataError([warning(source, problem)])
     try:
-        body, encoding, _ = text_of(Path(path).read_bytes(), source)
-        data = json.loads(body.decode(encoding))
-    except OSError as error:
-        raise DataError([f"{source}: {error.strerror}"]) from None
-    except (ValueError, RecursionError) as error:
-        line = getattr(error, "lineno", 1)
-        raise DataError([f"{source}:{line}: is damaged JSON from here on"]) from None
-    fitting = [both for both in _READERS if both[0].is_one(data)]
-    if not fitting:
-        raise DataError([f"{source}: is not a tournament saved from {PROGRAMS}"])
-    reader, bracket = fitting[0]
-    try:
-        saved = bracket(data)
-        found = [_read(number, read) for number, read in enumerate(reader.matches(data), 1)]
-        return _events(saved, found, plan, entrants, at)
-    except (ExportError, InputError) as error:
-        raise DataError([f"{source}: {error}"]) from None
+        return _events(saved, plan, entrants, at)
+    except InputError as error:
+        raise DataError([warning(source, error.sentence)]) from None
     except EvenbreakError:
         raise
-    except (LookupError, TypeError, ValueError, AttributeError, StopIteration):
-        raise DataError(
-            [f"{source}: is not built as expected; save it again in the other program"]
-        ) from None
-
-
-def _read(number: int, read: Callable[[], list[Found]]) -> list[Found]:
-    try:
-        return read()
-    except ExportError as error:
-        raise ExportError(f"match {number} {error}") from None
+    except MISSHAPEN:
+        raise DataError([warning(source, misshapen())]) from None
 
 
 def _events(
-    saved: SavedBracket,
-    found: Sequence[list[Found]],
-    plan: Plan,
-    known: Mapping[str, Entrant],
-    at: str,
+    saved: SavedTournament, plan: Plan, rated: Mapping[str, Entrant], at: str
 ) -> list[Event]:
     players = saved.players
     if len(players) < 2:
         raise InputError("has no two players with names")
     entrants = tuple(
-        known.get(name, Entrant(name, plan.starter, plan.starter_error)) for name in players
+        rated.get(name, Entrant(name, plan.starter, plan.starter_error)) for name in players
     )
     plan = _with_races(_planned(saved, plan), saved, names := _names(saved))
-    happened = _happened(saved, found, names, _tables(saved, plan.tables))
+    happened = _happened(saved, names, _tables(saved, plan.tables))
     times = [one for one in (_moment(event[0]) for event in happened) if one]
     first = min(times, default=at)
     events = [Event(first, Opened(plan, entrants)), Event(first, Drawn(players, None))]
@@ -135,7 +113,7 @@ def _events(
     return events
 
 
-def _planned(saved: SavedBracket, plan: Plan) -> Plan:
+def _planned(saved: SavedTournament, plan: Plan) -> Plan:
     game = plan.discipline or next(
         (name for key, name in _DISCIPLINES.items() if saved.discipline.startswith(key)),
         "9-ball",
@@ -181,7 +159,7 @@ def _sides(matches: Sequence[SavedMatch]) -> dict[Any, str]:
     return sides
 
 
-def _names(saved: SavedBracket) -> dict[Any, str]:
+def _names(saved: SavedTournament) -> dict[Any, str]:
     """Return the names of the matches, such as W1.1, L2.1 and F."""
     if saved.everybody:
         return _pair_names(saved)
@@ -198,7 +176,7 @@ def _names(saved: SavedBracket) -> dict[Any, str]:
     return names
 
 
-def _pair_names(saved: SavedBracket) -> dict[Any, str]:
+def _pair_names(saved: SavedTournament) -> dict[Any, str]:
     """Return the name of the match of each two players, where everybody plays everybody."""
     bracket = bracket_of(Plan("round-robin", 1), saved.players, None)
     name_of = {}
@@ -215,20 +193,20 @@ def _pair_names(saved: SavedBracket) -> dict[Any, str]:
     }
 
 
-def _with_races(plan: Plan, saved: SavedBracket, names: Mapping[Any, str]) -> Plan:
+def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) -> Plan:
     """Return the plan with the races of the file, where it states any."""
     stated = {names[one.key]: one.race for one in saved.matches if one.race and one.key in names}
     if plan.race:
         return plan
     if not stated:
-        raise InputError("does not say what is raced to; give --race")
+        raise InputError("does not say what is raced to; give {race}", race=Parameter("race"))
     usual = Counter(stated.values()).most_common(1)[0][0]
     inside = bracket_of(replace(plan, race=usual), saved.players, None).by_name
     others = {name: race for name, race in stated.items() if race != usual and name in inside}
     return replace(plan, race=usual, by_match=others)
 
 
-def _tables(saved: SavedBracket, tables: int) -> dict[str, int]:
+def _tables(saved: SavedTournament, tables: int) -> dict[str, int]:
     """Return the number of each table; those without a number come last."""
     texts = sorted({one.table for one in saved.matches} - {""}, key=lambda text: (len(text), text))
     numbers = {text: int(text) for text in texts if text.isdigit() and 1 <= int(text) <= tables}
@@ -237,20 +215,16 @@ def _tables(saved: SavedBracket, tables: int) -> dict[str, int]:
 
 
 def _happened(
-    saved: SavedBracket,
-    found: Sequence[list[Found]],
-    names: Mapping[Any, str],
-    tables: Mapping[str, int],
+    saved: SavedTournament, names: Mapping[Any, str], tables: Mapping[str, int]
 ) -> list[tuple[str, What]]:
     """Return what happened in the matches, with its time as the file states it, in its order."""
     happened: list[tuple[str, str, int, What]] = []
     order = _order(saved)
-    matches = [one for one in saved.matches if one.key is not None]
-    for one, read in zip(matches, found, strict=True):
-        played = [part for part in read if isinstance(part, Match)]
-        name, place = names.get(one.key, ""), order[one.key]
-        if not played and one.score is None:
+    for one in saved.matches:
+        played = one.played
+        if one.key is None or (not played and one.score is None):
             continue
+        name, place = names.get(one.key, ""), order[one.key]
         pair = one.pair if not played else (played[0].player_a, played[0].player_b)
         if one.table and one.started:
             call = Called(name, tables[one.table], pair)
@@ -268,7 +242,7 @@ def _happened(
     return [(time, what) for time, _, _, what in happened]
 
 
-def _order(saved: SavedBracket) -> dict[Any, int]:
+def _order(saved: SavedTournament) -> dict[Any, int]:
     """Return how many matches at least come before each."""
     came = {one.key: [s[0] for s in one.slots if isinstance(s, tuple)] for one in saved.matches}
     depth: dict[Any, int] = {}
@@ -278,10 +252,10 @@ def _order(saved: SavedBracket) -> dict[Any, int]:
     return depth
 
 
-def _result(name: str, pair: tuple[str, str], played: Sequence[Match], winner: int) -> Result:
+def _result(name: str, pair: tuple[str, str], played: Sequence[Played], winner: int) -> Result:
     score = sum(one.score_a for one in played), sum(one.score_b for one in played)
     if not winner:
-        fewer = any(FEWER_GAMES in one.remarks for one in played)
+        fewer = any(Remark.FEWER_GAMES in one.remarks for one in played)
         winner = 1 if (score[0] > score[1]) != fewer else 2
     forfeit = any(one.forfeit for one in played)
     first = played[0]
@@ -310,14 +284,17 @@ def _check(events: Sequence[Event]) -> None:
         try:
             event_of(NAMES[type(event.what)], as_dict(event.what))
         except InputError as error:
-            raise InputError(f"{getattr(event.what, 'match', 'tournament')}: {error}") from None
+            match = getattr(event.what, "match", say("tournament"))
+            raise InputError("{match}: {why}", match=match, why=error.sentence) from None
     state = evening(events)
     for one in state.aside:
         seats = state.standing.seats.get(one.result.match)
         if seats is None:
-            raise InputError(f"{one.result.match} is a bye, but has a result")
-        now = " and ".join("nobody yet" if k is None else state.order[k] for k in seats)
+            raise InputError("{match} is a bye, but has a result", match=one.result.match)
+        now = [say("nobody yet") if k is None else state.order[k] for k in seats]
         raise InputError(
-            f"{' and '.join(one.result.players)} played {one.result.match}, but the matches before "
-            f"it send {now} there"
+            "{players} played {match}, but the matches before it send {others} there",
+            players=listed(one.result.players),
+            match=one.result.match,
+            others=listed(now),
         )

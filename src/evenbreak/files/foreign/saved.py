@@ -1,0 +1,288 @@
+"""A tournament as another program saved it: one value, whatever program it was.
+
+Results and the events of an evening are both read from it. What is wrong with a single match stays
+with the match, and what keeps the bracket from being rebuilt stays with the tournament: results
+need no bracket.
+"""
+
+from __future__ import annotations
+
+import re
+import reprlib
+import unicodedata
+from collections.abc import Callable, Mapping
+from enum import Enum
+from typing import Any, NamedTuple, TypeAlias
+
+from evenbreak.errors import EvenbreakError
+from evenbreak.words import say
+
+
+class Remark(Enum):
+    """Something to count, in words: one, and several."""
+
+    BYE = "bye", "byes"
+    UNFINISHED = "match that was not finished", "matches that were not finished"
+    NO_SCORE = "match finished without a score", "matches finished without a score"
+    FORFEIT = "forfeit", "forfeits"
+    HEAD_START = (
+        "match counted without the head start in its score",
+        "matches counted without the head starts in their scores",
+    )
+    NO_RACE = (
+        "match read without its race, which the score does not end",
+        "matches read without their races, which the scores do not end",
+    )
+    FEWER_GAMES = (
+        "match read without its winner, who won fewer games",
+        "matches read without their winners, who won fewer games",
+    )
+    NO_DATE = (
+        "match whose time cannot be read as a date",
+        "matches whose times cannot be read as dates",
+    )
+    SETS = "set of a longer match counted as a match", "sets of longer matches counted as matches"
+
+    def counted(self, n: int) -> str:
+        """Return how many there are, in words."""
+        one, several = self.value
+        return say("{n:,} {matches}", n=n, matches=one if n == 1 else several)
+
+
+TITLES = (
+    *("date", "event", "player_a", "player_b", "score_a", "score_b"),
+    *("race_a", "race_b", "winner", "forfeit"),
+)
+"""The columns of `Played.row`."""
+
+MISSHAPEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, StopIteration)
+"""What reading a file raises that is not built as its program builds it."""
+
+_MOST = 9_999_999
+_DAY = re.compile(r"\d{4}-\d{2}-\d{2}(?!\d)", re.ASCII)
+_NOBODY = re.compile(r"(walk ?over|w/?o|bye|tbd|-+|\?+)?", re.IGNORECASE)
+
+
+class ExportError(EvenbreakError):
+    """What is wrong with one match, or with all of them."""
+
+
+class Played(NamedTuple):
+    """A match, or a set of one, that counts as a result.
+
+    Parameters
+    ----------
+    player_a, player_b
+        the names.
+    score_a, score_b
+        games won, without those given as a head start.
+    race_a, race_b
+        the games that each had to win; 0 where not stated.
+    date, event
+        as text; '' where not stated.
+    winner
+        a, b or ''.
+    forfeit
+        whether it was one.
+    remarks
+        what is counted, such as `Remark.HEAD_START`.
+    """
+
+    player_a: str
+    player_b: str
+    score_a: int = 0
+    score_b: int = 0
+    race_a: int = 0
+    race_b: int = 0
+    date: str = ""
+    event: str = ""
+    winner: str = ""
+    forfeit: bool = False
+    remarks: tuple[Remark, ...] = ()
+
+    def row(self) -> list[str]:
+        """Return the cells below `TITLES`."""
+        scored = not self.forfeit
+        return [
+            *(self.date, self.event, self.player_a, self.player_b),
+            *((str(self.score_a), str(self.score_b)) if scored else ("", "")),
+            *((str(self.race_a), str(self.race_b)) if self.race_a and scored else ("", "")),
+            *(self.winner, "yes" if self.forfeit else ""),
+        ]
+
+    def fitting_race(self) -> Played:
+        """Return the match without its race if the score does not end that race."""
+        reached = self.score_a >= self.race_a, self.score_b >= self.race_b
+        over = self.score_a > self.race_a or self.score_b > self.race_b
+        if not (self.race_a and self.race_b) or (reached[0] != reached[1] and not over):
+            return self
+        return self._replace(race_a=0, race_b=0, remarks=(*self.remarks, Remark.NO_RACE))
+
+    def won_by(self, winner: str) -> Played:
+        """Return the match with its winner, or without if the other player won more games."""
+        if winner and winner != ("a" if self.score_a > self.score_b else "b"):
+            return self._replace(remarks=(*self.remarks, Remark.FEWER_GAMES))
+        return self._replace(winner=winner)
+
+
+From: TypeAlias = tuple[Any, str]
+"""The key of another match, and its outcome: winner or loser."""
+
+Slots: TypeAlias = tuple[str | From | None, ...]
+"""Who is in a match: names, outcomes of other matches, or byes (None)."""
+
+
+class SavedMatch(NamedTuple):
+    """A match of a saved tournament.
+
+    Parameters
+    ----------
+    key
+        its number in the file; None for a second final that the file leaves out.
+    played
+        the results in it: one, several sets, or none.
+    left_out
+        why there is none: `Remark.BYE`, `Remark.UNFINISHED` or `Remark.NO_SCORE`.
+    problem
+        what contradicts itself in it; '' if nothing.
+    side
+        winners, losers, final, second final or third place.
+    round
+        its round.
+    slots
+        who comes to it from where.
+    winner
+        1 or 2 if it has been won, else 0.
+    race, table, started, ended
+        what the file says of it; 0 or '' where it says nothing.
+    pair, score
+        the players and the score of a match in play.
+    """
+
+    key: Any
+    played: tuple[Played, ...] = ()
+    left_out: Remark | None = None
+    problem: str = ""
+    side: str = ""
+    round: int = 0
+    slots: Slots = ()
+    winner: int = 0
+    race: int = 0
+    table: str = ""
+    started: str = ""
+    ended: str = ""
+    pair: tuple[str, str] = ("", "")
+    score: tuple[int, int] | None = None
+
+
+class SavedTournament(NamedTuple):
+    """A saved tournament, its matches in the order of the file.
+
+    Parameters
+    ----------
+    matches
+        the matches; where `refusal` is not '', without their places in the bracket.
+    name
+        its name.
+    players
+        the names in seed order.
+    everybody
+        whether everybody plays everybody.
+    discipline
+        8-ball, 9-ball or 10-ball; '' where not stated.
+    refusal
+        why the bracket cannot be rebuilt.
+    """
+
+    matches: tuple[SavedMatch, ...]
+    name: str = ""
+    players: tuple[str, ...] = ()
+    everybody: bool = False
+    discipline: str = ""
+    refusal: str = ""
+
+    def placed(self, place: Callable[[SavedTournament], SavedTournament]) -> SavedTournament:
+        """Return the tournament with its bracket, or with why it has none."""
+        try:
+            return place(self)
+        except ExportError as error:
+            return self._replace(refusal=error.sentence)
+        except MISSHAPEN:
+            return self._replace(refusal=misshapen())
+
+
+def misshapen() -> str:
+    """Return what to say of a file that is not built as its program builds it."""
+    return say("is not built as expected; save it again in the other program")
+
+
+def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: Any) -> SavedMatch:
+    """Return a match with its results, on the day of the first time, or with what is wrong.
+
+    Parameters
+    ----------
+    key
+        its number in the file.
+    read
+        returns the results in it, or why there are none.
+    times
+        when it was, such as 2024-09-03T19:30:00+02:00.
+    """
+    try:
+        played = read()
+    except ExportError as error:
+        return SavedMatch(key, problem=error.sentence)
+    if isinstance(played, Remark):
+        return SavedMatch(key, left_out=played)
+    stated = [str(time) for time in times if time]
+    days = [day[0] for time in stated if (day := _DAY.match(time))]
+    remarks = (Remark.NO_DATE,) if stated and not days else ()
+    date = days[0] if days else ""
+    return SavedMatch(
+        key, tuple(one._replace(date=date, remarks=(*one.remarks, *remarks)) for one in played)
+    )
+
+
+def text_of(value: Any) -> str:
+    """Return what a file states as text, '' for nothing."""
+    return str(value or "")
+
+
+def name_of(player: Any, what: str) -> str:
+    """Return the name of a player, '' for nobody (a bye, or not known yet)."""
+    if player is None:
+        return ""
+    name = player.get("name") if isinstance(player, Mapping) else player
+    if name is not None and not isinstance(name, str):
+        raise ExportError("has no name for {player}", player=what)
+    text = " ".join((name or "").split())
+    if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
+        raise ExportError("has a name for {player} that cannot be printed", player=what)
+    return "" if _NOBODY.fullmatch(text) else text
+
+
+def player_of(names: Mapping[Any, str], number: Any) -> str:
+    """Return the name of the participant with this number."""
+    name = names.get(number)
+    if not name:
+        raise ExportError(
+            "is played by number {number!r}, which no participant with a name has", number=number
+        )
+    return name
+
+
+def count_of(value: Any, what: str) -> int | None:
+    """Return a whole number from 0, None where there is none."""
+    if value is None or value == "":
+        return None
+    if isinstance(value, str) and re.fullmatch(r"\d{1,7}", value.strip(), re.ASCII):
+        return int(value)
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if number and 0 <= value <= _MOST and value == int(value):
+        return int(value)
+    raise ExportError(
+        "has {what} {value}, which is not a whole number from 0 to {most:,}",
+        what=what,
+        value=reprlib.repr(value),
+        most=_MOST,
+    )
