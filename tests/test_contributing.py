@@ -135,6 +135,7 @@ def test_what_there_was_still_holds(followed: Followed) -> None:
     assert followed.count("test_lazy") > 5
 
 
+@pytest.mark.slow
 def test_a_game(followed: Followed) -> None:
     assert followed.count("test_games", "ghost") + followed.count("test_diagram", "ghost") > 10
     assert followed.count("src/evenbreak/games/ghost.py") > 0
@@ -157,6 +158,7 @@ def test_a_system(followed: Followed) -> None:
     assert '"shutout"' in followed.checkout.asks("ladder --system shutout --json")
 
 
+@pytest.mark.slow
 def test_the_examples_pass_the_linter(followed: Followed) -> None:
     code = [str(path) for path in followed.new if path.suffix == ".py"]
     assert code

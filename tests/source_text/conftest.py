@@ -8,12 +8,24 @@ from typing import NamedTuple
 
 import pytest
 
+from places import ROOT
+
 
 class Reproduced(NamedTuple):
     """The files of the source text, and what was said while they were made."""
 
     files: Mapping[str, bytes]
     said: list[str]
+
+
+@pytest.fixture(scope="session")
+def reports(request: pytest.FixtureRequest) -> Mapping[str, bytes]:
+    """The committed files of the source text, which slow tests hold to those that are made anew."""
+    place = ROOT / "reports"
+    if not (place / "index.md").exists():  # in a copy of the program without them
+        made: Reproduced = request.getfixturevalue("reproduced")
+        return made.files
+    return {path.name: path.read_bytes() for path in place.iterdir() if path.is_file()}
 
 
 @pytest.fixture(scope="session")

@@ -72,9 +72,9 @@ def test_a_readers_own_settings_do_not_change_a_figure(name):
 
 
 @pytest.mark.parametrize("name", PLOTS)
-def test_plots_are_of_moderate_size(reproduced, name):
+def test_plots_are_of_moderate_size(reports, name):
     assert 900 <= figure(name).get_size_inches()[0] * 150 <= 1400
-    assert len(reproduced.files[f"{name}.svg"]) < 200_000
+    assert len(reports[f"{name}.svg"]) < 200_000
 
 
 def boxes(axes, room=0.0):

@@ -18,6 +18,7 @@ def files(reproduced):
     return reproduced.files
 
 
+@pytest.mark.slow
 def test_everything_is_written(files):
     tables = {f"{name}.csv" for name in {**section_5_tables(), **physics_tables(), **game_tables()}}
     pictures = {f"{name}.{kind}" for name in figures() for kind in ("png", "svg")}
@@ -35,12 +36,13 @@ def test_another_process_writes_the_same_bytes(files):
             assert image_bytes(figure, kind) == files[f"{name}.{kind}"]
 
 
+@pytest.mark.slow
 def test_it_says_what_it_does(reproduced):
     assert str(len(figures())) in reproduced.said[1]
 
 
-def test_tables_are_even_and_no_text_is_a_formula(files):
-    for name, content in files.items():
+def test_tables_are_even_and_no_text_is_a_formula(reports):
+    for name, content in reports.items():
         if name.endswith(".csv"):
             rows = list(csv.reader(io.StringIO(content.decode())))
             assert len({len(row) for row in rows}) == 1, name
@@ -52,6 +54,7 @@ def test_all_findings_are_of_both_parts():
     assert {"P1.1", "P4.27", "P5.1", "P5.27", "NPL"} <= problems
 
 
+@pytest.mark.slow
 def test_committed_reports_are_these(files):
     if not (REPORTS / "index.md").exists():
         pytest.skip("no reports lie beside this copy of the program")

@@ -11,11 +11,10 @@ FIGURES = [name for name in figures() if name < "figure_5"]
 
 
 @pytest.fixture(scope="module")
-def page(reproduced):
-    return reproduced.files["physics.md"].decode()
+def page(reports):
+    return reports["physics.md"].decode()
 
 
-@pytest.mark.slow
 def test_all_figures_and_tables_are_linked(page):
     linked = set(re.findall(r"\]\(([^)#]+)\)", page))
     drawn = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}

@@ -11,8 +11,8 @@ FIGURES = [name for name in figures() if name.startswith(("figure_5", "figure_p5
 
 
 @pytest.fixture(scope="module")
-def page(reproduced):
-    return reproduced.files["index.md"].decode()
+def page(reports):
+    return reports["index.md"].decode()
 
 
 @pytest.fixture(scope="module")
