@@ -9,6 +9,7 @@ import pytest
 
 import evenbreak as eb
 from evenbreak.errors import EvenbreakError
+from rows import each_of
 
 WRONG = ([], [("A", "B", 1.0)], "x", 5, None, {"a": 1})
 TAKES = ("Chain", "Results")
@@ -33,7 +34,7 @@ def test_the_functions_are_found() -> None:
     assert {"chains.mixing_time", "chains.stochastic_limit", "ratings.fit"} <= set(FUNCTIONS)
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@each_of("name", FUNCTIONS)
 def test_what_is_not_a_chain_or_results_is_named(name: str) -> None:
     function = FUNCTIONS[name]
     needed = [

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from places import ROOT
+from rows import each_of
 from test_docs import FENCE, PAGES
 
 DOCS = ROOT / "docs"
@@ -68,12 +69,12 @@ def test_the_readme_is_short() -> None:
     assert len((ROOT / "README.md").read_text("utf-8").split()) <= 900
 
 
-@pytest.mark.parametrize("page", dict.fromkeys([*FRONT, *PAGES]), ids=name_of)
+@each_of("page", dict.fromkeys([*FRONT, *PAGES]))
 def test_links_lead_somewhere_on_a_git_host(page: Path) -> None:
     assert broken_links(page, page.read_text("utf-8")) == []
 
 
-@pytest.mark.parametrize("page", FRONT, ids=name_of)
+@each_of("page", FRONT)
 def test_the_front_pages_have_no_marks_that_a_git_host_prints(page: Path) -> None:
     assert SPHINX_ONLY.findall(page.read_text("utf-8")) == []
 

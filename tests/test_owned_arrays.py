@@ -16,7 +16,6 @@ from typing import Any
 
 import networkx as nx
 import numpy as np
-import pytest
 from scipy.sparse import csc_array
 
 import evenbreak as eb
@@ -30,6 +29,7 @@ from evenbreak.practice import DrillLog
 from evenbreak.ratings import Beginning, Results, Roster
 from evenbreak.teams import Squad, TeamNight, TeamSeason
 from places import SRC
+from rows import each_of
 
 ARRAYS = re.compile(r"Floats|Ints|Bools|Places|NDArray|cs[cr]_array")
 ROOMS = sorted(stub.parent.name for stub in SRC.glob("*/__init__.pyi"))
@@ -49,7 +49,7 @@ def classes() -> Iterator[tuple[str, type]]:
 CLASSES = dict(classes())
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@each_of("name", CLASSES)
 def test_a_public_class_with_arrays_owns_them(name: str) -> None:
     assert hasattr(vars(CLASSES[name])["__init__"], "__wrapped__"), "decorate it with own_arrays"
 
@@ -176,7 +176,7 @@ def content(value: Any) -> Any:
     return arrays or (value if isinstance(value, str | int | float | tuple) else None)
 
 
-@pytest.mark.parametrize("name", VALUES)
+@each_of("name", VALUES)
 def test_writing_to_what_a_value_was_made_from_changes_nothing(name: str) -> None:
     make, given = VALUES[name][0], deepcopy(VALUES[name][1])
     late, early = make(**given), make(**given)
@@ -192,7 +192,7 @@ def test_writing_to_what_a_value_was_made_from_changes_nothing(name: str) -> Non
     assert repr(content(late)) == before  # what it remembers is found out only now
 
 
-@pytest.mark.parametrize("name", VALUES)
+@each_of("name", VALUES)
 def test_writing_to_what_a_value_shows_changes_nothing(name: str) -> None:
     make, given = VALUES[name][0], deepcopy(VALUES[name][1])
     value = make(**given)

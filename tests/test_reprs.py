@@ -7,12 +7,12 @@ import re
 from collections.abc import Iterator
 
 import numpy as np
-import pytest
 
 from evenbreak import games
 from evenbreak.chains import chain_of, spectrum, stochastic_limit
 from evenbreak.games import CATALOGUE, Drill, Race, Rack, winner_breaks
 from evenbreak.matches import final_scores, match_length
+from rows import each_of
 
 ROOMS = (
     "answers",
@@ -42,12 +42,12 @@ def classes() -> Iterator[tuple[str, type]]:
 CLASSES = dict(classes())
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@each_of("name", CLASSES)
 def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
     assert not hasattr(CLASSES[name].__repr__, "__wrapped__")
 
 
-@pytest.mark.parametrize(
+@each_of(
     "value",
     [
         match_length(Race(50, 50, Rack(0.6))),
@@ -62,7 +62,6 @@ def test_results_with_arrays_have_a_repr_of_their_own(name: str) -> None:
         Race(7, 7, Rack(np.linspace(0, 1, 99), 0.5), breaks=winner_breaks),
         stochastic_limit(chain_of(Race(7, 7, Rack(0.6)))),
     ],
-    ids=lambda value: type(value).__name__,
 )
 def test_reprs_are_short(value: object) -> None:
     assert len(repr(value)) < 600
@@ -70,7 +69,7 @@ def test_reprs_are_short(value: object) -> None:
     assert " at 0x" not in repr(value)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@each_of("name", CATALOGUE)
 def test_a_game_is_written_so_that_python_reads_it_back(name: str) -> None:
     named = {public: getattr(games, public) for public in games.__all__}
     assert eval(repr(CATALOGUE[name]), named) == CATALOGUE[name]  # noqa: S307

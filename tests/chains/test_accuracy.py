@@ -24,6 +24,7 @@ from evenbreak.chains import (
     stochastic_limit,
 )
 from evenbreak.games import Race, Rack, alternate_breaks, loser_breaks, winner_breaks
+from rows import each_of
 
 TOLERANCE = 1e-12
 ONE = Fraction(1)
@@ -255,9 +256,9 @@ def coupled_blocks(draw: random.Random, size: int, coupling: float, *, ends: boo
     return triples
 
 
-@pytest.mark.parametrize("ends", [False, True], ids=["closed", "with exits"])
-@pytest.mark.parametrize("coupling", [1e-6, 1e-10, 1e-15])
-@pytest.mark.parametrize("size", [4, 12])
+@each_of("ends", [False, True])
+@each_of("coupling", [1e-6, 1e-10, 1e-15])
+@each_of("size", [4, 12])
 def test_coupled_blocks(size: int, coupling: float, ends: bool) -> None:
     draw = random.Random(size)
     chain = chain_of(coupled_blocks(draw, size, coupling, ends=ends), start=1)
@@ -319,7 +320,7 @@ RACES = [
 ]
 
 
-@pytest.mark.parametrize("race", RACES, ids=lambda race: f"{race.m}:{race.n} {race.rack}")
+@each_of("race", RACES)
 def test_races(race: Race) -> None:
     final = race_by_integers(race)
     found = stochastic_limit(chain_of(race))

@@ -11,6 +11,7 @@ from scipy.sparse import csc_array
 import oracle
 from evenbreak.chains import Chain, chain_from_arrays, limit_matrix, stochastic_limit
 from evenbreak.chains.birth_death import birth_death_law, birth_death_of, prefix_products, shares
+from rows import each_of
 
 
 def random_line(draw):
@@ -168,8 +169,8 @@ def exact_products(numerators, denominators):
     return list(accumulate([Fraction(1), *ratios], lambda x, y: x * y))
 
 
-@pytest.mark.parametrize("n", [0, 1, 31, 32, 33, 200])
-@pytest.mark.parametrize("decades", [0.5, 5, 300])
+@each_of("n", [0, 1, 31, 32, 33, 200])
+@each_of("decades", [0.5, 5, 300])
 def test_products_are_right_to_the_number_of_factors(n, decades):
     rng = np.random.default_rng(n)
     up, down = 10.0 ** -rng.uniform(0, decades, n), 10.0 ** -rng.uniform(0, decades, n)

@@ -9,6 +9,7 @@ from evenbreak.chains import Chain, chain_of
 from evenbreak.errors import ChainError, InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.games import CATALOGUE
+from rows import each_of
 
 
 @pytest.fixture
@@ -110,7 +111,7 @@ def test_a_seed_that_is_none_is_refused_by_its_name():
 # Towards other libraries ---------------------------------------------------------------
 
 
-@pytest.mark.parametrize("game", CATALOGUE.values(), ids=CATALOGUE.keys())
+@each_of("game", CATALOGUE.values())
 def test_the_graph_of_a_chain_is_that_of_its_game_and_reads_back(game: Game):
     chain = chain_of(game)
     graph = chain.to_networkx()

@@ -10,6 +10,7 @@ from evenbreak.chains import chain_from_arrays, chain_of
 from evenbreak.errors import ChainError, EvenbreakError, GameError
 from evenbreak.game import graph_of
 from evenbreak.games import OneBall, Race, Rack, Series, winner_breaks
+from rows import each_of
 
 UNIT = st.floats(0.0, 1.0)
 
@@ -60,8 +61,8 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
 # The rules -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("triples", "words"),
+@each_of(
+    "triples, words",
     [
         ([("A", "B", 0.5)], "the arcs out of state 'A' sum to 0.5; give probabilities"),
         ([("A", "B", 1.1)], "'A' -> 'B' has probability 1.1"),

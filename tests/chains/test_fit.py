@@ -36,6 +36,7 @@ def test_tuple_states_and_generators() -> None:
     assert fitted.chain.matrix.toarray().tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 1]]
 
 
+@pytest.mark.slow
 def test_drawn_chances_have_the_moments_of_a_dirichlet_law() -> None:
     """Mean c / n, variance (c / n)(1 - c / n) / (n + 1)."""
     fitted = fit_chain([["s", "x"]] * 6 + [["s", "y"]] * 3 + [["s", "s"]])

@@ -19,6 +19,7 @@ from evenbreak.chains import (
     stochastic_limit,
 )
 from evenbreak.errors import AccuracyError, ChainError
+from rows import each_of
 
 
 def random_chain(draw):
@@ -35,7 +36,7 @@ def random_chain(draw):
     return Chain(range(n), csc_array(matrix), 0)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@each_of("seed", range(60))
 def test_every_start_of_random_chains(seed):
     chain = random_chain(random.Random(seed))
     columns = oracle.columns_of(chain)

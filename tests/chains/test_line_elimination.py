@@ -8,6 +8,7 @@ from scipy.sparse import csc_array, diags_array
 
 import oracle
 from evenbreak.chains.birth_death import LineElimination, line_order
+from rows import each_of
 
 
 def line(n, shuffle):
@@ -33,8 +34,8 @@ def test_what_has_two_ends_but_is_no_line():
     assert line_order(csc_array(np.ones((4, 4)) - np.eye(4))) is None
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 8, 13, 32])
-@pytest.mark.parametrize("decades", [0.5, 12])
+@each_of("n", [1, 2, 3, 4, 5, 8, 13, 32])
+@each_of("decades", [0.5, 12])
 def test_both_solves(n, decades):
     rng = np.random.default_rng(n)
     up, down = 10.0 ** -rng.uniform(0.4, decades, (2, n - 1))

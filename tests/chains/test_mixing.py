@@ -14,6 +14,7 @@ from evenbreak.chains.mixing import (
 )
 from evenbreak.errors import AccuracyError, ChainError, InputError
 from evenbreak.games import Ahead, OneBall, Race, Rack
+from rows import each_of
 from tiers import examples
 
 
@@ -38,8 +39,8 @@ class TestGap:
         )
         assert spectral_gap(walk(4, 0.01)) == pytest.approx(0.02, rel=1e-10)
 
-    @pytest.mark.parametrize("rare", [0.0, 1e-20, 1e-15, 1e-12, 1e-10])
-    @pytest.mark.parametrize("period", [2, 3, 4])
+    @each_of("rare", [0.0, 1e-20, 1e-15, 1e-12, 1e-10])
+    @each_of("period", [2, 3, 4])
     def test_a_period_that_ends_once_in_ages_counts_as_one(self, period, rare):
         """A cycle of pairs of states, with a rare wait in one: what goes round is left out."""
         cycle = [
@@ -114,6 +115,7 @@ class TestGap:
         second = np.sort(np.abs(np.linalg.eigvals(power)))[-2]
         assert spectral_gap(chain) == pytest.approx(1 - second ** (1 / period), rel=1e-6)
 
+    @pytest.mark.slow
     def test_a_large_class_that_goes_round_for_ages(self):
         """A drift about a torus, even but for a wait that hardly ever comes."""
         side, rare = 34, 1e-12
@@ -179,6 +181,7 @@ class TestMixingTime:
         brute = sum(np.linalg.matrix_power(M, k) for k in range(terms)) / terms
         assert _average_of_powers(M, terms) == pytest.approx(brute, rel=1e-14)
 
+    @pytest.mark.slow
     def test_a_common_period_beyond_64_bits(self):
         """Rings of 16 prime lengths: once round them all takes some 3e19 steps."""
         primes = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53]

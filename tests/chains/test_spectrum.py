@@ -20,6 +20,7 @@ from evenbreak.games import (
     loser_breaks,
     winner_breaks,
 )
+from rows import each_of
 from tiers import examples
 
 
@@ -62,14 +63,13 @@ def chains(draw):
     return chain_from_arrays(list(range(n)), j, i, (A / A.sum(axis=0))[i, j], start=0)
 
 
-@pytest.mark.parametrize(
+@each_of(
     "chain",
     [
         *(ladder(n, stay=stay) for n in (7, 61, 121) for stay in (0.0, 1e-17, 1e-9, 0.1)),
         *(unbalanced(ladder(n)) for n in (7, 15)),
         *(chain_of([(k, (k + 1) % n, 1.0) for k in range(n)]) for n in (3, 7, 30)),
     ],
-    ids=repr,
 )
 def test_no_eigenvalue_is_beyond_the_unit_circle(chain):
     values = spectrum(chain).values.tolist()
@@ -268,7 +268,7 @@ COUPLINGS = [10.0**-e for e in range(3, 17)]
 class TestNearlyDecoupled:
     """The error is within its bound, or the answer is refused: nothing is wrong in silence."""
 
-    @pytest.mark.parametrize("e", COUPLINGS)
+    @each_of("e", COUPLINGS)
     def test_two_states_that_hardly_move(self, e):
         arcs = [("a", "a", 1 - e), ("a", "b", e), ("b", "b", 1 - 2 * e), ("b", "a", 2 * e)]
         found = spectrum(chain_of(arcs, start="a"))
@@ -276,8 +276,8 @@ class TestNearlyDecoupled:
         np.testing.assert_allclose(found.limit(), [2 / 3, 1 / 3], rtol=1e-15)
         assert found.limit_error < 1e-14
 
-    @pytest.mark.parametrize("coupling", COUPLINGS)
-    @pytest.mark.parametrize(("k", "size"), [(2, 2), (2, 5), (3, 3), (5, 4), (2, 25)])
+    @each_of("coupling", COUPLINGS)
+    @each_of("k, size", [(2, 2), (2, 5), (3, 3), (5, 4), (2, 25)])
     def test_blocks(self, coupling, k, size):
         chain = chain_of(ring_of_blocks(coupling, k, size, np.random.default_rng(k * size)))
         try:
@@ -288,7 +288,7 @@ class TestNearlyDecoupled:
         assert error_of(found) <= found.limit_error
         assert found.limit_error <= 1e-12 / coupling
 
-    @pytest.mark.parametrize("coupling", COUPLINGS)
+    @each_of("coupling", COUPLINGS)
     def test_transient_blocks(self, coupling):
         """Two ways out of a ring that is rarely left: the chances are what is hard."""
         arcs = ring_of_blocks(coupling, 3, 3, np.random.default_rng(7))
@@ -301,7 +301,7 @@ class TestNearlyDecoupled:
             return
         assert error_of(found) <= found.limit_error
 
-    @pytest.mark.parametrize("seed", range(60))
+    @each_of("seed", range(60))
     def test_random_chains_with_arcs_over_many_decades(self, seed):
         rng = np.random.default_rng(seed)
         n = int(rng.integers(2, 20))
@@ -318,7 +318,7 @@ class TestNearlyDecoupled:
             return
         assert error_of(found) <= found.limit_error
 
-    @pytest.mark.parametrize("coupling", COUPLINGS)
+    @each_of("coupling", COUPLINGS)
     def test_all_vectors_leave_those_of_one_alone(self, coupling):
         chain = chain_of(ring_of_blocks(coupling, 3, 3, np.random.default_rng(0)))
         try:
@@ -334,7 +334,7 @@ class TestNearlyDecoupled:
 class TestPeriods:
     """Eigenvalues of modulus 1 are known from the structure, with their vectors."""
 
-    @pytest.mark.parametrize("coupling", [0.1, *COUPLINGS])
+    @each_of("coupling", [0.1, *COUPLINGS])
     def test_two_pairs_that_are_hardly_joined(self, coupling):
         arcs = [(0, 1, 1 - coupling), (0, 3, coupling), (1, 0, 1.0), (3, 2, 1.0)]
         arcs += [(2, 3, 1 - 2 * coupling), (2, 1, 2 * coupling)]

@@ -9,6 +9,7 @@ from scipy.sparse import csc_array
 
 import oracle
 from evenbreak.chains import Chain
+from rows import each_of
 
 
 def chain_of_arcs(n, arcs, loops=()):
@@ -26,7 +27,7 @@ def random_chain(draw):
     return chain_of_arcs(n, arcs)
 
 
-@pytest.mark.parametrize("seed", range(150))
+@each_of("seed", range(150))
 def test_classes_are_the_strong_components_upstream_first(seed):
     chain = random_chain(random.Random(seed))
     structure, columns = chain.structure, oracle.columns_of(chain)

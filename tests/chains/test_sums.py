@@ -21,10 +21,11 @@ from evenbreak.chains import (
 )
 from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError, ChainError
+from rows import each_of
 
 
-@pytest.mark.parametrize("count", [3, 100, 10_001, 300_000])
-@pytest.mark.parametrize("decades", [0, 1, 40])
+@each_of("count", [3, 100, 10_001, 300_000])
+@each_of("decades", [0, 1, 40])
 def test_sums_are_right_to_one_rounding(count: int, decades: int) -> None:
     rng = np.random.default_rng(count)
     values = 0.1 * 10.0 ** -(decades * rng.random(count))

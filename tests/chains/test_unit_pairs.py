@@ -11,6 +11,7 @@ from evenbreak.chains import Chain, chain_from_arrays, chain_of, spectrum, stoch
 from evenbreak.chains.eigenpairs import UnitPairs, limit_by
 from evenbreak.errors import AccuracyError
 from evenbreak.games import BREAK_FORMATS, CATALOGUE, Ahead, Drill, OneBall, Race, Rack
+from rows import each_of
 from tries import tries
 
 SHARP = 1e-14
@@ -150,7 +151,7 @@ SLOW = {
 }
 
 
-@pytest.mark.parametrize("game", [*CATALOGUE.values(), *SLOW.values()], ids=[*CATALOGUE, *SLOW])
+@each_of("game", [*CATALOGUE.values(), *SLOW.values()])
 def test_every_game_is_answered_within_a_sharp_bound(game) -> None:
     chain = chain_of(game)
     limit, bound = UnitPairs(chain).limit(chain.density())

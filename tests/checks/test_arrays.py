@@ -11,6 +11,7 @@ import pytest
 
 from evenbreak.checks import column, floats, plain, probability, together, whole_numbers
 from evenbreak.errors import InputError
+from rows import each_of
 
 
 @pytest.mark.parametrize("value", [0, 1, 0.25, Fraction(1, 3), np.float32(0.5), np.array(0.5)])
@@ -47,7 +48,7 @@ def test_floats_keep_their_shape(values: Any, shape: tuple[int, ...]) -> None:
     assert array.shape == shape
 
 
-@pytest.mark.parametrize(
+@each_of(
     "values", ["1", ["1"], None, [None], 1j, [[1, 2], [3]], np.inf, [1, np.nan], 10**400, [{}]]
 )
 def test_what_is_not_finite_or_not_a_number_is_refused(values: object) -> None:
@@ -83,8 +84,8 @@ def test_a_column_is_a_copy_that_cannot_be_written() -> None:
         games[0] = 9
 
 
-@pytest.mark.parametrize(
-    ("values", "dtype", "problem"),
+@each_of(
+    "values, dtype, problem",
     [
         ([1, 2, 3], float, r"has shape \(3,\); give one value for each of 2 players"),
         (5, float, r"has shape \(\); give one value for each of 2 players"),

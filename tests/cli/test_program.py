@@ -13,6 +13,7 @@ import pytest
 
 from evenbreak import __version__
 from evenbreak.cli.program import COMMANDS, SECTIONS, program
+from rows import each_of
 
 ARCS = "source,target,probability\nS,W,0.6\nS,L,0.4\n"
 
@@ -72,14 +73,14 @@ def test_a_chain_loads_what_its_form_needs(file, content, needed, tmp_path):
     assert loaded & {"pandas", "networkx", "matplotlib", "jinja2", "rich"} == needed
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@each_of("name", COMMANDS)
 def test_every_command_of_the_table_exists(run, name):
     result = run(name, "--help")
     assert result.exit_code == 0
     assert f"Usage: evenbreak {name}" in result.output
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@each_of("name", COMMANDS)
 def test_every_option_says_what_it_is(name):
     command = program.get_command(click.Context(program), name)
     for option in command.params:
@@ -121,6 +122,7 @@ def interrupted(running, times=10):
     return running.communicate()
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_with_130(tmp_path):
     fifo = tmp_path / "arcs.csv"
     os.mkfifo(fifo)

@@ -21,6 +21,7 @@ from evenbreak.practice import (
     long_run_share,
     one_ball_win,
 )
+from rows import each_of
 from tiers import examples
 
 ROADS = ("elimination", "eigen")
@@ -39,8 +40,8 @@ def has_kernel(game):
     return chain_of(game).line is not None
 
 
-@pytest.mark.parametrize("via", WAYS)
-@pytest.mark.parametrize("game", GAMES.values(), ids=GAMES.keys())
+@each_of("via", WAYS)
+@each_of("game", GAMES.values())
 def test_a_game_of_the_catalogue_has_one_limit(game, via) -> None:
     expected = stochastic_limit(chain_of(game))
     if via == "kernel" and not has_kernel(game):
@@ -54,8 +55,8 @@ def test_a_game_of_the_catalogue_has_one_limit(game, via) -> None:
     )
 
 
-@pytest.mark.parametrize("via", ROADS)
-@pytest.mark.parametrize("match", MATCHES.values(), ids=MATCHES.keys())
+@each_of("via", ROADS)
+@each_of("match", MATCHES.values())
 def test_a_match_of_the_catalogue(match, via) -> None:
     for player in (1, 2):
         found = win_probability(match, player=player, via=via)

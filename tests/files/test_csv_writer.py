@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from evenbreak.files.csv_writer import FORMULA_STARTS, csv_lines, to_csv, undefused
 from evenbreak.files.tables.names import clean_name, is_name
+from rows import each_of
 
 
 def test_every_kind_of_value():
@@ -38,9 +39,9 @@ def test_text_that_a_spreadsheet_would_run_is_defused(text):
     assert header[1] == row[0] == f"'{text}"
 
 
-@pytest.mark.parametrize("separator", [",", ";", "\t"])
-@pytest.mark.parametrize("column", [0, 1])
-@pytest.mark.parametrize(
+@each_of("separator", [",", ";", "\t"])
+@each_of("column", [0, 1])
+@each_of(
     "text",
     [
         "Bo;=cmd|' /C calc'!A0;x",

@@ -14,6 +14,7 @@ from evenbreak.games import (
     game_of_catalogue,
     loser_breaks,
 )
+from rows import each_of
 
 
 def test_every_kind_of_game_is_in_the_catalogue():
@@ -26,7 +27,7 @@ def test_all_of_them_are_games():
     assert all(isinstance(game, Game) for game in CATALOGUE.values())
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@each_of("name", CATALOGUE)
 def test_each_name_means_its_game(name):
     assert game_of_catalogue(name.upper()) == (name, CATALOGUE[name])
 

@@ -10,6 +10,7 @@ from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.errors import InputError
 from evenbreak.game import arcs_of
 from evenbreak.games import BREAK_FORMATS, Race, Rack, alternate_breaks, winner_breaks
+from rows import each_of
 
 
 def chance(race: Race, player: int = 1) -> float:
@@ -176,8 +177,8 @@ def test_the_set_winner_breaks() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("parameters", "words"),
+@each_of(
+    "parameters, words",
     [
         ({"m": 0}, "m is 0"),
         ({"m": 2.5}, "m is 2.5"),

@@ -7,6 +7,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.league import ESTABLISHED, LeaguePlayers
+from rows import each_of
 
 
 def test_one_number_stands_for_everybody() -> None:
@@ -39,8 +40,8 @@ def test_players_join_and_leave() -> None:
     assert here == [[True, False, True], [True, False, True], [True, True, False]]
 
 
-@pytest.mark.parametrize(
-    ("columns", "said"),
+@each_of(
+    "columns, said",
     [
         ({"rating": [50]}, "two players or more"),
         ({"rating": [[50, 60]]}, "two players or more"),

@@ -32,6 +32,7 @@ def test_the_error_of_equal_players_is_the_one_of_the_information_in_their_games
     assert found.sd_by_week.shape == (6, 30)
 
 
+@pytest.mark.slow
 def test_a_short_memory_makes_ratings_worse():
     long, short = (
         reestimate(EQUAL, HOT, weeks=40, leagues=3, seed=7, half_life=half_life)

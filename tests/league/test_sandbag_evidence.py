@@ -14,6 +14,7 @@ from evenbreak.league.sandbag_evidence import (
     Result,
 )
 from evenbreak.league.sandbag_watch import watch_player
+from rows import each_of
 from slow_results import LAW, NPL, chance, ends
 
 ERRS = Likelihood(NPL, LAW)
@@ -33,8 +34,8 @@ def seasons():
         yield results, first[1] * second[1]
 
 
-@pytest.mark.parametrize("skill", [-180, -60, -25, 0, 8, 40])
-@pytest.mark.parametrize("shares", [SHARES, SHARES_MARKED])
+@each_of("skill", [-180, -60, -25, 0, 8, 40])
+@each_of("shares", [SHARES, SHARES_MARKED])
 def test_its_mean_is_at_most_1_whatever_the_honest_skill(skill, shares):
     mean = 0.0
     for results, ways in seasons():

@@ -59,6 +59,7 @@ def test_at_equal_stakes_it_never_pays(name, dumped, earnest, start):
     assert max(row.profit for row in found.rows) <= 1e-9
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", NPL)
 def test_all_that_was_given_away_comes_back_in_the_end(name):
     row = sandbagging(ladder(name), dumped=10, earnest=1000).rows[10]

@@ -79,6 +79,7 @@ def test_random_pairing_of_many_leagues_draws_each_by_itself() -> None:
     assert max(abs(times - 600) for times in met.values()) < 5 * (3_000 * 4 / 25) ** 0.5
 
 
+@pytest.mark.slow
 @given(
     st.lists(
         st.tuples(st.integers(0, 6), st.integers(0, 6)).filter(lambda pair: pair[0] != pair[1]),

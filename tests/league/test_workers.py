@@ -223,6 +223,7 @@ def test_what_is_shared_may_be_large(client, recwarn):
     assert not recwarn.list
 
 
+@pytest.mark.slow
 def test_an_error_of_the_task_comes_through_a_cluster(client):
     with pytest.raises(ZeroDivisionError):
         list(in_order(operator.truediv, 1, [1, 0], executor=client))

@@ -13,6 +13,7 @@ import pytest
 
 from evenbreak.games import BREAK_FORMATS, Ahead, Race, Rack, winner_breaks
 from evenbreak.matches import match_odds, win_probability
+from rows import each_of
 from tries import tries
 
 FORMATS = pytest.mark.parametrize("breaks", BREAK_FORMATS.values(), ids=list(BREAK_FORMATS))
@@ -95,8 +96,8 @@ def test_chances_are_right_to_the_last_digits(breaks: Any) -> None:
                 assert found <= 1e-289
 
 
-@pytest.mark.parametrize("n", [50, 5_000, 50_000])
-@pytest.mark.parametrize("p", [0.5, 0.5 + 2.0**-53, 0.4999, 0.51, 0.496, 1e-5])
+@each_of("n", [50, 5_000, 50_000])
+@each_of("p", [0.5, 0.5 + 2.0**-53, 0.4999, 0.51, 0.496, 1e-5])
 def test_long_matches_without_a_break(n: int, p: float) -> None:
     for m in (n, n // 3, 1):
         rack = Rack(p)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from evenbreak import InputError
 from evenbreak.games import Rack, winner_breaks
 from evenbreak.matches import crossings, even_probability, match_format, win_probability
+from rows import each_of
 from tiers import examples
 
 BREAK_TEXTS = ["winner", "loser", "alternate", "player 1", "player 2"]
@@ -86,8 +87,8 @@ def test_grid_and_polynomials_agree_on_long_matches():
         assert point.p1 == pytest.approx(0.625, abs=0.01)
 
 
-@pytest.mark.parametrize("p2", [0.3, 0.55, 0.8])
-@pytest.mark.parametrize("breaks", BREAK_TEXTS)
+@each_of("p2", [0.3, 0.55, 0.8])
+@each_of("breaks", BREAK_TEXTS)
 def test_along_p1_at_fixed_p2(p2, breaks):
     for point in even_probability("7:5", p2=p2, breaks=breaks):
         assert point.p2 == p2

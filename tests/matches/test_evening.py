@@ -14,6 +14,7 @@ from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import PACES, Pace, Turnover
 from evenbreak.matches.races import race_odds
 from evenings import played_evening
+from rows import each_of
 from tiers import examples
 
 EVEN = Length([1, 2], [0.5, 0.5])
@@ -134,8 +135,8 @@ def test_each_table_more_ends_the_evening_no_later(laws, tables):
     assert more.p90 <= fewer.p90 + 1e-9
 
 
-@pytest.mark.parametrize(
-    ("call", "remedy"),
+@each_of(
+    "call, remedy",
     [
         (lambda: evening([], "9-ball"), "0 matches"),
         (lambda: evening([EVEN], "9-ball", tables=0), "1 or more"),

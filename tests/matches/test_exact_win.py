@@ -17,6 +17,7 @@ from evenbreak.games import (
     winner_breaks,
 )
 from evenbreak.matches import win_probability
+from rows import each_of
 
 BY_BREAK = Rack(0.6, 0.45)
 MATCHES = [
@@ -31,8 +32,8 @@ MATCHES = [
 ]
 
 
-@pytest.mark.parametrize("match", MATCHES)
-@pytest.mark.parametrize("player", [1, 2])
+@each_of("match", MATCHES)
+@each_of("player", [1, 2])
 def test_it_is_the_limit_of_the_chain_of_scores(match, player):
     limit = stochastic_limit(chain_of(match), exact=True)
     won = sum(p for state, p in limit.items() if match.winner(state) == player)

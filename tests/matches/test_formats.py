@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 from evenbreak import InputError
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
 from evenbreak.matches import MatchFormat, match_format, win_probability
+from rows import each_of
 
 NUMBERS = st.integers(1, 1000)
 BREAKS = st.sampled_from([None, "winner", "loser", "alternate", "player 1", "player 2"])
@@ -66,8 +67,8 @@ def test_negotiation_of_p5_8(text, p, wins):
     assert win_probability(match_format(text).match(Rack(p))) == pytest.approx(wins, abs=5e-4)
 
 
-@pytest.mark.parametrize(
-    ("text", "remedy"),
+@each_of(
+    "text, remedy",
     [
         ("", "write 9:5"),
         ("9", "write 9:5"),
@@ -101,8 +102,8 @@ def test_no_text_makes_another_error(text):
     assert match_format(str(played)) == played
 
 
-@pytest.mark.parametrize(
-    ("text", "same"),
+@each_of(
+    "text, same",
     [
         ("best of 9", "5:5"),
         ("Best of 1", "1:1"),

@@ -22,6 +22,7 @@ from evenbreak.matches import (
     shutout_probability,
     win_probability,
 )
+from rows import each_of
 
 # Floats that are simple fractions, so that floats and rationals are the same numbers.
 P1, P2 = Fraction(5, 8), Fraction(3, 16)
@@ -106,8 +107,8 @@ def test_races(breaks: Any) -> None:
             )
 
 
-@pytest.mark.parametrize("outer", [None, winner_breaks, BREAK_FORMATS["alternate"]])
-@pytest.mark.parametrize("inner", BREAK_FORMATS.values(), ids=list(BREAK_FORMATS))
+@each_of("outer", [None, winner_breaks, BREAK_FORMATS["alternate"]])
+@each_of("inner", BREAK_FORMATS.values())
 def test_matches_of_sets(outer: Any, inner: Any) -> None:
     for needs, set_needs, first in (((2, 1), (2, 2), 1), ((1, 2), (1, 2), 2), ((2, 2), (2, 1), 1)):
         played = list(courses_of_sets(needs, set_needs, outer, inner, first))

@@ -10,6 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.games import Race, Rack, loser_breaks, winner_breaks
 from evenbreak.matches import match_odds
 from evenbreak.matches.races import next_breaks, race_odds
+from rows import each_of
 
 NEEDS = st.integers(1, 9)
 
@@ -63,8 +64,8 @@ def test_wins_and_lengths_are_one_distribution():
     assert odds.games_p90 == race.quantile(0.9)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
+@each_of(
+    "changes, message",
     [
         ({"rack": 1.5}, "p1 is 1.5, not a probability"),
         ({"rack": float("nan")}, "p1 is nan, not a probability"),

@@ -10,12 +10,13 @@ from evenbreak.matches import match_odds, race_odds, win_probability
 from evenbreak.practice import compare_break_formats, long_run_sd
 from evenbreak.ratings.scale import scale_of
 from evenbreak.stats import InningsScore
+from rows import each_of
 
 NPL = scale_of("npl")
 
 
-@pytest.mark.parametrize("difference", [300.0, 1300.0, 1600.0, 20_000.0])
-@pytest.mark.parametrize("race", [(1, 1), (3, 2), (2, 5)])
+@each_of("difference", [300.0, 1300.0, 1600.0, 20_000.0])
+@each_of("race", [(1, 1), (3, 2), (2, 5)])
 def test_swapping_the_players_swaps_the_chances(difference: float, race: tuple[int, int]) -> None:
     m, n = race
     ours = match_odds(Race(m, n, NPL.rack(difference)))

@@ -27,6 +27,7 @@ from evenbreak.matches import (
     race_win_probability,
     win_probability,
 )
+from rows import each_of
 
 PROBABILITY = st.floats(0.0, 1.0, allow_subnormal=False)
 GAMES = st.integers(1, 9)
@@ -67,7 +68,7 @@ PUBLISHED = [
 ]
 
 
-@pytest.mark.parametrize(("source", "match", "printed", "tolerance"), PUBLISHED)
+@each_of("source, match, printed, tolerance", PUBLISHED)
 def test_published(source: str, match: Match, printed: float, tolerance: float) -> None:
     assert win_probability(match) == pytest.approx(printed, abs=tolerance), source
 
@@ -83,8 +84,8 @@ def assert_right(found: float, exact: Fraction) -> None:
         assert found == pytest.approx(float(exact), rel=1e-12, abs=0)
 
 
-@pytest.mark.parametrize(("m", "n"), SIZES)
-@pytest.mark.parametrize("p", CHANCES)
+@each_of("m, n", SIZES)
+@each_of("p", CHANCES)
 def test_both_tails_of_a_race_are_right(m: int, n: int, p: float) -> None:
     race = Race(m, n, Rack(p))
     one = exact_race(m, n, p)
@@ -95,8 +96,8 @@ def test_both_tails_of_a_race_are_right(m: int, n: int, p: float) -> None:
     assert_right(odds.p_win_1, one)
 
 
-@pytest.mark.parametrize(("m", "n"), SIZES[:-1])
-@pytest.mark.parametrize("p1", CHANCES)
+@each_of("m, n", SIZES[:-1])
+@each_of("p1", CHANCES)
 def test_both_tails_are_right_with_breaks(m: int, n: int, p1: float) -> None:
     for p2, breaks in ((0.3, winner_breaks), (1e-12, alternate_breaks), (0.999, loser_breaks)):
         won = [Fraction(repr(p1)), 1 - Fraction(repr(p2))]
@@ -258,8 +259,8 @@ def test_other_games_have_no_score(ask: Any) -> None:
         ask(OneBall(0.4, 0.8))
 
 
-@pytest.mark.parametrize("p", [1e-12, 1e-3, 0.999, 1 - 1e-12])
-@pytest.mark.parametrize("m", [3, 7, 9])
+@each_of("p", [1e-12, 1e-3, 0.999, 1 - 1e-12])
+@each_of("m", [3, 7, 9])
 def test_no_chance_is_above_one(p, m):
     for match in (
         Race(m, 7, Rack(p)),

@@ -6,6 +6,7 @@ from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.games import Rack
 from evenbreak.matches import match_format, win_probability
 from evenbreak.matches.win_formula import degree_of, value_at, win_forms
+from rows import each_of
 
 TEXTS = [
     "1:1",
@@ -24,8 +25,8 @@ TEXTS = [
 ]
 
 
-@pytest.mark.parametrize("text", TEXTS)
-@pytest.mark.parametrize("p", [Fraction(1, 50), Fraction(1, 3), Fraction(1, 2), Fraction(7, 8)])
+@each_of("text", TEXTS)
+@each_of("p", [Fraction(1, 50), Fraction(1, 3), Fraction(1, 2), Fraction(7, 8)])
 def test_forms_are_the_win_probability(text, p):
     played = match_format(text)
     one, two = win_forms(played)
@@ -40,7 +41,7 @@ def test_forms_are_the_win_probability(text, p):
     assert found == pytest.approx(float(exact), rel=1e-9)
 
 
-@pytest.mark.parametrize("text", TEXTS)
+@each_of("text", TEXTS)
 def test_degree_is_not_understated(text):
     played = match_format(text)
     one, two = win_forms(played)

@@ -15,6 +15,7 @@ from evenbreak.games import (
     winner_breaks,
 )
 from evenbreak.matches import win_formula, win_probability
+from rows import each_of
 
 sympy = pytest.importorskip("sympy", reason="the extra 'symbolic' is not installed")
 p, q, p1, p2 = sympy.symbols("p q p1 p2")
@@ -26,7 +27,7 @@ def value(formula, chances):
     return float(formula.subs(fractions))
 
 
-@pytest.mark.parametrize(
+@each_of(
     "match",
     [
         Race(3, 2, Rack(2 / 3)),
@@ -37,9 +38,8 @@ def value(formula, chances):
         Race(5, 4, Rack(2 / 3), score=(2, 1)),
         Race(2, 2, Race(2, 2, Rack(2 / 3), score=(1, 0))),
     ],
-    ids=str,
 )
-@pytest.mark.parametrize("player", [1, 2])
+@each_of("player", [1, 2])
 def test_a_formula_has_the_value_of_the_kernel(match, player):
     found = value(win_formula(match, player=player), {p: Fraction(2, 3), q: Fraction(1, 3)})
     assert found == pytest.approx(win_probability(match, player=player), rel=1e-13)

@@ -44,6 +44,7 @@ from evenbreak.physics import (
     throw_angle,
 )
 from evenbreak.physics.units import LARGEST, LEAST, numbers, positive
+from rows import each_of
 
 
 @pytest.mark.parametrize(
@@ -118,8 +119,8 @@ def test_shapes_that_do_not_fit_are_refused_by_name(ask, message):
 TWO, THREE, CLOTH = [0.1, 0.2], [0.1, 0.2, 0.3], Cloth()
 
 
-@pytest.mark.parametrize(
-    ("ask", "names"),
+@each_of(
+    "ask, names",
     [
         (lambda: friction_of_throw(TWO, THREE), "sideways, ahead"),
         (lambda: friction_of_stop(TWO, THREE), "distance, time"),

@@ -9,6 +9,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.physics import Ball, Cloth, Cue, PoolTable
+from rows import each_of
 
 FIELDS = [
     (Ball, "mass"),
@@ -23,8 +24,8 @@ FIELDS = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "field"), FIELDS)
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, "1", None, [1.0, 2.0], 10**400])
+@each_of("kind, field", FIELDS)
+@each_of("value", [0.0, -1.0, math.nan, math.inf, "1", None, [1.0, 2.0], 10**400])
 def test_no_field_is_anything_but_a_number_above_0(kind: Any, field: str, value: object) -> None:
     with pytest.raises(InputError) as refused:
         kind(**{field: value})

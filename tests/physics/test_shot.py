@@ -16,6 +16,7 @@ from evenbreak.physics.shot import shot
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.strike import strike, strike_for_speed
 from evenbreak.physics.units import INCH
+from rows import each_of
 from tiers import examples
 
 RADIUS = 1.125 * INCH
@@ -220,8 +221,8 @@ def test_where_a_ball_meets_a_cushion_its_path_ends():
     assert found.object_leg.state(found.end).speed > 0.0
 
 
-@pytest.mark.parametrize(
-    ("how", "message"),
+@each_of(
+    "how, message",
     [
         ({"cut": 1.6}, "cut is 1.6; give an angle between"),
         ({"distance": 0.05}, "where the balls touch"),

@@ -9,11 +9,12 @@ import pytest
 from evenbreak.game import Game, graph_of
 from evenbreak.games import CATALOGUE, Ahead, Drill, OneBall, Race, Rack
 from evenbreak.plots.strokes import positions_of
+from rows import each_of
 
 READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 150}
 
 
-@pytest.mark.parametrize("game", READABLE.values(), ids=READABLE)
+@each_of("game", READABLE.values())
 def test_no_two_nodes_overlap(game: Game) -> None:
     graph = graph_of(game)
     places = positions_of(graph, game.start)

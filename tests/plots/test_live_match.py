@@ -33,6 +33,7 @@ def test_the_largest_swing_is_labelled(odds):
     assert text.get_text() == f"{greatest:+.2f}".replace("-", "\N{MINUS SIGN}")
 
 
+@pytest.mark.slow_after(3)
 @pytest.mark.parametrize("p", [0.2, 0.6, 0.9])
 @pytest.mark.parametrize("racks", ["a", "abb", "bbab", "ababbab", "abbabababab"])
 def test_the_label_is_clear_of_the_line(p, racks):

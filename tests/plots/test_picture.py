@@ -18,6 +18,7 @@ from evenbreak.plots import draw, image_bytes, shots_figure
 from evenbreak.plots.picture import legend_below, new_axes
 from evenbreak.plots.practice import drill_figure, plot_two_lists
 from evenbreak.practice import ShotChoice, drill_statistics
+from rows import each_of
 
 
 @pytest.mark.slow
@@ -99,7 +100,7 @@ def plot_functions():
 FUNCTIONS = dict(plot_functions())
 
 
-@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+@each_of("name", sorted(FUNCTIONS))
 def test_every_plot_with_one_panel_takes_axes(name):
     takes = "ax" in inspect.signature(FUNCTIONS[name]).parameters
     assert takes != (name in SEVERAL_PANELS)

@@ -7,10 +7,11 @@ from evenbreak.chains import chain_of, long_run_reward
 from evenbreak.errors import InputError
 from evenbreak.games import BREAK_FORMATS, Rack, Series, loser_breaks, winner_breaks
 from evenbreak.practice.breaks import Breakers
+from rows import each_of
 
 
-@pytest.mark.parametrize("breaks", BREAK_FORMATS.values(), ids=list(BREAK_FORMATS))
-@pytest.mark.parametrize("first", [1, 2])
+@each_of("breaks", BREAK_FORMATS.values())
+@each_of("first", [1, 2])
 def test_the_fraction_won_is_the_long_run_reward_of_the_series(breaks, first):
     rack = Rack(0.7, 0.6)
     series = Series(rack, breaks=breaks, first_breaker=first)

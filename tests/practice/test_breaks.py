@@ -25,6 +25,7 @@ from evenbreak.practice import (
     long_run_sd,
     long_run_share,
 )
+from rows import each_of
 
 CHANCES = st.sampled_from([0.0, 1.0, 0.5]) | st.floats(0.0, 1.0)
 INNER = st.floats(0.02, 0.98)
@@ -72,7 +73,7 @@ def moments(p1, p2, breaks, first, racks):
     return mean, sum(square.values()) - mean**2
 
 
-@pytest.mark.parametrize(("p1", "p2", "winner", "loser", "alternate"), TABLE_5_4)
+@each_of("p1, p2, winner, loser, alternate", TABLE_5_4)
 def test_table_5_4(p1, p2, winner, loser, alternate):
     # The text cuts .5454... in row 10 to .54, so a little over half a unit.
     assert long_run_share(p1, p2, winner_breaks) == pytest.approx(winner, abs=0.0055)
@@ -137,9 +138,9 @@ def test_the_players_may_change_places(p1, p2, name):
     assert mine + theirs == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("first", [1, 2])
-@pytest.mark.parametrize("breaks", every_format())
-@pytest.mark.parametrize(("p1", "p2"), [(0.7, 0.6), (0.3, 0.8), (0.25, 0.35)])
+@each_of("first", [1, 2])
+@each_of("breaks", every_format())
+@each_of("p1, p2", [(0.7, 0.6), (0.3, 0.8), (0.25, 0.35)])
 def test_sd_is_the_growth_of_the_variance(p1, p2, breaks, first):
     (_, before), (_, after) = (  # two racks apart: a period of 2 cancels
         moments(p1, p2, breaks, first, racks) for racks in (300, 302)
@@ -148,7 +149,7 @@ def test_sd_is_the_growth_of_the_variance(p1, p2, breaks, first):
     assert sd**2 == pytest.approx((after - before) / 2, rel=1e-8)
 
 
-@pytest.mark.parametrize("breaks", every_format())
+@each_of("breaks", every_format())
 def test_the_first_break_is_worth_what_the_means_differ_by(breaks):
     one, two = Fraction("0.7"), Fraction("0.45")
     lead = [
@@ -232,8 +233,8 @@ def test_a_rack_whose_break_does_not_matter():
     assert {round(value.first_break, 12) for value in values} == {0.0}
 
 
-@pytest.mark.parametrize(
-    ("ask", "remedy"),
+@each_of(
+    "ask, remedy",
     [
         (lambda: long_run_share(1.5, 0.5, winner_breaks), "number from 0 to 1"),
         (lambda: long_run_share(0.5, None, winner_breaks), "p2 is missing"),

@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.practice import DrillLog
+from rows import each_of
 
 
 def test_attempts_and_successes_are_counted_by_level() -> None:
@@ -56,8 +57,8 @@ def test_up_and_down_balance_in_one_session(success: list[bool], n: int) -> None
     assert (np.abs(up - down) <= 1).all()
 
 
-@pytest.mark.parametrize(
-    ("level", "success", "more", "words"),
+@each_of(
+    "level, success, more, words",
     [
         ([], [], {}, "level is empty"),
         (3, True, {}, "level is empty"),

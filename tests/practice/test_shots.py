@@ -18,6 +18,7 @@ from evenbreak.practice import (
     look_ahead_win,
     one_ball_win,
 )
+from rows import each_of
 
 CHANCES = st.sampled_from([0.0, 1.0, 0.5]) | st.floats(1e-200, 1.0)
 INNER = st.floats(0.02, 0.98)
@@ -236,8 +237,8 @@ def test_a_shot_may_have_fractions():
     assert ShotChoice("exact", Fraction(1, 3), Fraction(1, 2)).win() == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize(
-    ("ask", "remedy"),
+@each_of(
+    "ask, remedy",
     [
         (lambda: one_ball_win(1.5, 0.5), "p1 is 1.5, not a probability"),
         (lambda: one_ball_win(0.5, math.nan), "p2 is nan, not a probability"),

@@ -25,6 +25,7 @@ def test_the_advantage_of_the_breaker_is_found(play_season, breaks):
     assert found.low > 0.15
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("form", [0.0, 0.6])
 def test_a_stronger_player_who_breaks_more_often_is_not_taken_for_an_advantage(play_season, form):
     """Winner breaks give the break to the player who is stronger on the day."""

@@ -104,6 +104,7 @@ def test_groups_that_never_met_are_linked_by_what_they_bring_along() -> None:
     assert found.difference_error("A", "C") < 9.0
 
 
+@pytest.mark.slow
 def test_how_far_off_ratings_are_that_do_not_say_is_chosen_by_prediction() -> None:
     results = season(7)
     skill = np.linspace(-0.8, 0.8, 8) * 30 / np.log(2)

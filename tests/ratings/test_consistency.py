@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, find_problems
+from rows import each_of
 
 WRONG = [
     # columns of one row beside Ann - Bo, the column blamed, what the message quotes
@@ -49,7 +50,7 @@ def row(score=(7, 5), race=None, winner=None, racks=None, forfeit=None):
     return Results.from_names(["Ann"], ["Bo"], [score[0]], [score[1]], **columns)
 
 
-@pytest.mark.parametrize(("cells", "column", "words"), WRONG)
+@each_of("cells, column, words", WRONG)
 def test_each_contradiction_is_found_once_and_says_how_to_mend_it(cells, column, words):
     (problem,) = find_problems(row(**cells))
     assert (problem.row, problem.column) == (0, column)
@@ -62,7 +63,7 @@ def test_what_can_be_true_is_let_pass(cells):
     assert find_problems(row(**cells)) == []
 
 
-@pytest.mark.parametrize("cells", [cells for cells, _, _ in WRONG if "racks" not in cells])
+@each_of("cells", [cells for cells, _, _ in WRONG if "racks" not in cells])
 def test_it_does_not_matter_who_is_called_a(cells):
     swapped = {name: value[::-1] for name, value in cells.items() if name in ("score", "race")}
     swapped.setdefault("score", (5, 7))

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.ratings import Results, fit
 from places import SHARED
+from rows import each_of
 
 SEASON = SHARED / "data" / "snooker_2016_17_results.csv"
 
@@ -45,8 +46,8 @@ def random_season(rng, players, matches, race=7):
     return Results(names, a, b, rng.integers(0, race + 1, matches), rng.integers(0, race, matches))
 
 
-@pytest.mark.parametrize("prior_sd", [0.02, 1.0, 4.0, 100.0])
-@pytest.mark.parametrize(("players", "matches"), [(2, 1), (5, 4), (12, 60), (30, 31)])
+@each_of("prior_sd", [0.02, 1.0, 4.0, 100.0])
+@each_of("players, matches", [(2, 1), (5, 4), (12, 60), (30, 31)])
 def test_ratings_and_errors_equal_the_slow_way(players, matches, prior_sd):
     results = random_season(np.random.default_rng(players), players, matches)
     skill, sd = slow_fit(results, prior_sd)

@@ -79,6 +79,7 @@ def test_a_walk_with_levels_ends_where_a_fit_begins():
     np.testing.assert_allclose(walk.difference[last], expected, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_those_who_join_late_and_are_weaker_are_expected_to_be():
     results, _, skill = league(np.random.default_rng(5), below=1.0)
     found = {one.of: one for one in best_prior(results).evidence}
@@ -89,6 +90,7 @@ def test_those_who_join_late_and_are_weaker_are_expected_to_be():
     assert abs(joined.value - truth) < 1.96 * joined.standard_error < truth
 
 
+@pytest.mark.slow
 def test_teams_that_differ_are_found_and_others_are_not():
     results, truth, _ = league(np.random.default_rng(6), team_sd=0.6)
     choice = best_prior(results)

@@ -124,6 +124,7 @@ def second_differences(cost, at, step=1e-3):
     ) / (4 * step**2)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("form", ["winner", "loser", "alternate"])
 def test_scores_with_known_first_breaks_against_scipy(form):
     rng = np.random.default_rng(9)

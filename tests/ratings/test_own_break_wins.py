@@ -5,9 +5,9 @@ from collections import Counter
 from itertools import product
 
 import numpy as np
-import pytest
 
 from evenbreak.ratings.who_broke import BreakWinsTerms, break_wins
+from rows import each_of
 
 
 def written_out(form, first, games, last):
@@ -25,9 +25,9 @@ def written_out(form, first, games, last):
     return counts
 
 
-@pytest.mark.parametrize("form", ["winner", "loser", "alternate"])
-@pytest.mark.parametrize("first", [1, 2])
-@pytest.mark.parametrize("last", [1, 2])
+@each_of("form", ["winner", "loser", "alternate"])
+@each_of("first", [1, 2])
+@each_of("last", [1, 2])
 def test_against_all_sequences(form, first, last):
     for games in product(range(6), range(6)):
         if games[last - 1] == 0:

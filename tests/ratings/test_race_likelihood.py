@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import race_slopes
+from rows import each_of
 
 NEEDS = st.integers(1, 40)
 
@@ -24,8 +25,8 @@ def exact(p, m, n):
     return win, slope, slope * (m * q - n * p - slope)
 
 
-@pytest.mark.parametrize("odds", [Fraction(1, 1000), Fraction(1, 3), 1, 2, Fraction(40), 5000])
-@pytest.mark.parametrize(("m", "n"), [(1, 1), (9, 5), (2, 11), (17, 17)])
+@each_of("odds", [Fraction(1, 1000), Fraction(1, 3), 1, 2, Fraction(40), 5000])
+@each_of("m, n", [(1, 1), (9, 5), (2, 11), (17, 17)])
 def test_against_fractions(odds, m, n):
     win, slope, curvature = exact(Fraction(odds) / (1 + odds), m, n)
     got = race_slopes(math.log(odds), m, n)

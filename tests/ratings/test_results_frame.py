@@ -11,6 +11,7 @@ from evenbreak.files import read_results
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.results_frame import FORMATS, FrameReader
 from places import DATA
+from rows import each_of
 
 
 def frame(**columns):
@@ -89,8 +90,8 @@ def test_a_forfeit_needs_no_score():
     assert found.forfeit.tolist() == [False, True]
 
 
-@pytest.mark.parametrize(
-    ("columns", "named"),
+@each_of(
+    "columns, named",
     [
         ({"score_b": [5, 2.5]}, r"row 1: score_b is 2.5"),
         ({"score_b": [5, -1]}, r"row 1: score_b is -1"),

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.ratings import SCALES, Scale, scale_of
+from rows import each_of
 
 differences = st.floats(-20_000, 20_000)
 
@@ -89,7 +90,7 @@ def test_scale_of_knows_names_numbers_and_scales():
     assert scale_of(40).points_per_doubling == scale_of("40.0").points_per_doubling == 40
 
 
-@pytest.mark.parametrize("wrong", ["ffargo", "", 0, -30, "nan", math.inf, None, 1e-3, "1e7", 1e300])
+@each_of("wrong", ["ffargo", "", 0, -30, "nan", math.inf, None, 1e-3, "1e7", 1e300])
 def test_scale_of_refuses_the_rest(wrong):
     with pytest.raises(InputError, match="give npl, fargo, elo, or the points"):
         scale_of(wrong)

@@ -118,6 +118,7 @@ def test_progress_is_reported():
     assert len(steps) >= 4
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_figures(found):
     again = validate(season(0.6))
     assert again.scored == found.scored

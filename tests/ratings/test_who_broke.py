@@ -4,6 +4,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings import Results
 from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.who_broke import breakers, count_broken
+from rows import each_of
 
 
 def counts(racks="", form="", first=0, score=None):
@@ -21,8 +22,8 @@ def counts(racks="", form="", first=0, score=None):
     return tuple(broken.won[:, 0].tolist()), tuple(broken.lost[:, 0].tolist())
 
 
-@pytest.mark.parametrize(
-    ("racks", "form", "first", "won", "lost"),
+@each_of(
+    "racks, form, first, won, lost",
     [
         # who broke:  a a b b a
         ("abbaa", "winner", 1, (0, 2, 1), (0, 1, 1)),

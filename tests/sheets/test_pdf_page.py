@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evenbreak.sheets.pdf_page import Paper, drawable, pdf_bytes, shortened, width_of
+from rows import each_of
 from tiers import examples
 
 
@@ -64,8 +65,8 @@ def test_arabic_letters_are_joined():
     assert width_of(name, 72) < 0.9 * sum(width_of(letter, 72) for letter in name)
 
 
-@pytest.mark.parametrize("width", [0.05, 0.3, 1.0, 2.0])
-@pytest.mark.parametrize("name", ["iiiiiiiiiiiiiiiiii", "W" * 300, "選手" * 20, "Ann Lee"])
+@each_of("width", [0.05, 0.3, 1.0, 2.0])
+@each_of("name", ["iiiiiiiiiiiiiiiiii", "W" * 300, "選手" * 20, "Ann Lee"])
 def test_a_name_is_shortened_just_as_much_as_it_must_be(name, width):
     short = shortened(name, 10, width)
     if short == name:

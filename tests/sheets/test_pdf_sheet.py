@@ -192,6 +192,7 @@ def test_nothing_leaves_the_page_or_touches_the_lines_next_to_it(season, options
                 assert not one.overlaps(other), (first, second)
 
 
+@pytest.mark.slow
 def test_letters_that_the_font_lacks_are_accounted_for():
     (page,), _ = pages_of(league(3, "選手{}"))
     assert "□□00" in texts(page)

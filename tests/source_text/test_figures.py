@@ -11,6 +11,7 @@ from drawings import figure
 from evenbreak.plots.picture import image_bytes
 from evenbreak.source_text.answers import figures
 from places import SHARED
+from rows import each_of
 
 PLOTS = [
     *(f"figure_5_{n}" for n in (1, 3, 6, 8, 9, 11)),
@@ -37,7 +38,7 @@ def test_every_figure_of_the_text_is_here():
         assert {f"figure_{number.replace('.', '_')}" for number in numbers} <= set(figures())
 
 
-@pytest.mark.parametrize("name", PLOTS)
+@each_of("name", PLOTS)
 def test_every_panel_says_what_its_axes_measure(name):
     for axes in figure(name).axes:
         # The second scale of Fig. 4.7 shares the cut angles of the first.

@@ -4,10 +4,11 @@ from fractions import Fraction
 import pytest
 
 from evenbreak.source_text.inputs import parse_inputs
+from rows import each_of
 
 
-@pytest.mark.parametrize(
-    ("text", "numbers", "words"),
+@each_of(
+    "text, numbers, words",
     [
         ("", {}, []),
         ("p=2/3", {"p": (Fraction(2, 3),)}, []),

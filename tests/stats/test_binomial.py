@@ -18,6 +18,7 @@ from evenbreak.stats import (
     critical_value,
     score_probability,
 )
+from rows import each_of
 
 sizes = st.integers(0, 25)
 chances = st.one_of(
@@ -84,8 +85,8 @@ class TestPublished:
         assert law.normal_range(0.95).probability == pytest.approx(0.9560, abs=5e-5)
         assert law.between(51, 73) == pytest.approx(0.9644, abs=5e-5)
 
-    @pytest.mark.parametrize(
-        ("coverage", "z"),
+    @each_of(
+        "coverage, z",
         [
             (0.9973, 3),
             (0.99, 2.58),
@@ -107,8 +108,8 @@ class TestPublished:
 
 
 class TestLaws:
-    @pytest.mark.parametrize("games", range(9))
-    @pytest.mark.parametrize("p", [0, 0.3, Fraction(2, 3), 1])
+    @each_of("games", range(9))
+    @each_of("p", [0, 0.3, Fraction(2, 3), 1])
     def test_enumeration(self, games: int, p: Any) -> None:
         law = GamesWon(games, p)
         chances = by_enumeration(games, p)

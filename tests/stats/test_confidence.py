@@ -9,6 +9,7 @@ from scipy import stats
 
 from evenbreak.errors import InputError
 from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
+from rows import each_of
 
 WEEKS = [50, 44, 46, 52, 47, 51, 49, 45, 48, 50]
 values = st.lists(st.integers(-9, 9), min_size=1, max_size=5)
@@ -101,8 +102,8 @@ def test_only_student_covers_as_often_as_said(method, low, high):
     assert low < covered / len(lists) < high
 
 
-@pytest.mark.parametrize(
-    ("scores", "remedy"),
+@each_of(
+    "scores, remedy",
     [
         ([], "scores holds no scores"),
         ([48], "scores holds 1 score"),

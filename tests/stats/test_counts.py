@@ -8,6 +8,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.stats import CountLaw
+from rows import each_of
 
 
 class Steps(CountLaw):
@@ -34,9 +35,9 @@ class Steps(CountLaw):
         return 1 - Fraction(1, 2 ** (n + 1))
 
 
-@pytest.mark.parametrize("wrong", [-1e-12, 0.0, 1e-12])
-@pytest.mark.parametrize(
-    ("q", "count"),
+@each_of("wrong", [-1e-12, 0.0, 1e-12])
+@each_of(
+    "q, count",
     [
         (Fraction(1, 2), 0),
         (0.5, 0),

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.stats import exact
+from rows import each_of
 
 
 @pytest.mark.parametrize(
@@ -33,7 +34,7 @@ def test_every_decimal_of_six_places_is_read_as_written(millionths: int) -> None
     assert exact(float(f"{millionths / 10**6:.6f}")) == Fraction(millionths, 10**6)
 
 
-@pytest.mark.parametrize(
+@each_of(
     "p",
     [-0.1, 1.1, Fraction(4, 3), float("nan"), float("inf"), ".5", b"1", None, 1j, [0.5]],
 )

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
+from rows import each_of
 
 INNINGS = (1, 2, 4, 8, 16)
 TABLE_5_3 = {
@@ -43,7 +44,7 @@ chances = st.fractions(0, Fraction(29, 30), max_denominator=30)
 safeties = st.fractions(0, 1, max_denominator=10)
 
 
-@pytest.mark.parametrize(("quantity", "p", "m", "printed"), ROWS)
+@each_of("quantity, p, m, printed", ROWS)
 def test_table_5_3(quantity, p, m, printed):
     assert getattr(InningsScore(p, m), quantity) == pytest.approx(
         printed, abs=0.051 if quantity == "mean" else 0
@@ -85,6 +86,7 @@ def test_all_sums_are_those_of_runs_added_up(p, safety, innings):
         np.testing.assert_allclose(got, [float(x) for x in wanted], rtol=1e-12, atol=1e-300)
 
 
+@pytest.mark.slow
 @given(chances, safeties, st.integers(1, 7))
 def test_mode_and_median_are_exact(p, safety, innings):
     law = InningsScore(p, innings, safety)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.stats.runs import RunLength, median_ratio_limit, shot_chance
+from rows import each_of
 
 TABLE_5_2 = """
 .5  1.0  0.0  0  .000
@@ -34,7 +35,7 @@ chances = st.fractions(0, Fraction(99, 100), max_denominator=300)
 safeties = st.fractions(0, 1, max_denominator=20)
 
 
-@pytest.mark.parametrize(("p", "mean", "bound", "median", "ratio"), ROWS)
+@each_of("p, mean, bound, median, ratio", ROWS)
 def test_table_5_2(p, mean, bound, median, ratio):
     law = RunLength(p)
     assert law.mean == pytest.approx(mean, abs=0.051)
@@ -126,8 +127,8 @@ def test_arrays_and_what_cannot_be():
     assert RunLength(0.9, 0).median_bound == -math.inf
 
 
-@pytest.mark.parametrize(
-    ("make", "remedy"),
+@each_of(
+    "make, remedy",
     [
         (lambda: RunLength(1), "give a number below 1"),
         (lambda: RunLength(1.2), "give a number from 0 to 1"),

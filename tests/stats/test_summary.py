@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.stats import Distribution, Moments, merge
+from rows import each_of
 
 scores = st.lists(st.integers(-30, 30), min_size=1, max_size=40)
 floats = st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=40)
@@ -195,8 +196,8 @@ def test_a_weight_of_none_leaves_its_value_out() -> None:
     assert Distribution.of([1, 2, 1], weights=[0.5, 0, 1.5]) == Distribution.of([1])
 
 
-@pytest.mark.parametrize(
-    ("values", "weights", "message"),
+@each_of(
+    "values, weights, message",
     [
         ([], None, "values is empty"),
         (3, None, "values is 3"),

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.teams import Cap, Point, Squad, TeamNight, advice, sealed, solved
+from rows import each_of
 from tiers import examples
 
 ORDERS = ["ABABA", "BAABB", "AAAAA", "=====", "A=B=A", "AWWWW", "BLLLL", "AWL=B"]
@@ -52,8 +53,8 @@ def by_tree(win, order, sets, mine, others, lead=0, last=None):
     return min(max(value(i, j) for i in mine) for j in others)
 
 
-@pytest.mark.parametrize("order", ["ABA", "BAB", "AWW", "BLW", "ALL"])
-@pytest.mark.parametrize("sizes", [(3, 3), (4, 3), (3, 4)])
+@each_of("order", ["ABA", "BAB", "AWW", "BLW", "ALL"])
+@each_of("sizes", [(3, 3), (4, 3), (3, 4)])
 def test_three_a_side_equals_the_whole_game_tree(order: str, sizes: tuple[int, int]) -> None:
     win = chances(*sizes, seed=sum(sizes))
     night = TeamNight(squad(sizes[0], "a"), squad(sizes[1], "b"), law(win), sets=3, order=order)

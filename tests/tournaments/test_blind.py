@@ -59,6 +59,7 @@ def test_a_double_elimination() -> None:
     assert odds.error[:, 0].max() < 0.01
 
 
+@pytest.mark.slow
 def test_the_same_seed_the_same_draws_and_more_of_them_are_closer() -> None:
     bracket, win = double_elimination(11), by_seed(11)
     few, again, many = (blind_draw_odds(bracket, win, samples=n) for n in (100, 100, 1600))
@@ -67,6 +68,7 @@ def test_the_same_seed_the_same_draws_and_more_of_them_are_closer() -> None:
     assert (np.abs(few.title - many.title) < 5 * few.error[:, 0]).all()
 
 
+@pytest.mark.slow
 def test_a_bracket_too_large_to_be_exact() -> None:
     bracket, win = double_elimination(32), by_seed(32)
     odds = blind_draw_odds(bracket, win, samples=60)

@@ -22,6 +22,7 @@ from evenbreak.tournaments import (
     round_robin,
     single_elimination,
 )
+from rows import each_of
 
 
 def short(slot: int | Source) -> str:
@@ -125,7 +126,7 @@ def test_qualifiers_redrawn() -> None:
         double_elimination(16, qualifiers=8, placement="redraw")
 
 
-@pytest.mark.parametrize("players", [*range(2, 34), 100, 256])
+@each_of("players", [*range(2, 34), 100, 256])
 def test_number_of_matches(players: int) -> None:
     assert len(single_elimination(players).matches) == players - 1
     assert len(double_elimination(players).matches) == 2 * players - 1
@@ -269,8 +270,8 @@ def test_equal_brackets_are_one() -> None:
     assert double_elimination(9) != double_elimination(9, final="single")
 
 
-@pytest.mark.parametrize(
-    ("build", "named"),
+@each_of(
+    "build, named",
     [
         (lambda: single_elimination(["Ann"]), "1 names"),
         (lambda: single_elimination(257), "257"),

@@ -18,6 +18,7 @@ from evenbreak.tournaments import (
     play_chips,
     rack_chances,
 )
+from rows import each_of
 
 
 @pytest.mark.parametrize(
@@ -118,8 +119,8 @@ def test_fairness_and_a_fairer_chart() -> None:
     assert hoboken.edge_error.max() < 0.05
 
 
-@pytest.mark.parametrize(
-    ("asked", "named"),
+@each_of(
+    "asked, named",
     [
         (lambda: heads_up(0.5, 0, 1), "chips"),
         (lambda: heads_up(1.5, 1, 1), "p is"),

@@ -32,6 +32,7 @@ from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
 from evenbreak.tournaments.evening.undoing import undo
 from evenbreak.tournaments.odds.races import Fairest
+from rows import each_of
 from tiers import examples
 
 AT = "2025-03-01T19:30:00"
@@ -472,8 +473,8 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         moves.late(evening(drawn(8)), Entrant("New", 500.0))
 
 
-@pytest.mark.parametrize(
-    ("refused", "said"),
+@each_of(
+    "refused, said",
     [
         (lambda s: moves.result(s, "W9.9", (5, 0)), "W9.9"),
         (lambda s: moves.result(s, "W1.1", (5, 5)), "5:5"),

@@ -23,6 +23,7 @@ from evenbreak.tournaments import (
     single_elimination,
     title_odds,
 )
+from rows import each_of
 from tiers import examples
 from tournaments import enumerated
 from tournaments.fields import by_fargo, by_seed, by_strength, one_favourite
@@ -82,6 +83,7 @@ def bracketology(swap: tuple[int, int] | None = None) -> np.ndarray:
     return title_odds(bracket, win).title
 
 
+@pytest.mark.slow
 def test_bracketology() -> None:
     before = bracketology()
     assert before[[0, 1, 2, 3, 4]] == pytest.approx(
@@ -136,9 +138,9 @@ def test_the_closed_form_gives_the_table() -> None:
         assert closed_form(k, Fr(1, 2), true_final=True) == Fr(1, n)
 
 
-@pytest.mark.parametrize("n", [2, 4, 8, 16])
-@pytest.mark.parametrize("drops", ["fewest rematches", "usual", "straight"])
-@pytest.mark.parametrize("final", ["true", "single"])
+@each_of("n", [2, 4, 8, 16])
+@each_of("drops", ["fewest rematches", "usual", "straight"])
+@each_of("final", ["true", "single"])
 def test_a_favourite_among_equals(n: int, drops, final) -> None:
     k = n.bit_length() - 1
     bracket = double_elimination(n, drops=drops, final=final)
@@ -446,8 +448,8 @@ def test_a_function_of_names() -> None:
     assert odds.title == pytest.approx([0.75, 0.1875, 0.0625])
 
 
-@pytest.mark.parametrize(
-    ("asked", "named"),
+@each_of(
+    "asked, named",
     [
         ({"win": np.full((3, 3), 0.5)}, "shape"),
         ({"win": np.full((4, 4), 0.6)}, "add up"),

@@ -118,6 +118,7 @@ def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
     assert sum("a terminal" in row for row in rows) == 1  # the page began the tournament
 
 
+@pytest.mark.slow
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
     assert "Take it off the table" in busy.director.open("/desk").words
     shown = busy.director.send("/desk/back", match="W2.2")

@@ -158,6 +158,7 @@ class Line:
         self.ended = True
 
 
+@pytest.mark.slow
 def test_one_address_takes_half_at_most_even_if_all_its_connections_are_busy() -> None:
     door = Door(100, frozenset({"127.0.0.1"}))
     assert [door.lets_in(Line("10.0.0.7", busy=True)) for _ in range(60)].count(True) == 50

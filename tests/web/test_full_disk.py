@@ -121,6 +121,7 @@ def test_no_problem_of_the_league_names_the_folder(hall: Hall) -> None:
     raise AssertionError(shown.words)
 
 
+@pytest.mark.slow
 def test_a_disk_that_fails_while_a_form_is_taken_is_said_without_its_place(
     hall: Hall, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -152,6 +152,7 @@ def cookie(standing_hall: Hall) -> Iterator[str]:
     assert director.open("/desk").status == 200  # the page goes on
 
 
+@pytest.mark.slow
 def test_no_head_makes_the_page_fail(
     standing_hall: Hall, cookie: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

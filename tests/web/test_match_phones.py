@@ -93,6 +93,7 @@ def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hal
         assert "W2.1 is not being played now" in shown.words
 
 
+@pytest.mark.slow
 def test_claims_and_proposals_outlast_a_restart_and_hold_for_every_server(hall: Hall) -> None:
     owner = Player(hall, "127.0.0.2")
     owner.claims(0)
@@ -123,6 +124,7 @@ def test_no_order_of_claims_and_scores_lets_one_address_decide(hall: Hall) -> No
         assert hall.state.counted == {}, seed
 
 
+@pytest.mark.slow
 def test_many_matches_of_honest_phones_are_entered_without_the_director(tmp_path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)

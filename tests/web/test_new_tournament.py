@@ -9,6 +9,7 @@ import pytest
 from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.opening import FORMATS
+from rows import each_of
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
@@ -98,8 +99,8 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         yield Phone(site, director=True)
 
 
-@pytest.mark.parametrize(
-    ("given", "why"),
+@each_of(
+    "given, why",
     [
         ({"format": "single", "losers_race": 2}, "no losers' side"),
         ({"format": "swiss", "final_race": 2}, "no final"),

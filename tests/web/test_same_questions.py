@@ -24,6 +24,7 @@ from evenbreak.questions.match import Fair
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.format import LONGEST_RACE
+from rows import each_of
 from web.phones import Phone, running
 
 
@@ -77,7 +78,7 @@ ASKED_BY_BOTH = (
 )
 
 
-@pytest.mark.parametrize("name", ASKED_BY_BOTH)
+@each_of("name", ASKED_BY_BOTH)
 def test_a_tournament_has_the_same_defaults_on_the_page(director: Phone, name: str) -> None:
     fields = Fields(director.open("/new").text)
     assert fields.usual[NAMED_BY_THE_PAGE.get(name, name)] == usual(new, name)

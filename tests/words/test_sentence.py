@@ -24,6 +24,7 @@ from evenbreak.words import (
     say_as,
     say_count,
 )
+from rows import each_of
 
 
 class Backwards(NullTranslations):
@@ -122,7 +123,7 @@ def test_parameters_commands_and_files_are_named_by_the_face() -> None:
     assert FilePath("club/tonight.db").said(FACE) == "tonight.db"
 
 
-@pytest.mark.parametrize("sentence", EVERY_KIND, ids=repr)
+@each_of("sentence", EVERY_KIND)
 def test_a_copy_says_the_same(sentence: Sentence) -> None:
     for same in (again(sentence), copy.deepcopy(sentence)):
         assert same == sentence
@@ -130,7 +131,7 @@ def test_a_copy_says_the_same(sentence: Sentence) -> None:
         assert type(same) is type(sentence)
 
 
-@pytest.mark.parametrize("sentence", EVERY_KIND, ids=repr)
+@each_of("sentence", EVERY_KIND)
 def test_python_says_the_text_itself(sentence: Sentence) -> None:
     assert sentence.said(PYTHON) == sentence
     assert sentence.said(replace(PYTHON)) == sentence

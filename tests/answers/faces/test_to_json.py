@@ -2,11 +2,11 @@ import json
 from typing import NamedTuple
 
 import numpy as np
-import pytest
 
 from evenbreak.answers.faces.to_json import as_dict, json_value, to_json
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
+from rows import each_of
 
 ROWS = Table("rows", [Column(("race_a", "race_b"), "race")], [((7, 5),), (None,)])
 VIEW = Table("", [Column("seen", "seen")], [(1,)])
@@ -49,8 +49,8 @@ def test_the_text_is_read_back_with_every_digit_and_letter():
     assert ("Zoë" in text, "0.30000000000000004" in text, text[-2:]) == (True, True, "}\n")
 
 
-@pytest.mark.parametrize(
-    ("value", "expected"),
+@each_of(
+    "value, expected",
     [
         (np.float64(0.25), 0.25),
         (np.array([[1, 2]]), [[1, 2]]),

@@ -1,10 +1,11 @@
 import pytest
 
 from evenbreak.answers.kit import wording
+from rows import each_of
 
 
-@pytest.mark.parametrize(
-    ("p", "text"),
+@each_of(
+    "p, text",
     [
         (0.0, "0%"),
         (1e-12, "less than 0.1%"),

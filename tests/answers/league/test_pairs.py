@@ -55,6 +55,7 @@ def test_every_pair_has_the_fairest_race_and_the_stronger_comes_first(ratings, o
 SNOOKER = SHARED / "data" / "snooker_2016_17_results.csv"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "results",
     [

@@ -107,6 +107,7 @@ def test_standings_are_those_of_seasons_played_one_by_one(simulated, witnesses):
     assert np.allclose(frame["p_win"], p)
 
 
+@pytest.mark.slow
 def test_ratings_after_the_season_are_as_wrong_as_those_of_single_seasons(simulated, witnesses):
     last = weeks_frame(simulated[1]).iloc[-1]
     stays = witnesses["error"][:, [0, 1, 2, 4]]  # Di has left

@@ -20,6 +20,7 @@ from evenbreak.answers.match.graph import (
 from evenbreak.files.chain_files import matrix_market_bytes
 from evenbreak.games import CATALOGUE, Ahead, Rack
 from evenbreak.handicaps import CHARTS, Ladder, chart
+from rows import each_of
 
 
 class RoundTable:
@@ -49,7 +50,7 @@ class Rounded:
 WRITTEN = {**CATALOGUE, **{name: Ladder(chart(name)) for name in CHARTS}, "rounded": Rounded()}
 
 
-@pytest.mark.parametrize("name", WRITTEN)
+@each_of("name", WRITTEN)
 def test_written_chances_out_of_a_state_add_up_to_1(name):
     road = road_of(WRITTEN[name])
     rows = csv.DictReader(io.StringIO("".join(table_lines(arcs_table(road)))))

@@ -5,9 +5,10 @@ from evenbreak.answers.match.chain import road_of
 from evenbreak.errors import GameError
 from evenbreak.games import CATALOGUE
 from evenbreak.handicaps import CHARTS, Ladder, chart, ladder_gap
+from rows import each_of
 
 
-@pytest.mark.parametrize("game", CATALOGUE.values(), ids=CATALOGUE.keys())
+@each_of("game", CATALOGUE.values())
 def test_every_way_that_leads_there_leads_to_the_same_limit(game):
     road = road_of(game)
     assert isinstance(road.graph, nx.DiGraph)

@@ -98,6 +98,7 @@ def test_the_words_go_where_the_balls_of_the_library_go():
 spins = st.floats(-100, 100)
 
 
+@pytest.mark.slow
 @given(st.floats(-90, 90).filter(bool), spins, spins, st.floats(0, 1))
 def test_hits_of_all_kinds_are_answered_and_mirrored(cut, topspin, side, mu):
     right, left = path(cut, topspin, side, mu), path(-cut, topspin, -side, mu)

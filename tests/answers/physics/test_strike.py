@@ -8,6 +8,7 @@ from evenbreak.answers.physics.hit import IMPERIAL, METRIC
 from evenbreak.answers.physics.strike import strike_answer, tip_words
 from evenbreak.physics import Ball, Cloth, Cue, Slide, strike
 from evenbreak.physics.units import INCH, OUNCE
+from rows import each_of
 
 
 def struck(up, right=0.0, *, speed=None, far=None, units=IMPERIAL, tip=3**-0.5, ounces=18):
@@ -64,8 +65,8 @@ def test_a_miscue_gives_no_spin():
     assert held["spin_speed_ratio"] == pytest.approx(1.125)
 
 
-@pytest.mark.parametrize("offset", [-0.3, -0.1, 0.1, 0.45])
-@pytest.mark.parametrize("inches", [0.0, 5.0, 15.0, 200.0])
+@each_of("offset", [-0.3, -0.1, 0.1, 0.45])
+@each_of("inches", [0.0, 5.0, 15.0, 200.0])
 def test_the_spin_after_a_distance_is_that_of_the_slide(offset, inches):
     found = struck(offset, speed=50, far=inches)
     speed = found["ball_speed_in_s"] * INCH

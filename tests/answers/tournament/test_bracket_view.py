@@ -11,6 +11,7 @@ from evenbreak.sheets.bracket_page import bracket_html
 from evenbreak.tournaments.brackets.seeding import seeded_lines
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result, Scored
 from evenbreak.tournaments.evening.fold import evening
+from rows import each_of
 
 
 def drawn(form: str, count: int, names: tuple[str, ...] = ()):
@@ -21,8 +22,8 @@ def drawn(form: str, count: int, names: tuple[str, ...] = ()):
     return evening([Event("2025-03-01T19:30:00", what) for what in (begun, Drawn(players, lines))])
 
 
-@pytest.mark.parametrize("form", ["single", "double", "consolation"])
-@pytest.mark.parametrize("count", [2, 3, 5, 8, 13, 16, 32])
+@each_of("form", ["single", "double", "consolation"])
+@each_of("count", [2, 3, 5, 8, 13, 16, 32])
 def test_every_match_has_a_place_of_its_own(form: str, count: int) -> None:
     if form == "consolation" and count < 4:
         count = 6

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from evenbreak.files.charts import read_chart
 from evenbreak.handicaps import RaceLimits, chart, design, measure_chart
+from rows import each_of
 from tiers import examples
 
 NPL_10 = "--games 7..9 --least 1:2 --beside npl_10"
@@ -90,8 +91,8 @@ def test_a_chart_beside_with_the_same_races_has_no_others(run, ask, tmp_path):
     assert answer["beside"][0]["other_races"] == []
 
 
-@pytest.mark.parametrize(
-    ("line", "wrong"),
+@each_of(
+    "line, wrong",
     [
         ("", "--games"),
         ("--games 7", "'7'"),

@@ -9,6 +9,7 @@ from click.shell_completion import ShellComplete
 
 from evenbreak.cli.program import program
 from places import DATA
+from rows import each_of
 
 ROSTER = str(DATA / "demo_roster.csv")
 SEASON = str(DATA / "demo_league.csv")
@@ -20,8 +21,8 @@ def offered(*words):
     return [(one.type, one.value) for one in found.get_completions(before, typed)]
 
 
-@pytest.mark.parametrize(
-    ("words", "values"),
+@each_of(
+    "words, values",
     [
         (("matc",), ["matchups"]),
         (("odds", "--scale", "f"), ["fargo"]),

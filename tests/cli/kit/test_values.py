@@ -4,10 +4,11 @@ import click
 import pytest
 
 from evenbreak.cli.kit.values import CHANCE, PAIR, SCORE, SPAN, Whole, number_of, refuse
+from rows import each_of
 
 
-@pytest.mark.parametrize(
-    ("kind", "text", "value"),
+@each_of(
+    "kind, text, value",
     [
         (PAIR, "7:5", (7, 5)),
         (PAIR, " 7 : 5 ", (7, 5)),
@@ -28,8 +29,8 @@ def test_values(kind: click.ParamType, text: str, value: object) -> None:
     assert kind.convert(text, None, None) == value
 
 
-@pytest.mark.parametrize(
-    ("kind", "text"),
+@each_of(
+    "kind, text",
     [
         (PAIR, "7 5"),
         (PAIR, "7:"),

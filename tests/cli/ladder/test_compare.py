@@ -70,6 +70,7 @@ def test_the_comparison_as_one_table_and_as_a_picture(run, tmp_path):
     assert "<svg" in path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_refitted_ratings_are_simulated_beside_the_ladders(compared):
     rows = compared("--chart", "npl_12", "--equal-skill")["systems"]
     (refit,) = (row for row in rows if row["sd_se"])

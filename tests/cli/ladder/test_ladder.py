@@ -14,6 +14,7 @@ from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.systems.catalogue import FAMILIES
 from evenbreak.ratings.scale import scale_of
 from places import DATA
+from rows import each_of
 
 ROSTER = DATA / "demo_roster.csv"
 COLUMNS = ("error", "probability", "cumulative", "p_win")
@@ -153,8 +154,8 @@ def test_the_help_names_all_systems(run):
         assert family.grammar in text
 
 
-@pytest.mark.parametrize(
-    ("words", "code", "named"),
+@each_of(
+    "words, code, named",
     [
         (("--chart", "apa_8ball"), 2, "'apa_8ball'"),
         (("--chart", "npl_9"), 3, "npl_9"),

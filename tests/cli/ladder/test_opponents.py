@@ -47,6 +47,7 @@ def test_a_league_that_looks_like_another_scale_is_refused(run, ladder, fargo_le
     assert ladder(*fits, "--league", fargo_league)["warnings"] == []
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize("compare", [(), ("--compare",)])
 @pytest.mark.parametrize(
     ("skill", "code", "named"),

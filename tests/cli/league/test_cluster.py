@@ -75,6 +75,7 @@ def test_a_port_without_a_scheduler(listens):
     assert f"WorkerError: no dask scheduler answers at '{address}'" in asked.stderr
 
 
+@pytest.mark.slow
 def test_a_cluster_without_workers():
     with (
         distributed.LocalCluster(n_workers=0, dashboard_address=":0", silence_logs=50) as empty,

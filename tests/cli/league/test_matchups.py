@@ -208,6 +208,7 @@ def test_names_in_csv_are_defused(run, roster):
     assert (row["player_a"], row["player_b"]) == ("'=cmd()", 'Lee, "Ann"')
 
 
+@pytest.mark.slow
 def test_too_many_pairs_are_refused_with_advice(run, roster):
     path = roster("player,rating\n" + "".join(f"P{k},{k % 97}\n" for k in range(10_000)))
     result = run("matchups", path, *SURE)

@@ -8,6 +8,7 @@ import random
 import pytest
 
 from places import DATA
+from rows import each_of
 
 DEMO = str(DATA / "demo_league.csv")
 SD = ("--prior", "22")
@@ -56,6 +57,7 @@ def test_json_has_the_verdict_too(run):
     assert found["schema_version"] == 1
 
 
+@pytest.mark.slow
 def test_a_picture_is_written(run, tmp_path):
     place = tmp_path / "calibration.svg"
     assert run("validate", DEMO, *SD, "--plot", str(place)).exit_code == 0
@@ -77,8 +79,8 @@ def test_a_file_without_an_order_in_time_is_refused(run, tmp_path, text, words):
     assert words in found.stderr
 
 
-@pytest.mark.parametrize("option", ["--prior", "--half-life"])
-@pytest.mark.parametrize("value", ["0", "-1", "much", "nan", "1e9", "0.001"])
+@each_of("option", ["--prior", "--half-life"])
+@each_of("value", ["0", "-1", "much", "nan", "1e9", "0.001"])
 def test_numbers_out_of_range_are_refused(run, option, value):
     found = run("validate", DEMO, option, value)
     assert found.exit_code == 2

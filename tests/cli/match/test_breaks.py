@@ -2,6 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rows import each_of
+
 COLUMNS = [
     "breaks",
     "share_a",
@@ -71,8 +73,8 @@ def test_plot(run, tmp_path):
     assert path.read_bytes()[:4] == b"\x89PNG"
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("0.9", "'P2'"),
         ("0.9 5", "'5'"),

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rows import each_of
+
 HEADER = "source,target,probability\n"
 # One ball, two players: the nodes of the two-parameter infinite look-ahead.
 ONE_BALL = HEADER + "S1,W,0.3\nS1,S2,0.7\nS2,L,0.2\nS2,S1,0.8\n"
@@ -156,8 +158,8 @@ def test_cp1252_is_read_with_a_warning(run):
     assert "Windows-1252" in result.stderr
 
 
-@pytest.mark.parametrize(
-    ("arcs", "told"),
+@each_of(
+    "arcs, told",
     [
         (b"", ["stdin: is empty"]),
         (b"\x00\x01", ["stdin:1: holds a NUL"]),

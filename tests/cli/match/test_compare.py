@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rows import each_of
+
 COLUMNS = [*("format", "p_win_a", "from_even", "mean_games", "games_p90", "even_p1", "even_places")]
 
 
@@ -87,8 +89,8 @@ def test_the_usage_line_names_ratings_and_formats(run):
     assert "compare [OPTIONS] [A B] FORMAT..." in run("compare", "--help").stdout
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         (["--p", "0.6"], "such as 9:5"),
         (["9:5"], "--p"),

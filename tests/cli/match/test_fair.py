@@ -4,6 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rows import each_of
+
 COLUMNS = ["race_a", "race_b", "p_win_a", "mean_games", "games_p90"]
 
 
@@ -76,8 +78,8 @@ def test_csv_into_a_pipe_with_the_scale_beside_it(run, fair):
     assert "NPL" in result.stderr
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("612 521", "--race-to"),
         ("612 521 --games 7..9 --race-to 7", "--race-to"),

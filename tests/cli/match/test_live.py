@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.matches import race_win_probability
+from rows import each_of
 
 COURSE = [
     *("rack", "won_by", "score_a", "score_b", "set_a", "set_b", "next_break"),
@@ -95,8 +96,8 @@ def test_plot(run, tmp_path):
     assert b"<svg" in path.read_bytes()
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("--p 0.6", "--race"),
         ("--race 3:3", "--p"),

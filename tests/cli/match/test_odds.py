@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from places import DATA
+from rows import each_of
 
 KEYS = {
     "p_game_a",
@@ -212,8 +213,8 @@ def test_a_person_at_a_terminal_reads_text():
     assert b"\x1b" not in text
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("612 521", "--race"),
         ("612 521 --race 7:7 --ahead 2:2", "--ahead"),

@@ -2,6 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rows import each_of
+
 COLUMNS = [
     "shot",
     "kind",
@@ -87,8 +89,8 @@ def test_plot(run, tmp_path, kind):
     assert path.read_bytes()[:4] == {"png": b"\x89PNG", "svg": b"<?xm"}[kind]
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("0.4", "'P2'"),
         ("1.4 0.8", "'1.4'"),

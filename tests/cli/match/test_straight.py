@@ -4,6 +4,7 @@ from hypothesis import strategies as st
 
 from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
 from evenbreak.stats import shot_chance
+from rows import each_of
 
 QUANTITIES = [
     "p_make_a",
@@ -106,8 +107,8 @@ def test_plot(run, tmp_path, line, name):
     assert path.read_bytes().startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
 
 
-@pytest.mark.parametrize(
-    ("line", "named"),
+@each_of(
+    "line, named",
     [
         ("9 4", "--points"),
         ("9 --points 5", "averages are 9;"),

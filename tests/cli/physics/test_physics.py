@@ -7,6 +7,7 @@ import click
 import pytest
 
 from evenbreak.cli.physics import COMMANDS, command
+from rows import each_of
 
 USUAL = {
     "speed": "--lag-time 7",
@@ -61,8 +62,8 @@ def test_help_loads_no_numpy():
     assert "--side-offset" in done.stdout
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
+@each_of(
+    "line, words",
     [
         ("speed", ["--lag-time", "0.1 to 1,000"]),
         ("speed --lag-time 7 --table-length 2.54 --metric", ["--table-length 2.54"]),

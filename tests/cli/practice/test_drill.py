@@ -11,6 +11,7 @@ from evenbreak.games import Drill
 from evenbreak.practice import drill_statistics
 from evenbreak.practice.drill_log import MOST_LEVELS as MOST_OF_A_LOG
 from places import DATA
+from rows import each_of
 
 LOG_FILE = DATA / "drill_log.csv"
 COLUMNS = ["level", "p_success", "long_run", "gain", "lift"]
@@ -165,8 +166,8 @@ def test_a_picture(run, tmp_path, words, name):
     assert (tmp_path / name).read_bytes()[:5] in (b"\x89PNG\r", b"<?xml")
 
 
-@pytest.mark.parametrize(
-    ("line", "wrong"),
+@each_of(
+    "line, wrong",
     [
         ("", "--p, --success and --log"),
         ("--p 0.5 --log x.csv", "--p, --success and --log"),

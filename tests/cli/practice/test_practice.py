@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from evenbreak.stats import compare, mean_interval, trend, was_it_luck
 from places import DATA
+from rows import each_of
 
 BEFORE, AFTER = (str(DATA / f"practice_scores{end}.csv") for end in ("", "_after"))
 WEEKS = [50, 44, 46, 52, 47, 51, 49, 45, 48, 50]
@@ -153,8 +154,8 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
     assert picture.exists()
 
 
-@pytest.mark.parametrize(
-    ("line", "code", "wrong"),
+@each_of(
+    "line, code, wrong",
     [
         ("", 2, "SCORES.csv"),
         ("- --new 53 --versus -", 2, "--new and --versus"),

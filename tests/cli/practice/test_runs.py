@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.stats import InningsScore, RunLength
+from rows import each_of
 
 QUANTITIES = [
     "p_make",
@@ -96,8 +97,8 @@ def test_plot(run, tmp_path, line, name):
     assert path.read_bytes().startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
 
 
-@pytest.mark.parametrize(
-    ("line", "wrong"),
+@each_of(
+    "line, wrong",
     [
         ("", "--mean or --p"),
         ("--mean 3 --p 0.5", "--mean or --p"),

@@ -3,6 +3,7 @@
 import pytest
 
 from places import DATA
+from rows import each_of
 
 TEAMS = (str(DATA / "demo_team.csv"), str(DATA / "demo_opponents.csv"))
 
@@ -62,8 +63,8 @@ def test_sealed_and_blind_are_worth_the_same(ask):
     assert values[0] == pytest.approx(values[1], abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("options", "what"),
+@each_of(
+    "options, what",
     [
         ("", "races are missing"),
         ("--race 5 --order XYZ", "XYZ"),

@@ -100,6 +100,7 @@ def test_formats_and_seeding(odds):
     assert blind[0] == blind[1] != blind[2]
 
 
+@pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("words", "matches"),
     [

@@ -1,10 +1,10 @@
 """Dates that were probably mistyped are named with their lines; dates of a long past are not."""
 
 import numpy as np
-import pytest
 
 from evenbreak.files.results.doubts import MOST_DATES_LISTED, date_warnings
 from evenbreak.files.results.results_file import read_results
+from rows import each_of
 
 TODAY = np.datetime64("2026-03-01")
 
@@ -15,8 +15,8 @@ def warned(*days):
     return [warning.split(" is ")[0] for warning in found]
 
 
-@pytest.mark.parametrize(
-    ("days", "found"),
+@each_of(
+    "days, found",
     [
         (["2026-01-01", "2026-03-02"], []),
         (["2026-01-01", "2026-03-03"], ["r.csv:3: date 2026-03-03"]),

@@ -8,6 +8,7 @@ from evenbreak.errors import DataError
 from evenbreak.files.tables.cells import Number, Whole
 from evenbreak.files.tables.problems import Problems
 from evenbreak.files.tables.table import Texts, TextTable
+from rows import each_of
 
 NUMBER = Number(least=-9, most=9, filled=True, write="0.5")
 
@@ -38,7 +39,7 @@ def test_whole_numbers(text, value):
     assert told(table) == []
 
 
-@pytest.mark.parametrize(
+@each_of(
     "text",
     [
         "-1",
@@ -146,7 +147,7 @@ def test_a_point_is_a_decimal_point_unless_it_may_group_and_a_comma_where_no_tho
         assert told(table) == []
 
 
-@pytest.mark.parametrize(
+@each_of(
     "text",
     ["NaN", "inf", "-Infinity", ",", "0,5,0", "1,000.5", "1.000,5", "1e999", "half", "1_0", ""],
 )

@@ -7,6 +7,7 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.tables import rows as module
 from evenbreak.files.tables.rows import content_of, text_of
+from rows import each_of
 
 
 def test_a_file_is_called_as_the_person_called_it(tmp_path, monkeypatch):
@@ -67,8 +68,8 @@ def test_the_warning_says_where_the_file_stops_being_utf8():
     assert warnings[0].startswith("r.csv:3: is not UTF-8; read as Windows-1252")
 
 
-@pytest.mark.parametrize(
-    ("content", "told"),
+@each_of(
+    "content, told",
     [
         (b"", "r.csv: is empty"),
         (b"\xef\xbb\xbf", "r.csv: is empty"),

@@ -5,6 +5,7 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import Problems
+from rows import each_of
 
 REQUIRED = {"player": ("name",), "score": ("points", "racks won")}
 HEADER = Header(REQUIRED, {"date": ("day",)}, {"score": (("winner",), ("race_a", "race_b"))})
@@ -46,8 +47,8 @@ def test_other_columns_can_take_the_place_of_a_required_one():
 COMPLETE = ["name", "points"]
 
 
-@pytest.mark.parametrize(
-    ("rows", "above"),
+@each_of(
+    "rows, above",
     [
         ([COMPLETE], 0),
         ([["Autumn league"], COMPLETE], 1),

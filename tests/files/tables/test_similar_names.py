@@ -5,10 +5,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.files.tables.similar_names import similar_names
+from rows import each_of
 
 
-@pytest.mark.parametrize(
-    ("one", "other"),
+@each_of(
+    "one, other",
     [
         ("Ann Lee", "ANN LEE"),
         ("AnnLee", "Ann Lee"),
@@ -38,8 +39,8 @@ def test_names_that_may_mean_one_player(one, other):
     assert similar_names([one, other, "Somebody Else"]) == [tuple(sorted([one, other]))]
 
 
-@pytest.mark.parametrize(
-    ("one", "other"),
+@each_of(
+    "one, other",
     [
         ("John Smith J", "John Smith K"),
         ("Player 0012", "Player 0013"),

@@ -20,6 +20,7 @@ from evenbreak.handicaps import (
 )
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings.scale import scale_of
+from rows import each_of
 from tiers import examples
 
 
@@ -97,8 +98,8 @@ def test_the_worst_row_is_the_worst_of_all_whole_points():
     assert report.worst.unfairness == pytest.approx(np.abs(wins - 0.5).max())
 
 
-@pytest.mark.parametrize("points", [30.0, 100.0, 120.41])
-@pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.9])
+@each_of("points", [30.0, 100.0, 120.41])
+@each_of("tilt", [0.0, 0.25, 0.5, 0.9])
 def test_the_audit_of_a_designed_chart_recovers_its_scale_and_tilt(points, tilt):
     fit = audit(made(NPL_LIKE, points, tilt)).best_fit
     assert fit.points_per_doubling == pytest.approx(points, rel=0.01)
@@ -106,9 +107,9 @@ def test_the_audit_of_a_designed_chart_recovers_its_scale_and_tilt(points, tilt)
     assert fit.misfit < 0.5
 
 
-@pytest.mark.parametrize("scale", ["npl", "fargo", "elo", 45.0])
-@pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
-@pytest.mark.parametrize("games", [(7, 9), (13, 15)])
+@each_of("scale", ["npl", "fargo", "elo", 45.0])
+@each_of("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
+@each_of("games", [(7, 9), (13, 15)])
 def test_the_audit_of_the_fairest_chart_recovers_its_scale_and_tilt(scale, tilt, games):
     fit = audit(design(scale, RaceLimits(games, weaker_least=2), tilt=tilt)).best_fit
     assert fit.points_per_doubling == pytest.approx(scale_of(scale).points_per_doubling, rel=0.01)

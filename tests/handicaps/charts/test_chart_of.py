@@ -19,6 +19,7 @@ from evenbreak.handicaps import (
 )
 from evenbreak.handicaps.ladders.closed_league import ClosedPair
 from evenbreak.league import LeaguePlayers, Season, reestimate
+from rows import each_of
 
 
 @pytest.mark.parametrize("name", ["npl_10", "NPL-10", " npl 10 ", chart("npl_10")])
@@ -52,10 +53,8 @@ def test_every_function_that_takes_a_chart_takes_its_name(call):
     assert call("npl_8") == call(chart("npl_8"))
 
 
-@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
-@pytest.mark.parametrize(
-    "wrong", ["nobody", "apa_8ball", "apa_9ball", 12, level_chart("apa_8ball")]
-)
+@each_of("call", CALLS.values())
+@each_of("wrong", ["nobody", "apa_8ball", "apa_9ball", 12, level_chart("apa_8ball")])
 def test_what_is_no_chart_by_difference_is_refused_with_those_that_are(call, wrong):
     with pytest.raises(InputError, match=r"chart is .*npl_10"):
         call(wrong)

@@ -9,6 +9,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps import RaceLimits, audit, chart, design, measure_chart, nearest_chart
 from evenbreak.handicaps.charts.race_grid import even_differences, win_grid
 from evenbreak.ratings import SCALES, scale_of
+from rows import each_of
 from tiers import examples
 
 NPL = {8: (5, 7), 10: (7, 9), 12: (9, 11), 20: (17, 19)}
@@ -133,8 +134,8 @@ def test_the_nearest_race_is_nearest_at_each_difference():
         assert missed[made.race(points)] == pytest.approx(min(missed.values()), abs=1e-12)
 
 
-@pytest.mark.parametrize("scale", ["npl", "fargo", 400.0])
-@pytest.mark.parametrize("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
+@each_of("scale", ["npl", "fargo", 400.0])
+@each_of("tilt", [0.0, 0.25, 0.5, 0.75, 1.0])
 def test_the_audit_of_a_designed_chart_tells_its_scale_and_tilt(scale, tilt):
     made = design(scale, RaceLimits((9, 11), weaker_least=2), tilt=tilt)
     fit = audit(made).best_fit

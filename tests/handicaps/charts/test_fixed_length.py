@@ -6,6 +6,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.design import fixed_length_chart
 from evenbreak.ratings.scale import SCALES
+from rows import each_of
 
 
 def win(p, m, games):
@@ -13,8 +14,8 @@ def win(p, m, games):
     return sum(comb(games, k) * p**k * (1 - p) ** (games - k) for k in range(m, games + 1))
 
 
-@pytest.mark.parametrize("games", [1, 3, 9, 13])
-@pytest.mark.parametrize("scale", SCALES)
+@each_of("games", [1, 3, 9, 13])
+@each_of("scale", SCALES)
 def test_each_difference_has_the_most_even_race_of_the_length(games, scale):
     chart = fixed_length_chart(games, scale)
     assert chart.name == f"fixed_{games}"

@@ -19,6 +19,7 @@ from evenbreak.handicaps.charts.given_ratings import (
 from evenbreak.matches.odds import match_odds
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.scale import SCALES
+from rows import each_of
 from tiers import examples
 
 
@@ -131,8 +132,8 @@ def test_many_pairs_go_in_parts():
         assert (m[k], n[k]) == alone
 
 
-@pytest.mark.parametrize(
-    ("call", "remedy"),
+@each_of(
+    "call, remedy",
     [
         (lambda: win_given_ratings(math.inf, 1.0, 5, 5), "difference is inf"),
         (lambda: win_given_ratings(0.0, -1.0, 5, 5), "is -1"),

@@ -141,6 +141,7 @@ def test_an_iteration_that_does_not_converge_is_an_error(monkeypatch):
         Ladder(chart("npl_8"), opponents=AUTOCORRELATED).law()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["npl_8", "npl_20"])
 def test_moves_are_right_where_the_law_is_smaller_than_any_float(name):
     kernel = Ladder(chart(name), widest=480).kernel

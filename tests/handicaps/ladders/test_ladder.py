@@ -24,6 +24,7 @@ from evenbreak.handicaps import (
 )
 from evenbreak.ratings import scale_of
 from evenbreak.stats import Distribution
+from rows import each_of
 from slow_ladders import chances, exact_law, exact_win
 
 PUBLISHED = {  # chart: natural, model A (the text's), model B
@@ -66,15 +67,15 @@ def test_the_natural_distribution_is_the_exact_one(name):
     assert ladder.changes == ()
 
 
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("name", PUBLISHED)
+@each_of("model", MODELS)
+@each_of("name", PUBLISHED)
 def test_the_long_run_is_the_eigenvector_of_the_matrix(model, name):
     ladder = Ladder(chart(name), opponents=model)
     np.testing.assert_allclose(chances(ladder.law()), dense_law(ladder), atol=1e-12)
 
 
-@pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("name", PUBLISHED)
+@each_of("model", MODELS)
+@each_of("name", PUBLISHED)
 def test_varying_form_widens_the_errors(model, name):
     sds = [Ladder(chart(name), opponents=model, match_sd=sd).law().sd for sd in (0, 2, 4, 8)]
     assert all(before < after for before, after in pairwise(sds))
@@ -158,8 +159,8 @@ def test_equal_ladders_are_equal_and_copies_too():
     assert copy.law() == ladder.law()
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
+@each_of(
+    "change, message",
     [
         ({"widest": 0}, "widest is 0; give a whole number, 1 or more"),
         ({"widest": 2.5}, "widest is 2.5; give a whole number"),

@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 
 from evenbreak.handicaps import (
     AUTOCORRELATED,
@@ -15,6 +14,7 @@ from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.step import step_system
 from evenbreak.stats import Distribution
+from rows import each_of
 
 SPREAD = Distribution((-20, 3, 10), (0.25, 0.5, 0.25))
 ERROR = Distribution((-4, 0, 5), (0.25, 0.5, 0.25))
@@ -28,8 +28,8 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("system", [step_system(1), margin_system(2)], ids=lambda s: s.name)
+@each_of("kind", KINDS)
+@each_of("system", [step_system(1), margin_system(2)])
 def test_pairs_give_the_ladders_own_chances(kind, system):
     # The ladder convolves; here every pair is added up.
     ladder = Ladder(system, opponents=KINDS[kind])
@@ -40,10 +40,8 @@ def test_pairs_give_the_ladders_own_chances(kind, system):
     np.testing.assert_allclose(moves, ladder.kernel @ ladder.steps, atol=1e-10)
 
 
-@pytest.mark.parametrize("kind", ["natural", "B", "given rating"])
-@pytest.mark.parametrize(
-    "forms", [{"day_sd": 6.0}, {"match_sd": 3.0}, {"day_sd": 0.4}, {"day_sd": 90.0}]
-)
+@each_of("kind", ["natural", "B", "given rating"])
+@each_of("forms", [{"day_sd": 6.0}, {"match_sd": 3.0}, {"day_sd": 0.4}, {"day_sd": 90.0}])
 def test_form_is_that_of_the_ladder(kind, forms):
     ladder = Ladder(chart("npl_10"), opponents=KINDS[kind], **forms)
     pairs = opponent_pairs_of(ladder)

@@ -3,6 +3,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.step import step_system
+from rows import each_of
 
 
 @pytest.mark.parametrize(
@@ -26,8 +27,8 @@ def test_a_system_is_its_own_name():
     assert system_of(system) is system
 
 
-@pytest.mark.parametrize(
-    ("written", "message"),
+@each_of(
+    "written, message",
     [
         ("fide", "system is 'fide'; give npl, step UP .DOWN., .*fixed"),
         ("", "system is ''; give npl"),

@@ -7,6 +7,7 @@ import pytest
 from derived import derived
 from evenbreak.source_text.section5 import games_won, innings
 from evenbreak.stats import GamesWon, InningsScore, RunLength
+from rows import each_of
 
 LAWS = {
     "p": Fraction(7, 10),
@@ -20,8 +21,8 @@ RUN, SAFE, SCORE = RunLength(0.7), RunLength(0.7, 0.8), InningsScore(0.7, 4)
 GAMES = GamesWon(12, 0.7)
 
 
-@pytest.mark.parametrize(
-    ("problem", "quantity", "inputs", "value"),
+@each_of(
+    "problem, quantity, inputs, value",
     [
         ("P5.9", "mode", "", GAMES.mode),
         ("P5.9", "mean", "", GAMES.mean),

@@ -6,6 +6,7 @@ from derived import derived
 from evenbreak.games import Ahead, Rack
 from evenbreak.matches import win_probability
 from evenbreak.source_text.section5 import long_run
+from rows import each_of
 
 
 def as_python(formula):
@@ -16,8 +17,8 @@ def formula_of(m, n):
     return derived(long_run, "P5.27")["formula: W", f"{m}:{n}"]
 
 
-@pytest.mark.parametrize(("m", "n"), long_run.HANDICAPS)
-@pytest.mark.parametrize("p", [0.0, 0.3, 0.5, 0.6, 1.0])
+@each_of("m, n", long_run.HANDICAPS)
+@each_of("p", [0.0, 0.3, 0.5, 0.6, 1.0])
 def test_polynomials_give_the_chance_of_a_lead(m, n, p):
     value = eval(as_python(formula_of(m, n)), {"p": p, "q": 1 - p})  # noqa: S307
     assert value == pytest.approx(win_probability(Ahead(m, n, Rack(p))), abs=1e-14)

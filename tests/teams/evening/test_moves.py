@@ -7,6 +7,7 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.choices import choices
 from evenbreak.teams.evening.events import HandedIn, Proposed, PutUp, Result
 from evenbreak.teams.evening.plan import check_plan
+from rows import each_of
 from team_nights import after, plan
 
 ANN, WIM = PutUp(0, 1, ("Ann",)), PutUp(1, 1, ("Wim",))
@@ -23,8 +24,8 @@ def test_what_is_there_already_gives_no_event():
     assert len(moves.begin(after(ANN), plan())) == 1
 
 
-@pytest.mark.parametrize(
-    ("state", "move", "why"),
+@each_of(
+    "state, move, why",
     [
         (after(), lambda s: moves.put_up(s, 1, 1, ("Wim",)), "Racks names first"),
         (after(ANN), lambda s: moves.put_up(s, 0, 1, ("Bo",)), "already"),
