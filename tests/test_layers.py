@@ -86,13 +86,11 @@ ROOMS = {
 }
 
 
-def statements(tree: ast.AST, *, for_types: bool = True) -> Iterator[ast.AST]:
-    """Yield all statements, the inner ones too, with or without those for type checking alone."""
+def statements(tree: ast.AST) -> Iterator[ast.AST]:
+    """Yield all statements, the inner ones too."""
     todo = [tree]
     while todo:
         node = todo.pop()
-        if isinstance(node, ast.If) and not for_types and ast.unparse(node.test) == "TYPE_CHECKING":
-            continue
         yield node
         for name in ("body", "orelse", "handlers", "finalbody", "cases"):
             inner = getattr(node, name, None)
@@ -174,27 +172,35 @@ def test_only_the_last_rooms_touch_files_and_the_terminal(room: str) -> None:
 
 
 def imports_between(modules: dict[str, ast.Module]) -> nx.DiGraph:
-    """Return who imports whom, within functions too, but not for type checking alone."""
+    """Return who imports whom: within functions too, and for type checking alone."""
     arrows = nx.DiGraph()
     for name, tree in modules.items():
-        for node in statements(tree, for_types=False):
+        for node in statements(tree):
             if isinstance(node, ast.Import):
                 arrows.add_edges_from((name, alias.name) for alias in node.names)
             elif isinstance(node, ast.ImportFrom) and node.module:
                 inner = (f"{node.module}.{alias.name}" for alias in node.names)
                 arrows.add_edges_from(
-                    (name, one if one in modules else node.module) for one in inner
+                    (name, target if target in modules else node.module) for target in inner
                 )
     return arrows
 
 
 def circles(modules: dict[str, ast.Module]) -> list[list[str]]:
     """List the modules that import each other, those of a circle together."""
-    found = nx.strongly_connected_components(imports_between(modules))
-    return [sorted(circle) for circle in found if len(circle) > 1]
+    components = nx.strongly_connected_components(imports_between(modules))
+    return sorted(sorted(circle) for circle in components if len(circle) > 1)
 
 
-@pytest.mark.slow
+CIRCLES = [
+    [
+        *(f"evenbreak.answers.faces.to_{face}" for face in ("html", "json", "text")),
+        "evenbreak.answers.kit.answer",
+    ]
+]
+"""Those that are still to be opened."""
+
+
 def test_no_modules_import_each_other() -> None:
     modules = {
         ".".join(("evenbreak", *module_of(path))).removesuffix(".__init__"): ast.parse(
@@ -202,13 +208,15 @@ def test_no_modules_import_each_other() -> None:
         )
         for path in MODULES
     }
-    assert circles(modules) == []
+    assert [circle for circle in circles(modules) if circle not in CIRCLES] == []
 
 
 def test_the_checker_sees_a_circle() -> None:
     modules = {"a": ast.parse("import b"), "b": ast.parse("def f():\n    from a import x")}
     assert circles(modules) == [["a", "b"]]
     modules["b"] = ast.parse("if TYPE_CHECKING:\n    from a import x")
+    assert circles(modules) == [["a", "b"]]
+    modules["b"] = ast.parse("import c")
     assert circles(modules) == []
 
 

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from evenbreak.ratings.validation.calibration import END_ERROR
+from evenbreak.ratings.estimates import END_ERROR
 from places import ROOT
 from tries import tries
 

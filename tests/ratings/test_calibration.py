@@ -10,14 +10,8 @@ from scipy.optimize import minimize_scalar
 from scipy.special import expit
 from scipy.stats import binomtest
 
-from evenbreak.ratings.validation.calibration import (
-    bootstrap_ratio,
-    brier,
-    calibration,
-    log_loss,
-    logistic_coefficient,
-    wilson,
-)
+from evenbreak.ratings.estimates import bootstrap_ratio, logistic_coefficient, wilson
+from evenbreak.ratings.validation.calibration import brier, calibration, log_loss
 
 
 def test_a_coin_has_log_loss_ln_2_and_brier_a_quarter():

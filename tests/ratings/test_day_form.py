@@ -7,8 +7,9 @@ import pytest
 from scipy.special import expit
 
 from evenbreak.ratings import fit
-from evenbreak.ratings.day_form import DayForm, day_form
-from evenbreak.ratings.validation.calibration import Estimate
+from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.fitted import DayForm
 from ratings.test_match_form import league
 
 

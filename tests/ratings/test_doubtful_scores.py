@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results, fit, walk_forward
-from evenbreak.ratings.consistency import doubtful_scores
 from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.validation.within_matches import dispersion, match_form, play_races
 
 POINTS = 9

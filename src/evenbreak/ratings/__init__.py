@@ -1,8 +1,7 @@
 """From match results to ratings with uncertainty.
 
-`scale` says what a rating difference means, `results` holds what was played,
-`consistency` says whether it can be true, and `fit` estimates Bradley-Terry ratings
-from it.
+`scale` says what a rating difference means, `results` holds what was played and whether
+it can be true, and `fit` estimates Bradley-Terry ratings from it.
 """
 
 import lazy_loader

@@ -1,9 +1,7 @@
 from .beginning import Beginning as Beginning
-from .consistency import Problem as Problem
-from .consistency import find_problems as find_problems
-from .day_form import DayForm as DayForm
 from .day_form import day_form as day_form
 from .fit import fit as fit
+from .fitted import DayForm as DayForm
 from .fitted import Group as Group
 from .fitted import Ratings as Ratings
 from .levels import Levels as Levels
@@ -13,7 +11,9 @@ from .prior import Evidence as Evidence
 from .prior import PriorChoice as PriorChoice
 from .prior import best_prior as best_prior
 from .results import Played as Played
+from .results import Problem as Problem
 from .results import Results as Results
+from .results import find_problems as find_problems
 from .roster import Roster as Roster
 from .scale import SCALES as SCALES
 from .scale import Scale as Scale

@@ -10,7 +10,6 @@ sandwich's.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +18,13 @@ from scipy.special import expit, log_expit, logsumexp
 
 from evenbreak.arrays import Floats
 from evenbreak.matches.form import centre_of_form
-from evenbreak.ratings.consistency import doubtful_scores
 from evenbreak.ratings.decay import until
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.doubtful_scores import doubtful_scores
+from evenbreak.ratings.estimates import Estimate, with_error
 from evenbreak.ratings.fit import weights_of
-from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.fitted import DayForm, Ratings
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.validation.calibration import Estimate, with_error
 
 NODES = 15
 """Nodes of the Gauss-Hermite rule."""
@@ -46,39 +45,6 @@ MOST_PLAYERS = 2000
 """Players up to which each match is compared with the ratings from all others."""
 
 _STEP = 1e-3
-
-
-@dataclass(frozen=True)
-class DayForm:
-    """Form of the day in a league.
-
-    Parameters
-    ----------
-    variance
-        v in squared log-odds, with its 95% interval, which may begin below 0.
-    races
-        the matches that it is estimated from.
-    """
-
-    variance: Estimate
-    races: int
-
-    @property
-    def sd(self) -> float:
-        """The standard deviation of form in a match, in log-odds."""
-        return math.sqrt(self.variance.value)
-
-    @property
-    def sd_error(self) -> float:
-        """The standard error of `sd`."""
-        error = (self.variance.high - self.variance.low) / (2.0 * 1.960)
-        return error / (2.0 * self.sd) if self.sd else math.inf
-
-    @property
-    def established(self) -> bool:
-        """Whether the variance is above 0 with 99% confidence."""
-        middle = (self.variance.high + self.variance.low) / 2.0
-        return middle - (self.variance.high - middle) * 2.576 / 1.960 > 0.0
 
 
 def form_variance(

@@ -14,14 +14,13 @@ from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.covariance import Curvature, PairCounts
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from evenbreak.ratings.day_form import DayForm
 
 
 class Group(NamedTuple):
@@ -39,6 +38,39 @@ class Group(NamedTuple):
     name: str
     above: float
     standard_error: float
+
+
+@dataclass(frozen=True)
+class DayForm:
+    """Form of the day in a league.
+
+    Parameters
+    ----------
+    variance
+        v in squared log-odds, with its 95% interval, which may begin below 0.
+    races
+        the matches that it is estimated from.
+    """
+
+    variance: Estimate
+    races: int
+
+    @property
+    def sd(self) -> float:
+        """The standard deviation of form in a match, in log-odds."""
+        return math.sqrt(self.variance.value)
+
+    @property
+    def sd_error(self) -> float:
+        """The standard error of `sd`."""
+        error = (self.variance.high - self.variance.low) / (2.0 * 1.960)
+        return error / (2.0 * self.sd) if self.sd else math.inf
+
+    @property
+    def established(self) -> bool:
+        """Whether the variance is above 0 with 99% confidence."""
+        middle = (self.variance.high + self.variance.low) / 2.0
+        return middle - (self.variance.high - middle) * 2.576 / 1.960 > 0.0
 
 
 @own_arrays

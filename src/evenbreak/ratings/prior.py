@@ -22,12 +22,12 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.estimates import Estimate, ratio_over, samples
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.levels import Levels, begun, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.ratings.stretches import Stretches, StretchLosses, stretch_losses
-from evenbreak.ratings.validation.calibration import Estimate, ratio_over, samples
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""

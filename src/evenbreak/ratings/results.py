@@ -1,13 +1,13 @@
 """What was played, column by column.
 
 A `Results` holds one match a row, as arrays. It knows nothing of files: a reader builds a
-`Results`, asks `evenbreak.ratings.consistency` for contradictions in it, and says in which
-line of the file each of them is.
+`Results`, asks `find_problems` for contradictions in it, and says in which line of the file each of
+them is. Every check is a mask over all rows; a message is made only for the rows that fail it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,11 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from evenbreak.arrays import Bools, Ints, own_arrays
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
-from evenbreak.ratings.consistency import find_problems
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
 
 if TYPE_CHECKING:
     import pandas as pd
+
 
 _TYPES: dict[str, Any] = {
     "player_a": np.int64,
@@ -256,38 +257,15 @@ class Results:
         }
         return Results(self.players, **picked)
 
-    def with_match(
-        self, a: int, b: int, score_a: int, score_b: int, date: np.datetime64 | None = None
-    ) -> Results:
-        """Return the results with one more match at the end; what else they hold is not stated.
-
-        Parameters
-        ----------
-        a, b
-            who plays: positions in `players`.
-        score_a, score_b
-            the games that each wins.
-        date
-            the day, where the results have days.
-
-        >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
-        >>> more = season.with_match(1, 0, 7, 2)
-        >>> more.player_a, more.score_b, more.race_a
-        (array([0, 1]), array([5, 2]), array([7, 0]))
-        """
-        given = {"player_a": a, "player_b": b, "score_a": score_a, "score_b": score_b}
-        given["date"] = np.datetime64("NaT", "D") if date is None else date  # type: ignore[assignment]
-        columns: dict[str, Any] = {}
-        for name, kind in _TYPES.items():
-            values = getattr(self, name)
-            more = np.array([given[name]], dtype=kind) if name in given else _unstated(name, 1)
-            columns[name] = None if values is None else np.concatenate([values, more])
-        return Results(self.players, **columns)
-
     def joined(self, later: Results) -> Results:
         """Return the results with those of `later`, which are between the same players, at the end.
 
         Columns that only one of them has are filled up with what is not stated.
+
+        >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
+        >>> more = season.joined(Results.from_names(["Bo"], ["Ann"], [7], [2]))
+        >>> more.player_a, more.score_b, more.race_a
+        (array([0, 1]), array([5, 2]), array([7, 0]))
         """
         if self.players != later.players:
             raise InputError("the results are not between the same players; give one list of names")
@@ -342,3 +320,178 @@ def _unstated(name: str, rows: int) -> NDArray[Any]:
     if name == "date":
         return np.full(rows, "NaT", dtype=kind)
     return np.full(rows, "" if kind is object else 0, dtype=kind)
+
+
+# Where the columns contradict each other.
+
+_Finding = tuple[Bools, str, str]
+"""The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
+
+
+class Problem(NamedTuple):
+    """What is wrong in one cell: the row (from 0), the column, and a remedy in words."""
+
+    row: int
+    column: str
+    message: str
+
+
+def find_problems(results: Results) -> list[Problem]:
+    """Return every contradiction in the rows, in the order of the rows.
+
+    It looks for scores and races below zero, players on both sides of a match, a race given
+    for one player only, scores that do not fit the races, a stated winner who fits neither,
+    and racks that fit none of these. Forfeits and 0-0 rows need not fit their race: they
+    were not played out.
+
+    >>> from evenbreak.ratings import Results
+    >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
+    >>> for problem in find_problems(season):
+    ...     print(problem.row, problem.column, problem.message)
+    0 winner winner is a, but b reached the race (4-5 in a race 7:5); write b, or correct the
+    scores or the race
+    """
+    check_results(results)
+    problems = [
+        Problem(row, column, message.format(**_words(results, row)))
+        for check in (_cells, _races, _winners, _racks)
+        for mask, column, message in check(results)
+        for row in np.flatnonzero(mask).tolist()
+    ]
+    # Stable: within a row the checks keep their order, plain mistakes first.
+    return sorted(problems, key=lambda problem: problem.row)
+
+
+def _words(results: Results, row: int) -> dict[str, Any]:
+    """Return what messages about a row may quote."""
+    scores = int(results.score_a[row]), int(results.score_b[row])
+    race = tuple(int(needed[row]) for needed in results.races)
+    score = f"{scores[0]}-{scores[1]}"
+    racks = "" if results.racks is None else str(results.racks[row])
+    winner = 0 if results.winner is None else int(results.winner[row])
+    return {
+        "player": repr(results.players[results.player_b[row]]),
+        "cells": dict(zip(_COUNTS, (*scores, *race), strict=True)),
+        "bare": score,
+        "score": f"{score} in a race {race[0]}:{race[1]}" if all(race) else score,
+        "winner": " ab"[winner],
+        "other": " ba"[winner],
+        "racks": repr(racks),
+        "counted": f"{racks.count('a')}-{racks.count('b')}",
+    }
+
+
+_COUNTS = ("score_a", "score_b", "race_a", "race_b")
+
+
+def _cells(results: Results) -> Iterator[_Finding]:
+    """Find what is wrong whatever else the row says."""
+    for name in _COUNTS:
+        values: Ints | None = getattr(results, name)
+        if values is not None:
+            least = "0, 1, 2, ..." if name.startswith("score") else "1, 2, 3, ..."
+            message = f"{name} is {{cells[{name}]}}, below zero; write {least}"
+            yield values < 0, name, message
+    message = "{player} is on both sides of the match; correct one of the names"
+    yield results.player_a == results.player_b, "player_b", message
+
+
+def _finished(results: Results) -> Bools:
+    """Return which rows hold a match played to its end, with scores that are possible."""
+    whole = (results.score_a >= 0) & (results.score_b >= 0)
+    return whole & ((results.score_a > 0) | (results.score_b > 0)) & ~results.given_away
+
+
+def _races(results: Results) -> Iterator[_Finding]:
+    """Find races that are stated for one player only, and scores that do not fit them."""
+    race_a, race_b = results.races
+    for missing, stated, lone in (
+        ("race_b", "race_a", (race_a > 0) & (race_b == 0)),
+        ("race_a", "race_b", (race_b > 0) & (race_a == 0)),
+    ):
+        yield lone, missing, f"{missing} is empty, but {stated} is not; give both, or neither"
+    raced = _finished(results) & (race_a > 0) & (race_b > 0)
+    over_a, over_b = results.score_a > race_a, results.score_b > race_b
+    for name, over in (("score_a", over_a), ("score_b", over_b)):
+        message = (
+            " is more than the race ({score}); correct the score or the race, or leave both races "
+            "empty"
+        )
+        yield raced & over, name, name + message
+    reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
+    message = "both players reached their race ({score}); correct the scores or the race"
+    yield raced & reached_a & reached_b & ~over_a & ~over_b, "score_b", message
+    message = (
+        "neither player reached their race ({score}); correct the scores or the race, mark the "
+        "match as a forfeit, or leave both races empty"
+    )
+    yield raced & ~reached_a & ~reached_b, "score_a", message
+
+
+def who_won(results: Results) -> NDArray[np.int8]:
+    """Return 1 or 2 where the scores and races determine the winner, else 0.
+
+    With a race that is the player who reached it, without one the player with more games.
+    Forfeits and 0-0 have no winner.
+
+    >>> from evenbreak.ratings import Results
+    >>> season = Results.from_names(["Ann"] * 2, ["Bo"] * 2, [4, 4], [3, 3], race_a=[5, 0],
+    ...                             race_b=[3, 0])
+    >>> who_won(season)
+    array([2, 1], dtype=int8)
+    """
+    race_a, race_b = results.races
+    reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
+    raced = (race_a > 0) & (race_b > 0)
+    plain = (race_a == 0) & (race_b == 0)
+    a = np.where(raced, reached_a & ~reached_b, plain & (results.score_a > results.score_b))
+    b = np.where(raced, reached_b & ~reached_a, plain & (results.score_b > results.score_a))
+    won = a.astype(np.int8) + 2 * b.astype(np.int8)
+    return np.where(_finished(results), won, 0).astype(np.int8)
+
+
+def _winners(results: Results) -> Iterator[_Finding]:
+    """Find stated winners who did not reach the race or, without one, did not win more games."""
+    if results.winner is None:
+        return
+    stated, won = results.winner, who_won(results)
+    race_a, race_b = results.races
+    wrong = (stated > 0) & (won > 0) & (stated != won)
+    message = (
+        "winner is {winner}, but {other} reached the race ({score}); write {other}, or correct "
+        "the scores or the race"
+    )
+    yield wrong & (race_a > 0), "winner", message
+    message = (
+        "winner is {winner}, but {other} won more games ({score}); write {other}, or give race_a "
+        "and race_b if it was a handicap race"
+    )
+    yield wrong & (race_a <= 0), "winner", message
+    tied = _finished(results) & (results.score_a == results.score_b)
+    message = (
+        "winner is {winner}, but the score is tied ({score}); correct the score, or give race_a "
+        "and race_b if it was a handicap race"
+    )
+    yield (stated > 0) & tied & (race_a == 0) & (race_b == 0), "winner", message
+
+
+def _racks(results: Results) -> Iterator[_Finding]:
+    """Find racks that do not add up to the scores, or go on after the race was won."""
+    if results.racks is None:
+        return
+    counts = np.array([(text.count("a"), text.count("b"), len(text)) for text in results.racks])
+    a, b, long = counts.reshape(-1, 3).T
+    last = np.array([" ab".find(text[-1:] or " ") for text in results.racks], dtype=np.int8)
+    strange = a + b < long
+    message = "racks {racks} has letters other than a and b; write an a or a b for each rack"
+    yield strange, "racks", message
+    adds_up = (a == results.score_a) & (b == results.score_b)
+    message = "racks {racks} is {counted}, but the score is {bare}; correct one of them"
+    yield (long > 0) & ~strange & ~adds_up, "racks", message
+    race_a, race_b = results.races
+    won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)
+    message = (
+        "racks {racks} goes on after the race was won ({score}); correct the racks, the scores or "
+        "the race"
+    )
+    yield (long > 0) & ~strange & adds_up & (won > 0) & (won != last), "racks", message

@@ -5,8 +5,8 @@ import pytest
 
 from evenbreak.answers.league.prior import evidence_rows, group_rows, level_words, levels_data
 from evenbreak.ratings import Levels, Results, best_prior, fit
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.prior import Evidence, PriorChoice
-from evenbreak.ratings.validation.calibration import Estimate
 from simulated_levels import league
 
 SEASON = Results.from_names(

@@ -11,7 +11,7 @@ from evenbreak.answers.league.validate_handicaps import handicap_remarks
 from evenbreak.cli.program import program
 from evenbreak.handicaps import league_chart
 from evenbreak.ratings import scale_of, validate
-from evenbreak.ratings.validation.calibration import wilson
+from evenbreak.ratings.estimates import wilson
 from evenbreak.ratings.validation.validate import HandicapFairness
 from handicapped import by_chart, by_class
 

@@ -10,7 +10,7 @@ from evenbreak.answers.league.validate_judgement import (
     wrong_chances,
 )
 from evenbreak.ratings import scale_of
-from evenbreak.ratings.validation.calibration import Estimate
+from evenbreak.ratings.estimates import Estimate
 
 
 @pytest.mark.parametrize(

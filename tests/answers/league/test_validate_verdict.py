@@ -8,8 +8,8 @@ import pytest
 from evenbreak.answers.league.validate import verdict
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, scale_of, validate
-from evenbreak.ratings.day_form import DayForm
-from evenbreak.ratings.validation.calibration import Estimate
+from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.fitted import DayForm
 
 
 def said(results, **options):

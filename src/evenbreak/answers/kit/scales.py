@@ -12,7 +12,7 @@ from evenbreak.ratings.scale import NAMES, SCALES, Scale
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from evenbreak.ratings.day_form import DayForm
+    from evenbreak.ratings.fitted import DayForm
     from evenbreak.ratings.results import Results
     from evenbreak.ratings.roster import Roster
 
@@ -291,8 +291,8 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     """Yield what form of the day is worth, where it is established.
 
-    >>> from evenbreak.ratings.validation.calibration import Estimate
-    >>> from evenbreak.ratings.day_form import DayForm
+    >>> from evenbreak.ratings.estimates import Estimate
+    >>> from evenbreak.ratings.fitted import DayForm
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
     Form of the day: from match to match the strength difference of two players varies by 15

@@ -16,8 +16,7 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_watch import PlayedNight, played_nights
-from evenbreak.ratings.consistency import Problem
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Problem, Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.validation.walk_forward import even_races
 

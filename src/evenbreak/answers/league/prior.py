@@ -6,11 +6,11 @@ from typing import Any
 from evenbreak.answers.kit.parts import Column, Part, Show, Table
 from evenbreak.answers.kit.wording import count_of, decimals, listed
 from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
 from evenbreak.ratings.prior import Evidence, PriorChoice
 from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.validation.calibration import Estimate
 
 _ONE = decimals(1)
 _FEW = 5  # names that are listed

@@ -24,10 +24,10 @@ from evenbreak.answers.league.validate_judgement import (
 )
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validation.advantages import FEWEST_ON_A_DATE
-from evenbreak.ratings.validation.calibration import Estimate
 from evenbreak.ratings.validation.validate import Validation
 
 

@@ -9,11 +9,12 @@ from evenbreak.answers.kit.wording import decimals, percent
 from evenbreak.answers.league.validate_handicaps import handicap_rows, starts_table
 from evenbreak.answers.league.validate_judgement import points_text
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.estimates import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validation.advantages import ByExperience, known_breaks
-from evenbreak.ratings.validation.calibration import END_ERROR, REPLICAS, Estimate, Scored
+from evenbreak.ratings.validation.calibration import Scored
 from evenbreak.ratings.validation.validate import Validation
 
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")

@@ -16,8 +16,8 @@ from evenbreak.answers.league.validate_judgement import (
     unfair_starts,
 )
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.ratings.validation.calibration import Estimate
 from evenbreak.ratings.validation.starts import StartGroup, Starts, even_start
 from evenbreak.ratings.validation.validate import HandicapFairness, Validation
 

@@ -6,8 +6,9 @@ import numpy as np
 from scipy.special import ndtri
 
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.scale import Scale
-from evenbreak.ratings.validation.calibration import Estimate, Of, Scored
+from evenbreak.ratings.validation.calibration import Of, Scored
 from evenbreak.ratings.validation.validate import HandicapFairness, Validation
 
 UNLIKELY = 0.01
@@ -59,7 +60,7 @@ def share_of(spot: HandicapFairness) -> Estimate:
 def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
     """Return the starts that are clearly unfair by themselves, of those by the games given.
 
-    >>> from evenbreak.ratings.validation.calibration import wilson
+    >>> from evenbreak.ratings.estimates import wilson
     >>> fair, unfair = (HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
     ...                 for k, w in ((1, 96), (2, 130)))
     >>> [one.spot for one in unfair_starts([fair, unfair])]
@@ -71,7 +72,7 @@ def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
 def starts_trend(spots: Sequence[HandicapFairness]) -> int:
     """Return 1 where players clearly win more often the more games they give, -1 where less, or 0.
 
-    >>> from evenbreak.ratings.validation.calibration import wilson
+    >>> from evenbreak.ratings.estimates import wilson
     >>> spots = [HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
     ...          for k, w in ((1, 84), (2, 100), (3, 118))]
     >>> starts_trend(spots), starts_trend(spots[:1])

@@ -17,10 +17,9 @@ from evenbreak.answers.league.pairs import matchups_frame
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.files.results.results_file import ResultsFile
-from evenbreak.ratings.consistency import who_won
 from evenbreak.ratings.fitted import Ratings, rating_sources
 from evenbreak.ratings.prior import PriorChoice
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, who_won
 from evenbreak.ratings.scale import Scale
 
 SOURCES = {
@@ -291,7 +290,9 @@ def one_more_match(
         needs, other = now.race[winner], now.race[1 - winner]
         score = (needs, _likeliest_loss(needs, other, 1.0 - p if winner == 0 else p))
         a_first = score if winner == 0 else score[::-1]
-        again = refit(results.with_match(*pair, *a_first, date=day))
+        dates = None if day is None or results.date is None else np.array([day])
+        match = Results(results.players, *np.array([[*pair, *a_first]]).T, date=dates)
+        again = refit(results.joined(match))
         then = replace(again, form=ratings.form)
         found.append(
             OneMore(

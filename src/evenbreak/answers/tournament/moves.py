@@ -10,6 +10,7 @@ from evenbreak.answers.tournament.night import waits_for
 from evenbreak.answers.tournament.tournament import slot_words, unrated_words
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.bracket_of_plan import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
@@ -28,7 +29,6 @@ from evenbreak.tournaments.evening.events import (
     score_words,
 )
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.later_draws import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.losses import losses
 from evenbreak.tournaments.evening.settling import TieBreak
 

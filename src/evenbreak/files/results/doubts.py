@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.tables.problems import Problems, first_ones, warning
 from evenbreak.files.tables.table import TextTable
-from evenbreak.ratings.consistency import doubtful_scores, usual_score
+from evenbreak.ratings.doubtful_scores import doubtful_scores, usual_score
 from evenbreak.ratings.results import Results
 from evenbreak.words import Parameter, say, say_count
 

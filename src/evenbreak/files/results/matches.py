@@ -23,8 +23,7 @@ from evenbreak.files.tables.problems import quoted, quoted_list, warning
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import Texts, TextTable, Values
 from evenbreak.matches.formats import BETWEEN
-from evenbreak.ratings.consistency import find_problems
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Results, find_problems
 from evenbreak.ratings.results_frame import FORFEIT_WORDS, FORMAT_WORDS, letters
 from evenbreak.words import Sentence, joined, say
 

@@ -25,10 +25,10 @@ from evenbreak.handicaps.charts.played_chart import (
     played_chart,
 )
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.validation.calibration import Estimate
 from evenbreak.ratings.validation.starts import FEWEST, MOST_CLASSES, handicap_slope
 
 FEWEST_STARTS = 7

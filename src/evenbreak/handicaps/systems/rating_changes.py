@@ -17,8 +17,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.system import PlayedMatch, System
-from evenbreak.ratings.consistency import Problem, find_problems, who_won
-from evenbreak.ratings.results import Results
+from evenbreak.ratings.results import Problem, Results, find_problems, who_won
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
 

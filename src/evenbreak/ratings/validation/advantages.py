@@ -9,14 +9,9 @@ import numpy as np
 from scipy.special import expit, log_expit, logit, logsumexp, ndtr, ndtri, pdtrc
 
 from evenbreak.arrays import Floats, Ints
+from evenbreak.ratings.estimates import Estimate, logistic_coefficient, two_sided, with_error
 from evenbreak.ratings.results_frame import FORMATS
-from evenbreak.ratings.validation.calibration import (
-    TOSS_UP,
-    Estimate,
-    logistic_coefficient,
-    two_sided,
-    with_error,
-)
+from evenbreak.ratings.validation.calibration import TOSS_UP
 from evenbreak.ratings.validation.walk_forward import NODES, Forecasts
 from evenbreak.ratings.who_broke import breakers
 

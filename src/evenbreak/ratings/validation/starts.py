@@ -16,9 +16,9 @@ from scipy.optimize import minimize
 from scipy.special import betaincinv, expit, log_expit, logit, logsumexp, ndtri, stdtrit
 
 from evenbreak.arrays import Floats, Ints
+from evenbreak.ratings.estimates import CONFIDENCE, Estimate, with_error
 from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.validation.calibration import CONFIDENCE, Estimate, with_error
 
 FEWEST = 100
 """Handicap matches from which starts are judged."""

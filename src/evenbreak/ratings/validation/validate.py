@@ -12,6 +12,7 @@ import numpy as np
 from evenbreak.checks import seed_of
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.doors import check_results
+from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, wilson
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.levels import Levels, begun
@@ -30,14 +31,11 @@ from evenbreak.ratings.validation.advantages import (
 from evenbreak.ratings.validation.calibration import (
     TOSS_UP,
     CalibrationBin,
-    Estimate,
     How,
     Of,
     Predictions,
     Scored,
-    bootstrap_ratio,
     calibration,
-    wilson,
 )
 from evenbreak.ratings.validation.starts import Starts, starts
 from evenbreak.ratings.validation.walk_forward import Forecasts, walk_forward

@@ -15,16 +15,10 @@ import numpy as np
 from scipy.special import expit
 
 from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.ratings.consistency import doubtful_scores
-from evenbreak.ratings.day_form import (
-    FEWEST,
-    LONGEST,
-    DayForm,
-    form_variance,
-    log_odds_of,
-    normal_nodes,
-)
-from evenbreak.ratings.validation.calibration import Estimate, bootstrap_ratio, two_sided
+from evenbreak.ratings.day_form import FEWEST, LONGEST, form_variance, log_odds_of, normal_nodes
+from evenbreak.ratings.doubtful_scores import doubtful_scores
+from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, two_sided
+from evenbreak.ratings.fitted import DayForm
 from evenbreak.ratings.validation.walk_forward import Forecasts
 
 REPLICAS = 300

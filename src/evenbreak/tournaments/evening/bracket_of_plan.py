@@ -1,12 +1,18 @@
-"""The bracket of a plan, once the players are drawn."""
+"""The bracket of a plan: once the players are drawn, and with what is drawn in the course of it."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.brackets.double import double_elimination, pods
+from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
+from evenbreak.tournaments.brackets.double import (
+    double_elimination,
+    losers_qualifiers,
+    pods,
+    redrawn,
+)
 from evenbreak.tournaments.brackets.groups import groups_then_knockout, round_robin
 from evenbreak.tournaments.brackets.knockout import (
     consolation,
@@ -14,10 +20,20 @@ from evenbreak.tournaments.brackets.knockout import (
     single_elimination,
 )
 from evenbreak.tournaments.brackets.laid_out import laid_out
-from evenbreak.tournaments.brackets.swiss import swiss_bracket
+from evenbreak.tournaments.brackets.swiss import Pairing, Swiss, swiss, swiss_bracket
 from evenbreak.tournaments.evening.chip_night import rack_bracket
-from evenbreak.tournaments.evening.events import Plan
-from evenbreak.tournaments.evening.later_draws import swiss_of
+from evenbreak.tournaments.evening.events import Plan, Result
+
+KNOCK_OUT = "K1"
+"""The stage of the redraw: the first round of the knock-out."""
+
+
+TO_DRAW = "to draw"
+"""In place of a match, the source of a player who is still to be drawn."""
+
+
+Drawn = Mapping[str, tuple[str | None, ...]]
+"""What has been drawn, by stage: the players of a round in pairs, or where qualifiers come from."""
 
 
 @lru_cache(maxsize=8)
@@ -62,3 +78,67 @@ def groups_of(plan: Plan, players: int) -> int:
     [2, 3, 4, 4]
     """
     return plan.groups or max(2, -(-players // 4))
+
+
+def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
+    """Return the Swiss of a plan: unless given, with as many rounds as a single elimination.
+
+    >>> swiss_of(Plan("swiss", 5), ("Ann", "Bo", "Cy", "Di", "Ed")).rounds
+    3
+    """
+    return swiss(order, plan.rounds or (len(order) - 1).bit_length())
+
+
+def bracket_now(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
+    """Return the matches of which it is known where their players come from.
+
+    Parameters
+    ----------
+    bracket
+        all matches, as `bracket_of` returns them.
+    plan
+        what is played.
+    drawn
+        what has been drawn so far.
+    """
+    if plan.form == "swiss":
+        rounds = pairings(drawn)
+        return swiss_bracket(swiss_of(plan, bracket.players), rounds, to_come=False)
+    if plan.placement != "redraw":
+        return bracket
+    slots: list[Slot] = [Source(TO_DRAW, k) for k, _ in enumerate(losers_qualifiers(bracket), 1)]
+    if KNOCK_OUT in drawn:
+        slots = [Source(str(name), "winner") for name in drawn[KNOCK_OUT]]
+    return redrawn(bracket, slots)
+
+
+def whole_bracket(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
+    """Return all matches, with a stand-in for what is still to be drawn."""
+    if plan.form == "swiss":
+        return swiss_bracket(swiss_of(plan, bracket.players), pairings(drawn))
+    if plan.placement == "redraw" and KNOCK_OUT in drawn:
+        return bracket_now(bracket, plan, drawn)
+    return bracket
+
+
+def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[list[Pairing]]:
+    """Return the rounds of a Swiss that are drawn, with the winners so far.
+
+    >>> drawn = {"R1": ("Ann", "Bo", "Cy", None)}
+    >>> pairings(drawn, {"R1.1": Result("R1.1", ("Ann", "Bo"), (3, 5), "Bo")})
+    [[Pairing(first='Ann', second='Bo', winner='Bo'),
+      Pairing(first='Cy', second=None, winner=None)]]
+    """
+    found = []
+    for number in range(1, len(drawn) + 1):
+        seats = drawn[f"R{number}"]
+        pairs = [(str(one), other) for one, other in zip(seats[::2], seats[1::2], strict=True)]
+        pairs.sort(key=lambda pair: pair[1] is None)
+        names = [f"R{number}.{k}" for k in range(1, len(pairs) + 1)]
+        found.append(
+            [
+                Pairing(one, other, counted[name].winner if counted and name in counted else None)
+                for name, (one, other) in zip(names, pairs, strict=True)
+            ]
+        )
+    return found

@@ -19,7 +19,7 @@ from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
 from evenbreak.tournaments.brackets.group_ranks import ranked
 from evenbreak.tournaments.brackets.standing import Standing, standing
-from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_now, bracket_of, whole_bracket
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.entering import let_in, listed, refuse_strangers
 from evenbreak.tournaments.evening.events import (
@@ -40,7 +40,6 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Undone,
 )
-from evenbreak.tournaments.evening.later_draws import bracket_now, whole_bracket
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
 from evenbreak.words import Command

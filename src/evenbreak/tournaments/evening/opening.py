@@ -8,10 +8,9 @@ from collections.abc import Mapping, Sequence
 from evenbreak.errors import InputError
 from evenbreak.fields.question import declared
 from evenbreak.tournaments.brackets.swiss import swiss_round
-from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
+from evenbreak.tournaments.evening.bracket_of_plan import bracket_of, swiss_of
 from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format
-from evenbreak.tournaments.evening.later_draws import swiss_of
 
 FORMATS = (
     "double",

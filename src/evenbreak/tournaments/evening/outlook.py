@@ -22,10 +22,11 @@ from evenbreak.tournaments.chips.racks import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
+from evenbreak.tournaments.evening.bracket_of_plan import pairings, swiss_of
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
-from evenbreak.tournaments.evening.later_draws import pairings, stage_to_draw, swiss_of
+from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.skills import Games, skills_tonight
 from evenbreak.tournaments.odds.leverage import Leverage, leverages
 from evenbreak.tournaments.odds.races import PairOdds, Races, chances_given, from_score, pair_odds

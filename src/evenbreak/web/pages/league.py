@@ -175,7 +175,7 @@ def _rows(sheet: Sheet) -> list[Row]:
 
 def _matches(sheet: Sheet, seat: int) -> list[Played]:
     """Return a player's matches, the last ones first; where only the winner is known, no score."""
-    from evenbreak.ratings.consistency import who_won
+    from evenbreak.ratings.results import who_won
 
     results = sheet.file.results
     played = (results.player_a == seat) | (results.player_b == seat)
