@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
 
-.PHONY: catalogues option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
+.PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures app clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -24,6 +24,9 @@ lint:
 
 types:
 	$(PYTHON) -m mypy
+
+column-tables:    ## the tables of columns in docs/reference/files.md, from the schemas themselves
+	$(PYTHON) docs/column_tables.py
 
 option-tables:    ## the tables of options in docs/reference, from the questions themselves
 	$(PYTHON) docs/option_tables.py

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+import column_tables
 import option_tables
 import pytest
 
@@ -244,6 +245,12 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
 def test_the_tables_of_options_are_those_of_the_questions(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert option_tables.with_tables(text) == text, "run make option-tables"
+
+
+def test_the_tables_of_columns_are_those_of_the_schemas() -> None:
+    text = column_tables.PAGE.read_text(encoding="utf-8")
+    assert column_tables.with_tables(text) == text, "run make column-tables"
+    assert set(column_tables.SCHEMAS) == {mark[2] for mark in column_tables.TABLE.finditer(text)}
 
 
 def test_every_command_is_described_and_no_other() -> None:

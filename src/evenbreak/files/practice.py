@@ -42,8 +42,8 @@ DRILL_LOG = Schema(
     ),
     success=YesNo(
         "made, made it, succeeded, result, outcome",
-        "also `y`, `true`, `1`, `made`, `hit`, `success`; `n`, `false`, `0`, `missed`, `miss`, "
-        "`failed`, `fail`",
+        "whether it was made; also `y`, `true`, `1`, `made`, `hit`, `success`, and `n`, `false`, "
+        "`0`, `missed`, `miss`, `failed`, `fail`",
         needed=True,
         filled=True,
         values=WORDS,

@@ -22,22 +22,18 @@ from evenbreak.words import FilePath, Parameter, say
 
 _POINTS = Number(least=-LARGEST, most=LARGEST, write=say("points"))
 
-SAVED = (
-    ROSTER
-    | WRITTEN
-    | Schema(
-        prior_mean=_POINTS.called(
-            "",
-            "the mean of the prior with which the rating was made. The prior is taken out again, "
-            "so that the new one counts once; without it a rating counts as it is",
-        ),
-        prior=_POINTS.called("", "the prior's standard deviation", least=0),
-        as_of=Day(
-            "date, day, updated",
-            "the day of the ratings; with a half-life they have aged since",
-        ),
-    )
+OF_PRIOR = Schema(
+    prior_mean=_POINTS.called(
+        "",
+        "the mean of the prior with which the rating was made. The prior is taken out again, so "
+        "that the new one counts once; without it a rating counts as it is",
+    ),
+    prior=_POINTS.called("", "the prior's standard deviation", least=0),
+    as_of=Day(
+        "date, day, updated", "the day of the ratings; with a half-life they have aged since"
+    ),
 )
+SAVED = ROSTER | WRITTEN | OF_PRIOR
 """Ratings to begin from: a roster with priors, and with the day that it is of."""
 
 COLUMNS = (

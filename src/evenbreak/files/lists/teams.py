@@ -27,20 +27,22 @@ _RATING = ", ".join(
     name for name in ROSTER["rating"].aliases if name not in {*_LEVELS.split(", "), "level"}
 )
 
+OF_TEAM = Schema(
+    level=Number(
+        _LEVELS,
+        "what a cap counts; where there is no rating, it is the rating too, and `--scale` must "
+        "say how many levels double the odds",
+        least=0,
+        most=1000,
+        write=say("a skill level"),
+    )
+)
 TEAM = (
     ROSTER.but(
         player={"also": f"{ROSTER['player'].also}, team player"},
         rating={"also": _RATING, "needed": False},
     )
-    | Schema(
-        level=Number(
-            _LEVELS,
-            "what a cap counts; where there is no rating, it is the rating too",
-            least=0,
-            most=1000,
-            write=say("a skill level"),
-        )
-    )
+    | OF_TEAM
     | WRITTEN
     | Schema(team=Text(), division=Text())
 )

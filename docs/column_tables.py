@@ -1,0 +1,94 @@
+"""The tables of columns in the reference of files, made from the schemas that read them.
+
+`python docs/column_tables.py` (`make column-tables`) writes them between their marks:
+`<!-- columns: roster -->` and `<!-- end of columns -->`.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from evenbreak.files import arcs, chain_files, charts, practice
+from evenbreak.files.lists import fixtures, roster, saved_ratings, teams
+from evenbreak.files.results import aliases, matches
+from evenbreak.files.tables.cells import Column, Day, Parsed, Text, Whole
+from evenbreak.files.tables.names import Name
+from evenbreak.files.tables.schema import Schema
+from evenbreak.ratings.results_frame import LARGEST_WHOLE
+
+PAGE = Path(__file__).parent / "reference" / "files.md"
+TABLE = re.compile(r"(<!-- columns: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of columns -->)", re.DOTALL)
+
+_NEEDED = [name for name, column in matches.RESULTS.columns.items() if column.needed]
+_OTHERS = [name for name in matches.RESULTS.columns if name not in _NEEDED]
+SCHEMAS = {
+    "results": matches.RESULTS.only(*_NEEDED),
+    "more of results": matches.RESULTS.only(*_OTHERS),
+    "layouts": matches.LAYOUTS,
+    "aliases": aliases.ALIASES,
+    "chart by difference": charts.DIFFERENCES,
+    "chart by level": charts.LEVELS,
+    "chart of points": charts.POINTS,
+    "chips": charts.CHIPS,
+    "arcs": arcs.ARCS,
+    "states": chain_files.STATES,
+    "drill log": practice.DRILL_LOG,
+    "scores": practice.SCORES,
+    "roster": roster.ROSTER,
+    "saved ratings": saved_ratings.OF_PRIOR,
+    "season": roster.OF_SEASON,
+    "pairs": fixtures.PAIRS,
+    "schedule": fixtures.SCHEDULE.only("week"),
+    "team": teams.OF_TEAM,
+    "team results": teams.TEAM_RESULTS,
+    "teams": teams.TEAMS,
+}
+
+
+def table_of(schema: Schema) -> str:
+    """Return the table of the columns that somebody writes by hand."""
+    rows = [_row(name, column) for name, column in schema.columns.items() if _is_told(column)]
+    return "\n".join(
+        ["| column | also called | what it holds | cells |", "|---|---|---|---|", *rows, ""]
+    )
+
+
+def _is_told(column: Column) -> bool:
+    return bool(column.about or column.also or column.needed)
+
+
+def _row(name: str, column: Column) -> str:
+    cells = [_cells(column)] if column.about or not isinstance(column, Text) else ["any text"]
+    if column.needed and not column.instead:
+        cells.append("required")
+    if column.empty:
+        cells.append(f"empty {column.empty}")
+    elif not (column.filled or column.empty is None or isinstance(column, Text)):
+        cells.append("may be empty")
+    return f"| `{name}` | {column.also} | {column.about} | {'; '.join(filter(None, cells))} |"
+
+
+def _cells(column: Column) -> str:
+    """Return what a cell is, with the minus sign of print, and a link to the forms of dates."""
+    match column:
+        case Name():
+            return "a name"
+        case Day():
+            return "a [date](#dates)"
+        case Text():
+            return ""
+        case Parsed():
+            return column.write
+        case Whole():
+            return column.wanted.removesuffix(f" to {LARGEST_WHOLE:,}")
+    return re.sub(r"-(?=\d)", "−", column.wanted)
+
+
+def with_tables(text: str) -> str:
+    """Return the page with its tables as they are now."""
+    return TABLE.sub(lambda mark: mark[1] + table_of(SCHEMAS[mark[2]]) + mark[3], text)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(with_tables(PAGE.read_text("utf-8")), "utf-8")
