@@ -110,7 +110,7 @@ class Whole(Kind):
     @property
     def limits(self) -> str:
         """The limits in words."""
-        return f"{self.low} to {self.high}"
+        return f"{self.low:,} to {self.high:,}"
 
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""

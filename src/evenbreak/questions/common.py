@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Annotated, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import LONGEST, Choice, File, Folder, Named, Number, TwoWhole, Whole
-from evenbreak.fields.question import Field
-from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 
 HIGHEST_SEED = 2**32 - 1
 
@@ -41,19 +42,27 @@ SCALE = Named(
 SCALE_OF_LIST = "the one that the file states, else the only one that the ratings can be on"
 """What applies without a scale to a list of ratings."""
 
-ScaleOf: TypeAlias = Annotated[
-    Scale | None,
-    Field(
-        SCALE,
-        "The scale of the ratings: POINTS double the odds of winning a game.",
-        usual="what the ratings show",
-        more="Unless given, [the one that the ratings show]"
-        "(../files.md#the-scale-of-a-list), or that the list states in its column `scale`.",
-    ),
-]
+_SCALE = Field(
+    SCALE,
+    "The scale of the ratings: POINTS double the odds of winning a game.",
+    usual="what the ratings show",
+    more="Unless given, [the one that the ratings show]"
+    "(../files.md#the-scale-of-a-list), or that the list states in its column `scale`.",
+)
+ScaleOf: TypeAlias = Annotated[Scale | None, _SCALE]
+OnScale: TypeAlias = Annotated[Scale, _SCALE, Says(usual="", more="")]
+"""A scale that does not depend on a list."""
+
+NPL = SCALES[DEFAULT_SCALE]
 Seed: TypeAlias = Annotated[
     int, Field(Whole(0, HIGHEST_SEED), "The seed of all random draws.", rare=True)
 ]
+GAMES = Field(
+    SPAN,
+    "Races whose longest possible match has LO to HI games.",
+    more="The longest possible match of a race m:n has m + n − 1 games.",
+)
+Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
 ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
 FormOfDay: TypeAlias = Annotated[
     float | None,
@@ -110,3 +119,47 @@ PlotFile: TypeAlias = Annotated[
         section="Details",
     ),
 ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lengths(Question):
+    """How long the races may be that are looked at."""
+
+    games: Annotated[tuple[int, int] | None, GAMES] = None
+    race_to: Annotated[
+        int | None,
+        Field(Whole(1, LONGEST), "Races in which the stronger player needs N games."),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse two limits."""
+        if self.games is not None and self.race_to is not None:
+            self.refuse("{games} and {race_to} cannot be combined; leave one out")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Starters(Question):
+    """How strong a new player is."""
+
+    starter: Annotated[
+        float | None,
+        Field(
+            Number(-1e6, 1e6, " is not a number of rating points; give one such as 80"),
+            "The rating of a new player.",
+            usual="the middle of the scale",
+            metavar="RATING",
+            section="Ratings",
+            rare=True,
+        ),
+    ] = None
+    starter_sd: Annotated[
+        float | None,
+        Field(
+            Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30"),
+            "How far off that may be (standard deviation).",
+            usual="what doubles the odds",
+            metavar="POINTS",
+            section="Ratings",
+            rare=True,
+        ),
+    ] = None

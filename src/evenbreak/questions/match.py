@@ -15,11 +15,12 @@ from evenbreak.questions.common import (
     CHANCE,
     RACE,
     SCORE,
-    SPAN,
     ByWay,
     FormOfDay,
+    Lengths,
     PlotFile,
     ScaleOf,
+    Target,
 )
 
 _BY_CHANCE = "Chances instead of ratings"
@@ -129,29 +130,6 @@ class Players(Question):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Lengths(Question):
-    """How long the races may be that are looked at."""
-
-    games: Annotated[
-        tuple[int, int] | None,
-        Field(
-            SPAN,
-            "Races whose longest possible match has LO to HI games.",
-            more="The longest possible match of a race m:n has m + n − 1 games.",
-        ),
-    ] = None
-    race_to: Annotated[
-        int | None,
-        Field(Whole(1, LONGEST), "Races in which the stronger player needs N games."),
-    ] = None
-
-    def check(self) -> None:
-        """Refuse two limits."""
-        if self.games is not None and self.race_to is not None:
-            self.refuse("{games} and {race_to} cannot be combined; leave one out")
-
-
-@dataclass(frozen=True, kw_only=True)
 class Played(Question):
     """The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
 
@@ -255,7 +233,7 @@ class Fair(Players, Lengths):
   evenbreak fair "Ann Lee" "Bo Diaz" --from ratings.csv --race-to 7
   evenbreak fair 85 40 --games 7..13 --top 3
 """
-    target: Annotated[float, Field(CHANCE, "The chance of winning that A should have.")] = 0.5
+    target: Target = 0.5
     top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.", metavar="K")] = 5
     form: FormOfDay = None
     via: ByWay = None

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, TypeAlias
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import File, Flag, Named, Number, Text
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.questions.common import CHANCE, ScaleOf, Seed
+from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import Parameter
@@ -51,34 +51,6 @@ Prizes: TypeAlias = Annotated[
         more="Adds each player's average prize.",
     ),
 ]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Starters(Question):
-    """How strong a new player is."""
-
-    starter: Annotated[
-        float | None,
-        Field(
-            Number(-1e6, 1e6, " is not a number of rating points; give one such as 80"),
-            "The rating of a new player.",
-            usual="the middle of the scale",
-            metavar="RATING",
-            section="Ratings",
-            rare=True,
-        ),
-    ] = None
-    starter_sd: Annotated[
-        float | None,
-        Field(
-            Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30"),
-            "How far off that may be (standard deviation).",
-            usual="what doubles the odds",
-            metavar="POINTS",
-            section="Ratings",
-            rare=True,
-        ),
-    ] = None
 
 
 _DRAW = "The seed of the draw, and of what is simulated."

@@ -46,8 +46,8 @@ def test_a_design_beside_a_printed_chart(ask):
     [
         ("--games 5..9 --scale fargo --tilt 0", "fargo", RaceLimits((5, 9), 2, 2), {"tilt": 0.0}),
         ("--games 5..9 --target 0.6", "npl", RaceLimits((5, 9), 2, 2), {"target": 0.6}),
-        ("--games 5..19 --rows 99", "npl", RaceLimits((5, 19), 2, 2), {"rows": None}),
-        ("--games 5..9 --rows 3", "npl", RaceLimits((5, 9), 2, 2), {"rows": 3}),
+        ("--games 5..19 --most-rows 99", "npl", RaceLimits((5, 19), 2, 2), {"rows": None}),
+        ("--games 5..9 --most-rows 3", "npl", RaceLimits((5, 9), 2, 2), {"rows": 3}),
         ("--games 5..9 --up-to 30", "npl", RaceLimits((5, 9), 2, 2), {"up_to": 30}),
         ("--games 5..9 --least 4:3", "npl", RaceLimits((5, 9), 4, 3), {}),
         ("--games 5..9 --games-p90 8", "npl", RaceLimits((5, 9), 2, 2, games_p90=8), {}),
@@ -98,12 +98,15 @@ def test_a_chart_beside_with_the_same_races_has_no_others(run, ask, tmp_path):
         ("--games 7", "'7'"),
         ("--games 7..9 --least 2:", "'2:'"),
         ("--games 7..9 --beside apa_8ball", "--beside"),
-        ("--games 7..9 --rows 0", "'0'"),
+        ("--games 7..9 --most-rows 0", "'0'"),
         ("--games 7..9 --scale odd", "'odd'"),
         ("--games 7..9 --tilt 2", "'2'"),
         ("--games 7..9 --games-p90 3", "--games-p90 is 3"),
         ("--games 900..1000", "narrow --games, raise --least, or lower --up-to"),
-        ("--games 97..99 --rows 99 --up-to 3000", "narrow --games, lower --rows or --up-to"),
+        (
+            "--games 97..99 --most-rows 99 --up-to 3000",
+            "narrow --games, lower --most-rows or --up-to",
+        ),
         ("--games 1..2 --least 5:5", "--games is 1..2"),
     ],
 )

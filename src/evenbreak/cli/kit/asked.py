@@ -89,10 +89,10 @@ def _param(one: Declared, question: type) -> click.Parameter:
 def help_of(one: Declared, question: type) -> str:
     """Return the help of an option: what it is, its limits, and what applies without it."""
     notes = [one.kind.limits] if one.kind.limits else []
-    if one.required:
-        notes.append("required")
-    elif one.usual:
+    if one.usual and not one.required:  # click itself says that an option is required
         notes.append(f"default: {one.usual}")
+    if one.field.many:
+        notes.append("can be repeated")
     text = one.field.help + (f"  [{'; '.join(notes)}]" if notes else "")
     return _worded(text, question)
 
@@ -187,6 +187,8 @@ class AskedCommand(click.Command):
         for section, params in sections.items():
             records = [one.get_help_record(ctx) for one in params]
             rows = [row for row in records if row is not None and row[1]]
+            if not rows:
+                continue
             if every or not section:
                 with formatter.section(section or "Options"):
                     formatter.write_dl(rows)

@@ -19,7 +19,8 @@ class Entry(NamedTuple):
     Parameters
     ----------
     module
-        the module of `evenbreak.cli` whose `command` it is, or one elsewhere by its whole name.
+        the module of `evenbreak.cli` whose `command` it is, or one elsewhere by its whole name; a
+        colon separates the name of the command where it is another (`chart:show`).
     help
         the line: what the command gives its user.
     section
@@ -52,11 +53,11 @@ class LazyGroup(click.Group):
         """Import and return the command of this name, or None if there is none."""
         if cmd_name not in self._table:
             return None
-        name = self._table[cmd_name].module
+        place, _, name = self._table[cmd_name].module.partition(":")
         module = importlib.import_module(
-            name if name.startswith("evenbreak.") else f"evenbreak.cli.{name}"
+            place if place.startswith("evenbreak.") else f"evenbreak.cli.{place}"
         )
-        command: click.Command = module.command
+        command: click.Command = getattr(module, name or "command")
         if ctx.resilient_parsing:  # a shell asks what may come next
             from evenbreak.cli.kit.completion import complete_files
 

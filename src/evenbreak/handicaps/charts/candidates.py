@@ -17,6 +17,7 @@ from evenbreak.handicaps.charts.chart import Chart, ChartRow
 from evenbreak.handicaps.charts.fair import RaceLimits
 from evenbreak.handicaps.charts.race_grid import ends_within_grid, even_differences, win_grid
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Parameter
 
 _TIE = 1e-12
 _MOST_CELLS = 5_000_000
@@ -65,8 +66,13 @@ class Candidates:
         )
         if m.size * (last + 1) > _MOST_CELLS:
             raise InputError(
-                f"{m.size} races at {last + 1} differences are too many to try; narrow games, "
-                "raise the fewest games of the weaker player, or lower up_to"
+                "{races} races at {differences} differences are too many to try; narrow {games}, "
+                "raise {weaker_least}, or lower {up_to}",
+                races=m.size,
+                differences=last + 1,
+                games=Parameter("games"),
+                weaker_least=Parameter("weaker_least"),
+                up_to=Parameter("up_to"),
             )
         order = np.lexsort((m + n, np.where(m == n, -np.inf, even)))
         self.m, self.n, self.points = m[order], n[order], np.arange(last + 1)
@@ -112,8 +118,14 @@ class Candidates:
         cells = self.m.size * self.points.size
         if most * cells > _MOST_CELLS_IN_ROWS:
             raise InputError(
-                f"rows is {most}, and {self.m.size} races at {self.points.size} differences are "
-                "too many to try for each number of rows; narrow games, lower rows or up_to"
+                "{rows} is {most}, and {races} races at {differences} differences are too many to "
+                "try for each number of rows; narrow {games}, lower {rows} or {up_to}",
+                rows=Parameter("rows"),
+                most=most,
+                races=self.m.size,
+                differences=self.points.size,
+                games=Parameter("games"),
+                up_to=Parameter("up_to"),
             )
         return most
 
@@ -136,8 +148,11 @@ class Candidates:
         if not short.any(axis=0).all() or not short[: self.evens, 0].any():
             nowhere = int(self.points[~short.any(axis=0)][0]) if short[: self.evens, 0].any() else 0
             raise NoChartError(
-                f"games_p90 is {games}, but at a difference of {nowhere} no allowed race ends "
-                "within that in 9 of 10 matches; give more, or allow shorter races"
+                "{games_p90} is {games}, but at a difference of {nowhere} no allowed race ends "
+                "within that in 9 of 10 matches; give more, or allow shorter races",
+                games_p90=Parameter("games_p90"),
+                games=games,
+                nowhere=nowhere,
             )
         return np.where(short, cost, np.inf)
 

@@ -18,6 +18,7 @@ from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.matches.races import next_breaks, race_odds
+from evenbreak.words import Parameter
 
 _TIE = 1e-9
 
@@ -309,8 +310,13 @@ class RaceLimits:
         if max(least, (low + 2) // 2) > (high + 1) // 2:
             shortest = max(2 * least - 1, low + 1 - low % 2)
             raise InputError(
-                f"games is {self.games!r}, which leaves no even race to {least} or more; give a "
-                f"second number of {shortest} or more"
+                "{games} is {low}..{high}, which leaves no even race to {least} or more; give a "
+                "second number of {shortest} or more",
+                games=Parameter("games"),
+                low=low,
+                high=high,
+                least=least,
+                shortest=shortest,
             )
 
     @property
