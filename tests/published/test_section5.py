@@ -12,7 +12,7 @@ from statistics import NormalDist, mean, pstdev
 import pytest
 
 from evenbreak.handicaps import chart
-from evenbreak.handicaps.charts.match_rules import off_rule
+from evenbreak.handicaps.charts.off_rule import off_rule
 from evenbreak.source_text.answers import SECTION_5, compute, section_5_findings
 from evenbreak.source_text.findings import verdict_of
 from evenbreak.source_text.published import (

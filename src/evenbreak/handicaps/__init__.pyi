@@ -37,9 +37,9 @@ from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import PointsChart as PointsChart
 from .charts.level_chart import level_chart as level_chart
 from .charts.level_chart import points_chart as points_chart
-from .charts.pareto import ChartMeasure as ChartMeasure
-from .charts.pareto import last_difference as last_difference
-from .charts.pareto import measure_chart as measure_chart
+from .charts.measure import ChartMeasure as ChartMeasure
+from .charts.measure import last_difference as last_difference
+from .charts.measure import measure_chart as measure_chart
 from .charts.played_chart import PlayedCell as PlayedCell
 from .charts.played_chart import PlayedChart as PlayedChart
 from .charts.race_of_pair import Fairest as Fairest

@@ -6,7 +6,7 @@ from math import comb
 import pytest
 
 from evenbreak.handicaps import Chart, chart
-from evenbreak.handicaps.charts.match_rules import nearest_rows, off_rule
+from evenbreak.handicaps.charts.off_rule import nearest_rows, off_rule
 
 CHARTS = ("npl_8", "npl_10", "npl_12", "npl_20")
 

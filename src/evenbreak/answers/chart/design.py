@@ -14,7 +14,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try
 from evenbreak.handicaps.charts.fair import RaceLimits
-from evenbreak.handicaps.charts.pareto import ChartMeasure, last_difference, measure_chart
+from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_grid import games_quantiles, mean_games_grid, win_grid
 from evenbreak.ratings.scale import Scale
 

@@ -13,7 +13,7 @@ from evenbreak.games.breaks import BREAK_FORMATS
 from evenbreak.games.drill import Drill
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.charts.match_rules import nearest_rows, off_rule
+from evenbreak.handicaps.charts.off_rule import nearest_rows, off_rule
 from evenbreak.matches.win import race_win_probability, win_probability
 from evenbreak.practice.breaks import long_run_share
 from evenbreak.practice.drills import drill_statistics
