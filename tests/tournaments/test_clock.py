@@ -26,8 +26,7 @@ from evenbreak.tournaments import (
     round_robin,
     single_elimination,
 )
-from evenbreak.tournaments.clock.matches_of import waiting
-from evenbreak.tournaments.clock.table_schedule import longest_paths, schedule
+from evenbreak.tournaments.clock.table_schedule import longest_paths, schedule, waiting
 from tiers import examples
 
 EXACT = Pace(10.0, 5.0, 0.0, 0.0)

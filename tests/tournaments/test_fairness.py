@@ -16,7 +16,7 @@ from evenbreak.tournaments import (
     title_odds,
     tournament_fairness,
 )
-from evenbreak.tournaments.odds.fairest_rounds import fairest_rounds, round_of
+from evenbreak.tournaments.odds.fairness import fairest_rounds, round_of
 from tournaments.fields import by_fargo, by_seed
 
 RATINGS = [660, 600, 560, 520, 480, 440, 400, 340]

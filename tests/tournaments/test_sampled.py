@@ -14,8 +14,7 @@ from evenbreak.tournaments import (
     title_odds,
 )
 from evenbreak.tournaments.odds.cut import cut_before
-from evenbreak.tournaments.odds.order import elimination_order
-from evenbreak.tournaments.odds.planning import exact_plan, plan_of
+from evenbreak.tournaments.odds.planning import elimination_order, exact_plan, plan_of
 from tournaments.fields import by_seed, one_favourite
 
 

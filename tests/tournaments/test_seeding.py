@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments import apart_by_club, blind_draw, by_rating
-from evenbreak.tournaments.brackets.seeding import bracket_size, seeded_lines, standard_lines
+from evenbreak.tournaments.brackets.knockout import bracket_size, seeded_lines, standard_lines
 
 
 def test_standard_lines() -> None:

@@ -6,8 +6,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments import consolation, double_elimination, round_robin, standing
-from evenbreak.tournaments.brackets.group_ranks import ranked
-from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.brackets.standing import NOBODY, ranked
 
 NAMES = ["Ann", "Bo", "Cy", "Di"]
 

@@ -20,7 +20,7 @@ from evenbreak.files.store.tournament import (
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.web.night import mark_of, version_of
 from web.conftest import Hall, begun
 from web.phones import Phone, running, two_phones

@@ -20,8 +20,7 @@ from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.chip_charts import ChipChart, ChipRow
 from evenbreak.tournaments.chips.chip_fairness import ChipFairness, chip_fairness, fairest_chips
 from evenbreak.tournaments.chips.endgame import heads_up, last_players
-from evenbreak.tournaments.chips.play import play_chips
-from evenbreak.tournaments.chips.racks import rack_chances
+from evenbreak.tournaments.chips.play import play_chips, rack_chances
 from evenbreak.tournaments.odds.fairness import upper_half
 
 _FIELD = 16  # players of a made-up field

@@ -11,8 +11,7 @@ from evenbreak.arrays import Floats
 from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.teams.night import TeamNight
-from evenbreak.teams.order import mirrored, order_of
+from evenbreak.teams.night import TeamNight, mirrored, order_of
 from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws
 from evenbreak.teams.squad import Squad
 

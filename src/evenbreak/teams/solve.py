@@ -15,8 +15,7 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.teams.matrix_games import matrix_game
-from evenbreak.teams.night import TeamNight
-from evenbreak.teams.order import BOTH, LOSER, OURS, THEIRS, WINNER
+from evenbreak.teams.night import BOTH, LOSER, OURS, THEIRS, WINNER, TeamNight
 
 MOST_STEPS = 4e9
 """Multiplications beyond which a night is refused: about half a minute."""

@@ -26,7 +26,7 @@ from evenbreak.files.store.tournament import read_events, tournament_of
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
-from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
 

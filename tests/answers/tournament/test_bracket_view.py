@@ -8,7 +8,7 @@ from matplotlib.text import Text
 from evenbreak.answers.tournament.bracket_view import bracket_panels
 from evenbreak.sheets.bracket_drawing import bracket_figure, bracket_pdf
 from evenbreak.sheets.bracket_page import bracket_html
-from evenbreak.tournaments.brackets.seeding import seeded_lines
+from evenbreak.tournaments.brackets.knockout import seeded_lines
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result, Scored
 from evenbreak.tournaments.evening.fold import evening
 from rows import each_of

@@ -18,7 +18,7 @@ from evenbreak.files.store.team_night import add_team_events, read_team_events
 from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.teams.evening.events import Undone as TeamUndone
 from evenbreak.tournaments.evening.events import Event, Undone
-from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.tournaments.money.payouts import PrizeMoney
 from tournament_nights import AT, SAVED
 
 VERSIONS = sorted(SAVED.glob("v*"))

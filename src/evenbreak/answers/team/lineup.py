@@ -13,10 +13,9 @@ from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.simulated import error_of_share, luck_words
 from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
-from evenbreak.teams.advice import Advice, Option, Point, advice
+from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills
 from evenbreak.teams.meeting import SEALED, Meeting
-from evenbreak.teams.order import NAMED, OURS, THEIRS, mirrored, order_of
-from evenbreak.teams.reliance import best_by_skills
+from evenbreak.teams.night import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.sealed import SealedLineUp, SealedNight, sealed
 from evenbreak.teams.solve import SolvedNight, solved, steps_of
 

@@ -19,7 +19,7 @@ from evenbreak.teams.evening.events import (
 )
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import NightPlan
-from evenbreak.teams.order import WINNER
+from evenbreak.teams.night import WINNER
 
 _DECIDED = 1e-9
 

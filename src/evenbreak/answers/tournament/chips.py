@@ -21,7 +21,7 @@ from evenbreak.answers.tournament.time import (
 )
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
-from evenbreak.tournaments.clock.event_pace import event_pace
+from evenbreak.tournaments.clock.evenings import event_pace
 from evenbreak.tournaments.clock.finish import bands_of
 from evenbreak.tournaments.evening.events import Result, as_dict, score_words
 from evenbreak.tournaments.evening.fold import Evening

@@ -11,10 +11,12 @@ from evenbreak.answers.tournament.tournament import Tournament
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.odds.fairest_rounds import RoundOf, fairest_rounds, round_of
 from evenbreak.tournaments.odds.fairness import (
     Fairness,
+    RoundOf,
     fairest_races,
+    fairest_rounds,
+    round_of,
     tournament_fairness,
     unfairness,
     upper_half,

@@ -17,12 +17,10 @@ from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.brackets.double import losers_qualifiers, redrawn
 from evenbreak.tournaments.brackets.standing import standing
 from evenbreak.tournaments.brackets.swiss import swiss
-from evenbreak.tournaments.odds.blind import blind_draw_odds
 from evenbreak.tournaments.odds.chances import Wins, chances_of
+from evenbreak.tournaments.odds.draws import blind_draw_odds, redraw_odds, swiss_odds
 from evenbreak.tournaments.odds.races import chances_given
-from evenbreak.tournaments.odds.redraws import redraw_odds
 from evenbreak.tournaments.odds.rematches import expected_rematches
-from evenbreak.tournaments.odds.swiss_odds import swiss_odds
 from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds, title_odds
 from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
 

@@ -27,7 +27,7 @@ from evenbreak.answers.tournament.time import (
 from evenbreak.answers.tournament.tournament import pair_words
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
-from evenbreak.tournaments.clock.event_pace import event_pace
+from evenbreak.tournaments.clock.evenings import event_pace
 from evenbreak.tournaments.clock.finish import Finish
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw

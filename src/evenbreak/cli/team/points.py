@@ -11,7 +11,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.team.scores import check_score
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.teams.meeting import SEALED
-from evenbreak.teams.order import LOSER, WINNER, order_of
+from evenbreak.teams.night import LOSER, WINNER, order_of
 
 if TYPE_CHECKING:
     from evenbreak.teams.meeting import Meeting

@@ -17,7 +17,7 @@ from pathlib import Path
 from evenbreak.checks import made
 from evenbreak.errors import DataError
 from evenbreak.files.store.evening_file import DAMAGED, changing, copied, has_table, named, opened
-from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.tournaments.money.payouts import PrizeMoney
 
 _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
 _PRIZES = """

@@ -20,7 +20,7 @@ from evenbreak.teams.evening.events import (
 )
 from evenbreak.teams.evening.plan import NightPlan, meeting_of
 from evenbreak.teams.meeting import SEALED, Meeting
-from evenbreak.teams.order import BOTH, LOSER, OURS, THEIRS, WINNER
+from evenbreak.teams.night import BOTH, LOSER, OURS, THEIRS, WINNER
 from evenbreak.teams.set_laws import brought
 from evenbreak.teams.solve import names_first
 

@@ -19,7 +19,7 @@ from evenbreak.teams.evening.events import (
 )
 from evenbreak.teams.evening.fold import SetLine, TeamEvening
 from evenbreak.teams.evening.plan import NightPlan
-from evenbreak.teams.order import WINNER
+from evenbreak.teams.night import WINNER
 from evenbreak.teams.set_laws import brought
 from evenbreak.words import listed, say, say_count
 

@@ -8,7 +8,7 @@ from evenbreak.teams.advice import Point, leads_of, worth_at
 from evenbreak.teams.evening.events import Pick
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.meeting import SEALED, Meeting
-from evenbreak.teams.order import WINNER
+from evenbreak.teams.night import WINNER
 from evenbreak.teams.sealed import SealedNight, sealed
 from evenbreak.teams.solve import SolvedNight, solved
 

@@ -13,7 +13,7 @@ from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import scale_of
 from evenbreak.teams.meeting import SEALED, Meeting
-from evenbreak.teams.order import order_of
+from evenbreak.teams.night import order_of
 from evenbreak.teams.sealed import sealed
 from evenbreak.teams.set_laws import Count, Points
 from evenbreak.teams.solve import refuse_large

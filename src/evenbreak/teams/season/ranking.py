@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.teams.season.rules import DIFFERENCE, HEAD_TO_HEAD, SCORED
-from evenbreak.teams.season.season import TeamSeason
+from evenbreak.teams.season.season import DIFFERENCE, HEAD_TO_HEAD, SCORED, TeamSeason
 
 _FINE = 100.0  # points are compared to a hundredth
 

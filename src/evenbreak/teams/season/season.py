@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,9 +11,73 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints, array_values
-from evenbreak.checks import column, floats, names, whole_numbers
+from evenbreak.checks import column, floats, names, number, one_of, whole, whole_numbers
 from evenbreak.errors import InputError
-from evenbreak.teams.season.rules import TableRules
+from evenbreak.league.schedule import RoundRobin
+
+# How a table is kept: the points of a match, and who is ahead on equal points.
+
+
+DIFFERENCE, SCORED, WINS, HEAD_TO_HEAD = "difference", "scored", "wins", "head-to-head"
+TIE_BREAKS = (DIFFERENCE, SCORED, WINS, HEAD_TO_HEAD)
+"""The sets won less those lost, the sets won, the matches won, the points of the matches among
+those who are level."""
+
+
+@dataclass(frozen=True)
+class TableRules:
+    """The rules of a table.
+
+    Parameters
+    ----------
+    win, draw, loss
+        the points of a match.
+    a_set
+        the points of each set won, on top.
+    ties
+        what separates teams with equal points, in that order; then it is by lot.
+
+    Raises
+    ------
+    InputError
+        if a loss gives more than a draw or a draw more than a win, or a tie-break is not known.
+
+    >>> TableRules(win=0, draw=0, loss=0, a_set=1).points(3, 2)
+    (3.0, 2.0)
+    """
+
+    win: float = 2.0
+    draw: float = 1.0
+    loss: float = 0.0
+    a_set: float = 0.0
+    ties: tuple[str, ...] = (DIFFERENCE, SCORED)
+
+    def __post_init__(self) -> None:
+        for name in ("win", "draw", "loss", "a_set"):
+            object.__setattr__(self, name, number(getattr(self, name), name))
+        if not self.loss <= self.draw <= self.win or self.a_set < 0.0:
+            raise InputError(
+                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss; give "
+                "no more for a loss than for a draw, and for a draw than for a win",
+                win=self.win,
+                draw=self.draw,
+                loss=self.loss,
+            )
+        if self.win == self.loss and self.a_set == 0.0:
+            raise InputError("a win is worth no more than a loss; give points for a win or a set")
+        for name in self.ties:
+            one_of(name, "ties", TIE_BREAKS)
+
+    def points(self, scored: int, other: int) -> tuple[float, float]:
+        """Return the points of both teams for a match with this score."""
+        if scored > other:
+            first, second = self.win, self.loss
+        elif scored < other:
+            first, second = self.loss, self.win
+        else:
+            first = second = self.draw
+        return first + self.a_set * scored, second + self.a_set * other
+
 
 MOST_TEAMS = 200
 
@@ -195,3 +260,77 @@ def _rows(given: ArrayLike, name: str, wide: int, teams: int | None) -> Ints:
             row = int((found[:, 0] == found[:, 1]).argmax())
             raise InputError("{name}[{row}] has a team that plays itself", name=name, row=row)
     return np.asarray(found, dtype=np.int64)
+
+
+# Who plays whom in a season: every two teams, round by round.
+
+
+def circle(teams: int, times: int = 1) -> Ints:
+    """Return a schedule in which every two teams meet, round by round: home, away.
+
+    Parameters
+    ----------
+    teams
+        how many teams there are.
+    times
+        how often every two meet; home and away change from one time to the next.
+
+    Notes
+    -----
+    The circle method: one team stays, the others move on by a place each round.
+
+    >>> circle(4).tolist()
+    [[0, 3], [2, 1], [1, 0], [3, 2], [0, 2], [1, 3]]
+    """
+    order = RoundRobin(whole(teams, "teams", at_least=2))
+    rounds = teams - 1 + teams % 2
+    rows: list[tuple[int, int]] = []
+    for time in range(whole(times, "times", at_least=1)):
+        for week in range(1, rounds + 1):
+            ((a, b),) = order.pairs(week, np.random.default_rng(0), teams)
+            for k, (x, y) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
+                # The team that stays is home every other round; the others by where they sit.
+                turned = week % 2 == 0 if 0 in (x, y) else k % 2 == 1
+                rows.append((y, x) if turned != (time % 2 == 1) else (x, y))
+    return np.array(rows, dtype=np.int64)
+
+
+def still_to_play(teams: Sequence[str], times: int, played: Ints) -> Ints:
+    """Return the matches of a round robin that have not been played yet: home, away.
+
+    Parameters
+    ----------
+    teams
+        their names.
+    times
+        how often every two meet.
+    played
+        the matches played: home, away. Who was home does not matter.
+
+    Raises
+    ------
+    InputError
+        if two teams have met more often than `times`.
+
+    >>> still_to_play(["Acers", "Bankers", "Caroms"], 1, np.array([[1, 0]])).tolist()
+    [[1, 2], [0, 2]]
+    """
+    met = Counter(tuple(sorted(pair)) for pair in played[:, :2].tolist())
+    for pair, many in met.items():
+        if many > times:
+            raise InputError(
+                "{team} and {team_2} have met {many} times, more than the {times} of this "
+                "round robin",
+                team=teams[pair[0]],
+                team_2=teams[pair[1]],
+                many=many,
+                times=times,
+            )
+    left = []
+    for home, away in circle(len(teams), times).tolist():
+        pair = min(home, away), max(home, away)
+        if met[pair]:
+            met[pair] -= 1
+        else:
+            left.append((home, away))
+    return np.array(left, dtype=np.int64).reshape(-1, 2)

@@ -13,8 +13,7 @@ from evenbreak.tournaments.brackets.drafts import (
     bracket_of,
     checked_players,
 )
-from evenbreak.tournaments.brackets.knockout import knockout
-from evenbreak.tournaments.brackets.seeding import apart_by_club, seeded_lines
+from evenbreak.tournaments.brackets.knockout import apart_by_club, knockout, seeded_lines
 from evenbreak.words import Parameter
 
 

@@ -17,8 +17,7 @@ from evenbreak.checks import column, whole
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.chip_charts import ChipChart, chip_chart
-from evenbreak.tournaments.chips.play import ChipOdds, play_chips
-from evenbreak.tournaments.chips.racks import rack_chances
+from evenbreak.tournaments.chips.play import ChipOdds, play_chips, rack_chances
 
 _SEARCH_RUNS = 3_000
 _MOST_STEPS = 60

@@ -20,7 +20,7 @@ from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import number_probability, whole
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
-from evenbreak.tournaments.chips.racks import checked_racks
+from evenbreak.tournaments.chips.play import checked_racks
 
 State: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
 """The line (who stays at the table, the challenger, who waits), and everybody's chips."""

@@ -14,10 +14,20 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
-from evenbreak.tournaments.clock.evenings import Evenings, InPlay, play_evenings
-from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
-from evenbreak.tournaments.clock.matches_of import Waiting, waiting
-from evenbreak.tournaments.clock.table_schedule import Schedule, longest_paths, schedule
+from evenbreak.tournaments.clock.evenings import (
+    Evenings,
+    InPlay,
+    Timed,
+    learned_pace,
+    play_evenings,
+)
+from evenbreak.tournaments.clock.table_schedule import (
+    Schedule,
+    Waiting,
+    longest_paths,
+    schedule,
+    waiting,
+)
 from evenbreak.tournaments.odds.races import PairOdds
 
 QUANTILES = (0.1, 0.5, 0.9)

@@ -11,7 +11,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.chips.endgame import last_players
 from evenbreak.tournaments.chips.play import ChipOdds, play_chips, tables_in_use
-from evenbreak.tournaments.clock.event_pace import lognormal
+from evenbreak.tournaments.clock.evenings import lognormal
 from evenbreak.tournaments.evening.chip_night import ChipNight
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.tournaments.odds.uncertain import drawn_ratings

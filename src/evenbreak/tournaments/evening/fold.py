@@ -17,11 +17,9 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
-from evenbreak.tournaments.brackets.group_ranks import ranked
-from evenbreak.tournaments.brackets.standing import Standing, standing
+from evenbreak.tournaments.brackets.standing import Standing, ranked, standing
 from evenbreak.tournaments.evening.bracket_of_plan import bracket_now, bracket_of, whole_bracket
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
-from evenbreak.tournaments.evening.entering import let_in, listed, refuse_strangers
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
@@ -39,6 +37,7 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     Undone,
+    What,
 )
 from evenbreak.tournaments.evening.races_of_plan import changed, races_of
 from evenbreak.tournaments.odds.races import Races, games_needed
@@ -383,3 +382,52 @@ def _kept(events: Iterable[Event]) -> tuple[Opened, dict[int, Event]]:
     if 1 not in kept or not isinstance(first := kept[1].what, Opened):
         raise InputError("the first entry does not start a tournament")
     return first, kept
+
+
+# Who is in: entered, late, corrected or gone home.
+
+
+def listed(
+    entrants: Mapping[str, Entrant], entry: Late | Edited | Dropped, *, drawn: bool
+) -> dict[str, Entrant]:
+    """Return the entrants after one has come, was corrected, or has gone."""
+    match entry:
+        case Late(entrant=late):
+            return {**entrants, late.name: late}
+        case Edited(name=name, entrant=now):
+            return dict((now.name, now) if n == name else (n, e) for n, e in entrants.items())
+        case Dropped(name=name):
+            return {n: e for n, e in entrants.items() if drawn or n != name}
+
+
+def let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None:
+    """Let a player in who comes after the draw."""
+    if not order:
+        return
+    if late.line is not None and lines is not None:
+        lines[late.line] = len(order)
+    order.append(late.entrant.name)
+
+
+def refuse_strangers(what: What, entrants: Mapping[str, Entrant]) -> None:
+    """Refuse an event with a player who has not entered, as only a damaged file holds it."""
+    match what:
+        case Called(players=names) | CalledBack(players=names) | Scored(players=names):
+            pass
+        case Ranked(order=names):
+            pass
+        case Result(players=names, winner=winner):
+            if winner not in names:
+                raise InputError("{player} won a match they are not in", player=winner)
+        case Drawn(order=names):
+            if sorted(names) != sorted(entrants):
+                raise InputError("the draw does not match the players who have entered")
+        case Dropped(name=name) | Edited(name=name):
+            names = (name,)
+        case Late(entrant=entrant) if entrant.name in entrants:
+            raise InputError("{player} has already entered", player=entrant.name)
+        case _:
+            return
+    for name in names:
+        if name not in entrants:
+            raise InputError("{player} has not entered", player=name)

@@ -11,7 +11,7 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.results_frame import folded
 from evenbreak.tournaments.brackets.bracket import some_of
-from evenbreak.tournaments.brackets.seeding import (
+from evenbreak.tournaments.brackets.knockout import (
     blind_draw,
     by_rating,
     seeded_lines,

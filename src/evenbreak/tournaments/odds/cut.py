@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.odds.group_odds import MOST_MATCHES
-from evenbreak.tournaments.odds.order import elimination_order
+from evenbreak.tournaments.odds.planning import elimination_order
 
 
 class Cut(NamedTuple):

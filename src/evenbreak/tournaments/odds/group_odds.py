@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from evenbreak.tournaments.brackets.group_ranks import players_ahead
+from evenbreak.tournaments.brackets.standing import players_ahead
 
 MOST_MATCHES = 21
 """The largest number of matches whose results are enumerated: 7 players who meet once."""

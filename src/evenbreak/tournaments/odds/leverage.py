@@ -16,19 +16,18 @@ from evenbreak.arrays import Floats, own_arrays
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import NOBODY, Results, Standing, standing
-from evenbreak.tournaments.odds.backward import ResultValues, backward_pass
 from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
-from evenbreak.tournaments.odds.forward import ForwardPass, forward_pass
 from evenbreak.tournaments.odds.group_odds import rank_orders
-from evenbreak.tournaments.odds.meetings import (
+from evenbreak.tournaments.odds.passes import ForwardPass, ResultValues, backward_pass, forward_pass
+from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
+from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.rematches import (
     group_meetings,
     meetings_so_far,
     place_odds,
     plan_meetings,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.plan import GroupStep, MatchStep, Plan
-from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.title import prizes
 
 MOST_STATES = 2e7

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Slot, Source
-from evenbreak.tournaments.brackets.group_ranks import players_ahead
+from evenbreak.tournaments.brackets.standing import players_ahead
 from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.plan import Players
 

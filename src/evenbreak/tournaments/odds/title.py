@@ -19,10 +19,10 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
-from evenbreak.tournaments.odds.backward import conditional
 from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
-from evenbreak.tournaments.odds.forward import forward_pass
-from evenbreak.tournaments.odds.meetings import (
+from evenbreak.tournaments.odds.passes import conditional, forward_pass
+from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
+from evenbreak.tournaments.odds.rematches import (
     Meeting,
     group_meetings,
     meetings_so_far,
@@ -30,7 +30,6 @@ from evenbreak.tournaments.odds.meetings import (
     plan_meetings,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.planning import MOST_STATES, exact_plan
 from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
 
 if TYPE_CHECKING:

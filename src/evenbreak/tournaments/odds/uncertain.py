@@ -20,8 +20,10 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
-from evenbreak.tournaments.odds.forward import forward_pass
-from evenbreak.tournaments.odds.meetings import (
+from evenbreak.tournaments.odds.passes import forward_pass
+from evenbreak.tournaments.odds.plan import Plan
+from evenbreak.tournaments.odds.planning import exact_plan
+from evenbreak.tournaments.odds.rematches import (
     Meeting,
     averaged,
     group_meetings,
@@ -30,8 +32,6 @@ from evenbreak.tournaments.odds.meetings import (
     plan_meetings,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.plan import Plan
-from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.sampled import places_of_samples
 from evenbreak.tournaments.odds.title import TitleOdds, odds_now
 

@@ -12,8 +12,7 @@ from starlette.routing import Route
 from evenbreak.answers.tournament.prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import kept_prizes
-from evenbreak.tournaments.money.payouts import PAYOUTS
-from evenbreak.tournaments.money.prize_money import PrizeMoney
+from evenbreak.tournaments.money.payouts import PAYOUTS, PrizeMoney
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import answer_shown, done, page, reason, site_of
 from evenbreak.web.player_view import player_views

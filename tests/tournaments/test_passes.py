@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.tournaments import consolation, double_elimination
-from evenbreak.tournaments.odds import forward, plan, planning
+from evenbreak.tournaments.odds import passes, plan, planning
 from evenbreak.tournaments.odds.plan import MatchStep
 
 BRACKETS = {
@@ -26,9 +26,9 @@ def test_parts_summed_apart_have_the_chances_of_their_joint_states(
         assert isinstance(step, MatchStep)
         parts = [10.0 ** rng.uniform(-140, 0, size) for size in step.sizes]
         p = rng.choice([0.0, 0.1, 0.5, 0.8, 1.0], len(step.first))
-        meet, after = forward.played(step, parts, p)
-        mass = forward.joined(parts)
-        np.testing.assert_allclose(meet, forward.pairs(step, mass), rtol=1e-14)
-        np.testing.assert_allclose(after, forward.passed_on(step, mass, p), rtol=1e-14)
+        meet, after = passes.played(step, parts, p)
+        mass = passes.joined(parts)
+        np.testing.assert_allclose(meet, passes.pairs(step, mass), rtol=1e-14)
+        np.testing.assert_allclose(after, passes.passed_on(step, mass, p), rtol=1e-14)
         apart += step.apart is not None
     assert apart
