@@ -381,7 +381,7 @@ def cells(answer):
     for part in (*answer.parts, *answer.details):
         if isinstance(part, Quantities):
             for one in part.shown(verbose=True):
-                yield f"{one.show(one.value)} {one.note}"
+                yield f"{one.text} {one.note}"
         elif isinstance(part, Table):
             shown = part.shown(verbose=True)
             yield from (column.text(row[k]) for row in part.rows for k, column in shown)

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.simulated import luck_words
-from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, share
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -131,17 +132,13 @@ def chip_odds_answer(
             how += " The players come to the tables in an order that is drawn anew each time."
     order = np.argsort(-p_place[:, 0], kind="stable").tolist()
     places = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
-    columns = [
-        Column("name", "player", left=True),
-        Column("rating", "rating"),
-        Column("chips", "chips"),
-    ]
-    columns += [Column(key, words, share) for key, words in places[: len(names)]]
+    columns = columns_of("name rating chips")
+    columns += [column_of("p_place", name=key, place=words) for key, words in places[: len(names)]]
     rows: list[list[Any]] = [
         [names[k], float(ratings[k]), chips[k], *p_place[k, :_SHOWN].tolist()] for k in order
     ]
     if error is not None:
-        columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
+        columns.append(column_of("p_title_error"))
         for row, k in zip(rows, order, strict=True):
             row.append(float(error[k]))
     best = order[0]
@@ -154,7 +151,18 @@ def chip_odds_answer(
         heading = f"The last {len(names)} of a chip tournament; ratings {scale_words(field.scale)}"
     elif chart is not None:
         heading += f"\nChips by the chart {chart.name}"
-    parts: list[Part] = [words, Quantities([Quantity("exact", exact)]), table, how]
+    parts: list[Part] = [
+        words,
+        Quantities(
+            quantities_of(
+                {
+                    "exact": exact,
+                }
+            )
+        ),
+        table,
+        how,
+    ]
     return Answer(heading, parts, warnings=list(warnings), csv=table)
 
 
@@ -223,10 +231,7 @@ def chip_design_answer(
     rows = [
         [None if np.isinf(row.rating_from) else row.rating_from, row.chips] for row in chart.rows
     ]
-    columns = [
-        Column("rating_from", "rating\nfrom", lambda start: f"{start:g}"),
-        Column("chips", "chips"),
-    ]
+    columns = columns_of("rating_from chips")
     table = Table("chart", columns, rows, title="The chart")
     parts: list[Part] = [_favour_words(field, found), _fairness(found), table]
     parts += [_row_table(chart, found), _luck_words(found.odds.runs, found.odds.error[:, 0])]
@@ -278,10 +283,12 @@ def _favour_words(field: ChipField, found: ChipFairness) -> str:
 
 def _fairness(found: ChipFairness) -> Quantities:
     return Quantities(
-        [
-            Quantity("spread", found.spread, "unfairness (0: equal odds for all)", decimals(2)),
-            Quantity("racks_mean", found.odds.racks_mean, "racks until two are left", decimals(0)),
-        ]
+        quantities_of(
+            {
+                "spread": found.spread,
+                "racks_mean": found.odds.racks_mean,
+            }
+        )
     )
 
 
@@ -295,13 +302,7 @@ def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
         title = float(found.odds.title[there].mean()) if there.any() else None
         times = None if title is None else len(place) * title
         rows.append([_start(row), row.chips, int(there.sum()), title, times])
-    columns = [
-        Column("band_from", "rating\nfrom", lambda start: f"{start:g}"),
-        Column("chips", "chips"),
-        Column("players", "players"),
-        Column("p_title", "title,\neach", share),
-        Column("times_equal_share", "times an\nequal share", decimals(2)),
-    ]
+    columns = columns_of("band_from chips players p_title times_equal_share")
     return Table("rows", columns, rows, title="Odds of the title by row of the chart")
 
 
@@ -313,12 +314,7 @@ def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
         a, b = chart.chips([stronger, weaker]).tolist()
         p = heads_up(float(scale.win_probability(stronger - weaker)), a, b)
         rows.append([stronger, weaker, (a, b), p])
-    columns = [
-        Column("stronger", "stronger", lambda r: f"{r:g}"),
-        Column("weaker", "weaker", lambda r: f"{r:g}"),
-        Column(("chips_stronger", "chips_weaker"), "chips", lambda pair: f"{pair[0]}:{pair[1]}"),
-        Column("p_stronger", "the stronger\nwins", chance),
-    ]
+    columns = columns_of("stronger weaker chips_pair p_stronger")
     return Table("heads_up", columns, rows, title="If the last two have all their chips")
 
 

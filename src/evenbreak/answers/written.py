@@ -5,7 +5,8 @@ from pathlib import PurePath
 from subprocess import list2cmdline
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import columns_of, quantities_of
+from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.answers.kit.wording import listed
 
 
@@ -41,16 +42,13 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
             f"{wrote}. The players are made up.",
             Table(
                 "commands",
-                [
-                    Column("who", "if you", left=True),
-                    Column("command", "type", left=True, whole=True),
-                ],
+                columns_of("who command"),
                 commands,
                 "Three commands to try next:",
             ),
             Table(
                 "files",
-                [Column("file", "file", left=True), Column("holds", "what it holds", left=True)],
+                columns_of("file holds"),
                 list(files.items()),
             ),
         ],
@@ -97,17 +95,20 @@ def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterabl
             f"{'is' if wrong == 1 else 'are'} wrong in the text. Start with {pages}.",
             Table(
                 "verdicts",
-                [
-                    Column("verdict", "verdict", left=True),
-                    Column("numbers", "numbers"),
-                    Column("meaning", "meaning", left=True),
-                ],
+                columns_of("verdict numbers meaning"),
                 [
                     (verdict, verdicts[verdict], meaning)
                     for verdict, meaning in MEANINGS.items()
                     if verdicts.get(verdict)
                 ],
             ),
-            Quantities([Quantity("tables", tables), Quantity("figures", figures)]),
+            Quantities(
+                quantities_of(
+                    {
+                        "tables": tables,
+                        "figures": figures,
+                    }
+                )
+            ),
         ],
     )

@@ -12,8 +12,10 @@ def rows_of(*parts, **more):
 
 
 def test_quantities_are_a_row_each_with_or_without_words():
-    win = Quantity("p_win_a", 2 / 3, "A wins")
-    assert rows_of(Quantities([win, Quantity("games", 13), Quantity("none", None)])) == [
+    win = Quantity(Column("p_win_a", "A wins"), 2 / 3)
+    assert rows_of(
+        Quantities([win, Quantity(Column("games"), 13), Quantity(Column("none"), None)])
+    ) == [
         ["quantity", "value"],
         ["p_win_a", "0.666667"],
         ["games", "13"],

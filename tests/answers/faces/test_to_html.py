@@ -30,8 +30,10 @@ def test_a_table_has_a_caption_heads_and_every_cell_escaped():
 
 
 def test_quantities_have_their_notes_and_a_screen_reader_their_names():
-    win = Quantity("p", 0.875, "A wins", note="between 0.8 and 0.9")
-    (row,) = page(Quantities([win, Quantity("in_files", 1), Quantity("z", None, "z")])).iter("tr")
+    win = Quantity(Column("p", "A wins"), 0.875, note="between 0.8 and 0.9")
+    (row,) = page(
+        Quantities([win, Quantity(Column("in_files"), 1), Quantity(Column("z", "z"), None)])
+    ).iter("tr")
     assert [cell.text for cell in row] == ["A wins", "0.875", "between 0.8 and 0.9"]
     assert row.find("th").get("scope") == "row"
 

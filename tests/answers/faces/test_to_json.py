@@ -20,8 +20,8 @@ class Pair(NamedTuple):
 def test_all_numbers_are_there_once_and_views_of_them_are_not():
     answer = Answer(
         "Race 7:5",
-        ["A wins.", Quantities([Quantity("p", 1 / 3)]), VIEW, ROWS],
-        details=["The model.", Quantities([Quantity("z", -0.5, detail=True)])],
+        ["A wins.", Quantities([Quantity(Column("p"), 1 / 3)]), VIEW, ROWS],
+        details=["The model.", Quantities([Quantity(Column("z", detail=True), -0.5)])],
         warnings=["Too few."],
         data={"n": np.int64(3)},
         csv=Table("other", [Column("k")], [(1,)]),
@@ -38,12 +38,14 @@ def test_all_numbers_are_there_once_and_views_of_them_are_not():
         "warnings": ["Too few."],
         "schema_version": 1,
     }
-    hidden = Quantities([Quantity("p", 0.5)], in_json=False)
+    hidden = Quantities([Quantity(Column("p"), 0.5)], in_json=False)
     assert "p" not in as_dict(Answer("Heading", [hidden]))
 
 
 def test_the_text_is_read_back_with_every_digit_and_letter():
-    answer = Answer("Zoë", [Quantities([Quantity("p", 0.1 + 0.2), Quantity("q", np.inf)])])
+    answer = Answer(
+        "Zoë", [Quantities([Quantity(Column("p"), 0.1 + 0.2), Quantity(Column("q"), np.inf)])]
+    )
     text = to_json(answer)
     assert json.loads(text) == as_dict(answer)
     assert ("Zoë" in text, "0.30000000000000004" in text, text[-2:]) == (True, True, "}\n")

@@ -40,7 +40,9 @@ def test_items_of_a_list_are_indented_where_they_go_on():
 
 
 def test_details_are_for_those_who_ask():
-    numbers = Quantities([Quantity("a", 1, "plain"), Quantity("b", 2, "statistics", detail=True)])
+    numbers = Quantities(
+        [Quantity(Column("a", "plain"), 1), Quantity(Column("b", "statistics", detail=True), 2)]
+    )
     answer = Answer("Heading", [numbers], details=["The model."])
     assert "statistics" not in to_text(answer)
     assert "model" not in to_text(answer)

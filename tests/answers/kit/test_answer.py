@@ -5,7 +5,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 RACES = Table("races", [Column(("race_a", "race_b"), "race"), Column("seed")], [((7, 5), 1)])
-WIN = Quantity("p_win_a", 0.875, "A wins")
+WIN = Quantity(Column("p_win_a", "A wins"), 0.875)
 
 
 @pytest.mark.parametrize(

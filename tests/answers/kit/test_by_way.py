@@ -25,5 +25,5 @@ def test_a_way_is_not_compared_with_itself() -> None:
 
 def test_rounding_has_no_digits_that_vary_from_computer_to_computer() -> None:
     (_, tiny), (_, large) = (by_way("eigen", [(0.5, 0.5 + d)]) for d in (3e-16, 1e-9))
-    shown = [one.show(one.value) for part in (tiny, large) for one in part.shown()]
+    shown = [one.text for part in (tiny, large) for one in part.shown()]
     assert shown == ["rounding only", "1.0e-09"]

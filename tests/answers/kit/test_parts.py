@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table, statistic
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
 
 RACES = Table(
     "races",
@@ -12,7 +12,7 @@ RACES = Table(
     ],
     [((7, 5), 0.52, 0.4, 1), (None, None, None, 2)],
 )
-WIN = Quantity("p_win_a", 0.875, "A wins")
+WIN = Quantity(Column("p_win_a", "A wins"), 0.875)
 
 
 def test_a_race_is_one_column_to_read_and_two_in_files():
@@ -34,6 +34,11 @@ def test_a_row_must_fill_all_columns():
 
 
 def test_quantities_without_words_or_value_are_in_files_only():
-    listed = [WIN, Quantity("a", 1), Quantity("b", None, "b"), statistic("c", 0.0, "c")]
+    listed = [
+        WIN,
+        Quantity(Column("a"), 1),
+        Quantity(Column("b", "b"), None),
+        Quantity(Column("c", "c", detail=True), 0.0),
+    ]
     assert Quantities(listed).shown() == [WIN]
     assert [one.name for one in Quantities(listed).shown(verbose=True)] == ["p_win_a", "c"]

@@ -4,11 +4,11 @@ from evenbreak.answers.physics.hit import IMPERIAL, METRIC, unit_doubts
 
 
 def test_a_quantity_is_named_by_its_unit():
-    inches = IMPERIAL.length.quantity("slide", 0.0254, "slides")
-    metric = METRIC.length.quantity("slide", 0.0254, "slides")
+    inches = IMPERIAL.length.quantity("slide", 0.0254)
+    metric = METRIC.length.quantity("slide", 0.0254)
     assert (inches.name, inches.value) == ("slide_in", pytest.approx(1.0))
     assert (metric.name, metric.value) == ("slide_cm", pytest.approx(2.54))
-    assert IMPERIAL.mass.quantity("cue", None).value is None
+    assert IMPERIAL.mass.quantity("optimal_cue", None).value is None
 
 
 def test_a_number_reads_as_it_was_typed():

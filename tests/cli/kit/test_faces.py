@@ -9,14 +9,19 @@ import pytest
 from click.testing import CliRunner, Result
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Quantities, Quantity
+from evenbreak.answers.kit.parts import Column, Quantities, Quantity
 from evenbreak.cli.kit.faces import faces
 
 ANSWER = Answer(
     "A coin is tossed.",
     (
         "Heads comes up half the time.",
-        Quantities((Quantity("p", 0.5, "P(heads)"), Quantity("sd", 0.25, "SD", detail=True))),
+        Quantities(
+            (
+                Quantity(Column("p", "P(heads)"), 0.5),
+                Quantity(Column("sd", "SD", detail=True), 0.25),
+            )
+        ),
     ),
     warnings=("it may be bent",),
 )

@@ -5,8 +5,9 @@ from dataclasses import asdict, astuple
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Table
-from evenbreak.answers.kit.wording import chance, decimals, listed, percent, race, range_words
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Table
+from evenbreak.answers.kit.wording import decimals, listed, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell, PointsAudit, audit_points
 from evenbreak.handicaps.charts.level_chart import PointsChart
@@ -22,13 +23,9 @@ SAME_CHANCE = 0.02
 ROUGH = 0.25
 """A fit that is off by more than this share of a band, on average, is none to a reader."""
 
-_CHANCES = (
-    Column("p_win_low", "start", decimals(3)),
-    Column("p_win_middle", "middle", decimals(3)),
-    Column("p_win_high", "end", decimals(3)),
-)
-_OFF = Column("unfairness", "off by", decimals(3))
-_MONOTONE = Column("monotone")
+_CHANCES = columns_of("p_win_low p_win_middle p_win_high")
+_OFF = column_of("off_by_chance")
+_MONOTONE = column_of("monotone")
 
 
 def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> Answer:
@@ -43,16 +40,9 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     fitted = report.fit is not None and report.fit is report.best_fit
     where = "on its best-fitting scale, where " if fitted else "where "
     columns = [
-        Column(
-            ("difference_from", "difference_to"),
-            "difference",
-            lambda ends: range_words(*ends),
-            left=True,
-        ),
-        Column(("stronger_needs", "weaker_needs"), "race", race),
+        *columns_of("span needs"),
         *_CHANCES,
-        Column("even_difference", "even at", decimals(2)),
-        Column("even_place", "place", decimals(2), detail=True),
+        *columns_of("even_difference even_place"),
         _OFF,
         _MONOTONE,
     ]
@@ -230,11 +220,9 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
     points = report.scale.points_per_doubling
     between = [cell for cell in report.cells if cell.level > cell.opponent_level]
     columns = [
-        Column(("level", "opponent_level"), "levels", _levels, left=True),
-        Column(("needs", "opponent_needs"), "race", race),
+        *columns_of("levels needs_at_levels"),
         *_CHANCES,
-        Column("even_difference", "even at", decimals(1)),
-        Column("difference", "apart", decimals(1)),
+        *columns_of("even_difference apart", show={"even_difference": decimals(1)}),
         _OFF,
         _MONOTONE,
     ]
@@ -255,7 +243,7 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
             ),
             Table(
                 "levels",
-                [Column("level", "level"), Column("rating", "rating", decimals(1))],
+                columns_of("level rating", show={"rating": decimals(1)}),
                 list(zip(report.levels, report.ratings, strict=True)),
                 "The ratings that fit the chart best, with the lowest level at 0:",
             ),
@@ -272,10 +260,6 @@ def level_audit_answer(report: LevelAudit, *, warnings: Sequence[str] = ()) -> A
         },
         csv=Table("cells", columns, list(map(_paired, report.cells))),
     )
-
-
-def _levels(two: tuple[int, int]) -> str:
-    return f"{two[0]} v {two[1]}"
 
 
 def _paired(one: AuditRow | LevelCell) -> tuple[Any, ...]:
@@ -323,12 +307,7 @@ def points_audit_answer(chart: PointsChart, *, warnings: Sequence[str] = ()) -> 
     report, few, many = (
         audit_points(chart, innings=innings) for innings in (audit_points(chart).innings, FEW, MANY)
     )
-    columns = [
-        Column("level", "level"),
-        Column("points", "points\nneeded"),
-        Column("points_an_inning", "points\nan inning", decimals(2)),
-        Column("p_win_as_next", "wins at own level if\nas good as the next", chance),
-    ]
+    columns = columns_of("level points_needed points_an_inning p_win_as_next")
     return Answer(
         f"Chart {report.name}, if players score in proportion to the points they need",
         [

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 from evenbreak.answers.chart.show import chart_rows
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import count_of, decimals, percent, race, range_words
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try
@@ -189,30 +190,14 @@ def _rows(task: DesignTask, made: Chart, up_to: int) -> Table:
         mean = mean_games_grid(task.scale, [m], [n], ends)[0].mean()
         p90 = games_quantiles(task.scale, m, n, ends, 0.9).max()
         rows.append((row[:2], (m, n), low, high, mean, p90))
-    columns = [
-        Column(
-            ("difference_from", "difference_to"),
-            "difference",
-            lambda span: range_words(*span),
-            left=True,
-        ),
-        Column(("stronger_needs", "weaker_needs"), "race", race),
-        Column("p_win_low", "stronger wins\nat the start", decimals(3)),
-        Column("p_win_high", "at the end", decimals(3)),
-        Column("mean_games", "games, on\naverage", decimals(2)),
-        Column("games_p90", "9 of 10\nwithin"),
-    ]
+    columns = columns_of("span needs p_win_at_start p_win_at_end mean_games games_p90")
     return Table("rows", columns, rows)
 
 
 def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
     shown = spans[:MOST_LISTED]
     first = f", the first {MOST_LISTED} of {len(spans)} ranges" if len(shown) < len(spans) else ""
-    columns = [
-        Column("difference", "difference", left=True),
-        Column("design", "design", race),
-        Column("beside", chart.name, race),
-    ]
+    columns = columns_of("difference design beside", chart=chart.name)
     rows = [(range_words(span.first, span.last), span.design, span.beside) for span in shown]
     return Table("", columns, rows, f"Where the races differ from those of {chart.name}{first}:")
 
@@ -229,14 +214,7 @@ def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:
     if len(rows) == 1:
         return None
     names = ("mean_unfairness", "worst_unfairness", "mean_games", "games_p90")
-    columns = [
-        Column("design", "chart", left=True),
-        Column("mean_unfairness", "unfair, on\naverage", decimals(3)),
-        Column("worst_unfairness", "at worst", decimals(3)),
-        Column("mean_games", "games, on\naverage", decimals(1)),
-        Column("games_p90", "9 of 10\nwithin"),
-        Column("rows", "rows"),
-    ]
+    columns = columns_of("design_name mean_unfairness worst_unfairness mean_games games_p90 rows")
     measured = [
         (what, chart, measure_chart(chart, task.scale, up_to=up_to, target=task.target))
         for what, chart in rows

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, race, range_words
+from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.files.charts import chart_table
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
 from evenbreak.handicaps.charts.level_chart import (
@@ -36,14 +37,7 @@ def chart_list_answer() -> Answer:
             "one, unless it is a chart of points.",
             Table(
                 "charts",
-                [
-                    Column("chart", "name", left=True),
-                    Column("what", "full name", left=True),
-                    Column("looked_up_by", "looked up by", left=True),
-                    Column(("even_race_from", "even_race_to"), "equals\nrace to", _even),
-                    Column("longest_games", "games\nat most"),
-                    Column("races"),
-                ],
+                columns_of("chart_name what looked_up_by even_race longest_games -races"),
                 [
                     _row(name, title)
                     for name, title in {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}.items()
@@ -65,13 +59,6 @@ def _row(name: str, title: str) -> tuple[Any, ...]:
     even = [m for m, n in races if m == n]
     longest = max(m + n - 1 for m, n in races)
     return name, title, by, (min(even), max(even)), longest, len(races)
-
-
-def _even(ends: tuple[int, int] | None) -> str:
-    if ends is None:
-        return "points"
-    first, last = ends
-    return str(first) if first == last else f"{first} to {last}"
 
 
 def chart_show_answer(
@@ -102,7 +89,7 @@ def _parts(chart: Chart | LevelChart | PointsChart) -> list[Part]:
 def chart_rows(chart: Chart | LevelChart | PointsChart) -> Table:
     """Return the rows of a chart as a file holds them, and as JSON does under `rows`."""
     columns, rows = chart_table(chart)
-    return Table("rows", [Column(name) for name in columns], rows)
+    return Table("rows", in_files(columns), rows)
 
 
 def _by_difference(chart: Chart) -> list[Part]:
@@ -114,16 +101,13 @@ def _by_difference(chart: Chart) -> list[Part]:
             f"{race(last[2:])}: the stronger player needs {last.stronger_needs} games, the "
             f"weaker {last.weaker_needs}."
         )
-    columns = [
-        Column("difference", "difference", left=True),
-        Column("race", "race", race),
-    ]
+    columns = columns_of("difference race")
     rows = [(range_words(*row[:2]), row[2:]) for row in chart.rows]
     return [text, Table("", columns, rows)]
 
 
 def _of_points(chart: PointsChart) -> list[Part]:
-    columns = [Column("level", "level", left=True), Column("points", "points to win")]
+    columns = columns_of("level points_needed")
     rows = list(zip(chart.levels, chart.points, strict=True))
     return [
         "Each player plays to the points of their own level, whoever the opponent is.",
@@ -132,10 +116,7 @@ def _of_points(chart: PointsChart) -> list[Part]:
 
 
 def _by_level(chart: LevelChart) -> list[Part]:
-    columns = [
-        Column("level", "level", left=True),
-        *(Column(f"against {level}", f"v {level}", race) for level in chart.levels),
-    ]
+    columns = [*columns_of("level"), *(column_of("against", level=level) for level in chart.levels)]
     rows = [(own, *(chart.race(own, other) for other in chart.levels)) for own in chart.levels]
     return [
         "In each race the first number is what the level of that row needs, the second what the "
@@ -163,19 +144,19 @@ def team_handicap_answer(
             _in_words(found),
             _how(found, match_ups),
             Quantities(
-                [
-                    Quantity("average_1", first),
-                    Quantity("average_2", second),
-                    Quantity("p_game_1", found.p_game_1, "team 1 wins a game", chance),
-                    Quantity("scored_1", found.scored_1, "team 1 scores", decimals(3)),
-                    Quantity("scored_2", found.scored_2, "team 2 scores", decimals(3)),
-                    Quantity("points", found.points, "points a round, rounded"),
-                    Quantity("to_team", found.to_team),
-                    Quantity(
-                        "even_points", found.even_points, "points for an even round", decimals(2)
-                    ),
-                    Quantity("given_away", found.given_away),
-                ]
+                quantities_of(
+                    {
+                        "average_1": first,
+                        "average_2": second,
+                        "p_game_1": found.p_game_1,
+                        "scored_1": found.scored_1,
+                        "scored_2": found.scored_2,
+                        "points_a_round": found.points,
+                        "to_team": found.to_team,
+                        "even_points": found.even_points,
+                        "-given_away": found.given_away,
+                    }
+                )
             ),
         ],
         details=[

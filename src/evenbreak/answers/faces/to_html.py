@@ -51,9 +51,9 @@ def part_lines(part: Part) -> Iterator[str]:
         case Quantities():
             yield "<table>" + _caption(part.title)
             for one in part.shown(verbose=True):
-                value = f'<td class="number">{_text(one.show(one.value))}</td>'
+                value = f'<td class="number">{_text(one.text)}</td>'
                 note = f"<td>{_text(one.note)}</td>" if one.note else ""
-                yield f'<tr><th scope="row">{_text(one.words or "")}</th>{value}{note}</tr>'
+                yield f'<tr><th scope="row">{_text(one.label)}</th>{value}{note}</tr>'
             yield "</table>"
         case Table():
             shown = part.shown(verbose=True)

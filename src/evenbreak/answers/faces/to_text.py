@@ -74,7 +74,7 @@ def _shown(part: Part, width: int, verbose: bool) -> str:
 
 def _quantities(part: Quantities, verbose: bool) -> Iterator[str]:
     shown = part.shown(verbose=verbose)
-    rows = [[printable(one.words or ""), printable(one.show(one.value))] for one in shown]
+    rows = [[printable(one.label), printable(one.text)] for one in shown]
     for line, one in zip(aligned(rows, left=1), shown, strict=True):
         yield f"{line}  {one.note}" if one.note else line
 

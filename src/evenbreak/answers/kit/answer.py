@@ -45,9 +45,8 @@ class Answer:
     schema_version
         of its JSON.
 
-    >>> from evenbreak.answers.kit.parts import Quantity
-    >>> from evenbreak.answers.kit.wording import chance
-    >>> win = Quantity("p_win_a", 0.875, "A wins the match", chance)
+    >>> from evenbreak.answers.kit.columns import quantity_of
+    >>> win = quantity_of("p_win_a", 0.875, a="A")
     >>> answer = Answer("race 7:7", ["A wins 7 matches of 8.", Quantities([win])])
     >>> print(answer)
     race 7:7

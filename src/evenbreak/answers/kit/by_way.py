@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from evenbreak.answers.kit.parts import Part, Quantities, Quantity
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities
 
 if TYPE_CHECKING:
     from evenbreak.chains.ways import Way
@@ -26,10 +27,6 @@ DEFECTIVE = (
     "The matrix of a race is defective: it has fewer independent eigenvectors than states. But "
     "all those of eigenvalue 1 exist, and the limit needs no others."
 )
-
-
-def _apart(difference: float) -> str:
-    return f"{difference:.1e}" if difference > ROUNDING else "rounding only"
 
 
 def by_way(
@@ -62,13 +59,12 @@ off its eigenvectors of eigenvalue 1.
         return []
     known = [(one, other) for one, other in pairs if one is not None and other is not None]
     apart = None if via == beside else max((abs(one - other) for one, other in known), default=0.0)
-    listed = [
-        Quantity("via", via),
-        Quantity(
-            f"{beside}_difference",
-            apart,
-            f"difference from {'the kernel' if beside == 'kernel' else beside}",
-            _apart,
-        ),
-    ]
+    listed = quantities_of(
+        {
+            "via": via,
+            "way_difference": apart,
+        },
+        beside=beside,
+        way="the kernel" if beside == "kernel" else beside,
+    )
     return [" ".join(filter(None, (_WORDS[via], note))), Quantities(listed)]

@@ -121,33 +121,42 @@ class Quantity:
 
     Parameters
     ----------
-    name
-        its key in JSON, its row in CSV.
+    column
+        its name, its words and how it is shown, as of a column of a table.
     value
         None where there is none; it is then not shown.
-    words
-        what a person calls it; None: it is in files only.
-    show
-        the value as a person reads it.
     note
         what stands behind it, such as an interval.
-    detail
-        whether only those read it who ask for details.
     """
 
-    name: str
+    column: Column
     value: Any
-    words: str | None = None
-    show: Show = str
     note: str = ""
-    detail: bool = False
 
+    @property
+    def name(self) -> str:
+        """Its key in JSON, its row in CSV."""
+        return self.column.names[0]
 
-def statistic(
-    name: str, value: Any, words: str | None, show: Show = str, note: str = ""
-) -> Quantity:
-    """Return a quantity that only those see who ask for details."""
-    return Quantity(name, value, words, show, note, detail=True)
+    @property
+    def words(self) -> str | None:
+        """What a person calls it; None: it is in files only."""
+        return self.column.words
+
+    @property
+    def label(self) -> str:
+        """Its words in one line."""
+        return (self.words or "").replace("\n", " ")
+
+    @property
+    def text(self) -> str:
+        """Its value as a person reads it."""
+        return self.column.text(self.value)
+
+    @property
+    def detail(self) -> bool:
+        """Whether only those read it who ask for details."""
+        return self.column.detail
 
 
 @dataclass(frozen=True)

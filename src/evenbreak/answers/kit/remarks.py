@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.answers.kit.wording import listed, some_of
-from evenbreak.files.lists.roster import RosterFile
-from evenbreak.files.results.results_file import ResultsFile
+
+if TYPE_CHECKING:  # they load numpy
+    from evenbreak.files.lists.roster import RosterFile
+    from evenbreak.files.results.results_file import ResultsFile
 
 MOST_NAMES = 5
 """The most names that a remark lists."""

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Show, Table
-from evenbreak.answers.kit.wording import decimals, listed
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.wording import listed
 from evenbreak.answers.ladder.ladder import OPPONENTS
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart import chart as printed
@@ -125,22 +126,11 @@ _EXPLANATION = (
 )
 
 
-def _per_cent(places: int) -> Show:
-    return lambda share: f"{100.0 * share:.{places}f}"
-
-
 _COLUMNS = [
-    Column("system", "system", left=True),
-    Column("chart", "chart", left=True),
-    Column("sd", "error,\npoints", decimals(2)),
-    Column("sd_doublings", "% of a\ndoubling", _per_cent(1)),
-    Column("settling_mean", "settles\nin", decimals(1)),
-    Column("settling_p90", "9 of 10\nin"),
-    Column("p_favourite_mean", "favourite\nwins %", _per_cent(1)),
-    Column("favourite_over_60", "60%\nor up", _per_cent(0)),
-    Column("games_mean", "games", decimals(1)),
-    Column("inflation"),
-    Column("on_front", cell=lambda best: str(int(best))),
+    *columns_of(
+        "system chart error_points sd_doublings settling_mean settling_p90 p_favourite_mean "
+        "favourite_over_60 match_games inflation on_front"
+    ),
     *map(Column, ("sd_se", "settling_mean_se")),
 ]
 

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import count_of, decimals, percent
+from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.chains.ways import Way
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.comparison import NewcomerInflation, inflation, newcomer_inflation
@@ -59,10 +60,7 @@ more than 5 points, 1 in 70 by more than 10.
     if abs(found.inflation) >= 0.005:
         said.append(_inflation(found.inflation))
     shares = [(f"{100 * share:g}%", found.off.quantile(share)) for share in SHARES]
-    columns = [
-        Column("share", "of the ratings"),
-        Column("off_by", "are off by at most", "{} points".format),
-    ]
+    columns = columns_of("of_ratings off_by")
     return Answer(
         _heading(found),
         [*filter(None, said), Table("", columns, shares), *_way(found)],
@@ -178,18 +176,14 @@ def _inflation(added: float) -> str:
 
 def _statistics(found: LadderFindings) -> Quantities:
     natural = None if found.natural is None else found.natural.sd
-    points = decimals(2)
     return Quantities(
-        [
-            Quantity("sd", found.law.sd, "rating error, standard deviation (points)", points),
-            Quantity("mean", found.law.mean, "rating error, mean (points)", points),
-            Quantity(
-                "natural_sd",
-                natural,
-                "standard deviation with constant skills and correctly rated opponents",
-                points,
-            ),
-        ],
+        quantities_of(
+            {
+                "error_sd": found.law.sd,
+                "error_mean": found.law.mean,
+                "natural_sd": natural,
+            }
+        ),
         in_json=False,
     )
 
@@ -214,7 +208,7 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
 
 def _errors(found: LadderFindings) -> Table:
     law, ladder = found.law, found.ladder
-    columns = [Column(name) for name in ("error", "probability", "cumulative", "p_win")]
+    columns = in_files(("error", "probability", "cumulative", "p_win"))
     rows = zip(
         ladder.errors.tolist(),
         map(float, law.probability),

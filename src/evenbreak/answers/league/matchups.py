@@ -1,7 +1,7 @@
 """Which race each pair of a round plays, who wins it how often, and how long it takes."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -9,10 +9,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name
 from evenbreak.answers.kit.scales import form_used_words, game_chance, scale_words
-from evenbreak.answers.kit.wording import chance, clock, count_of, decimals, percent, race
+from evenbreak.answers.kit.wording import clock, count_of, percent, race
 from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED, OfferedRaces
 from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
 from evenbreak.files.csv_writer import rows_of
@@ -83,31 +84,32 @@ def _pace(tonight: Round) -> dict[str, Any] | None:
 
 
 def _table(tonight: Round) -> Table:
-    columns = [Column("player_a", "A", left=True), Column("player_b", "B", left=True)]
-    columns += [Column("difference"), Column("difference_error")]
-    columns += [Column("p_game_a"), Column("p_game_a_plug_in")]
+    columns = columns_of(
+        "player_a player_b -difference difference_error -p_game_a p_game_a_plug_in"
+    )
     both = len(tonight.kinds) > 1
     for prefix in tonight.kinds:
         columns += _race_columns(tonight, prefix, both=both)
-    return Table("pairs", [*columns, Column("note")], _Rows(tonight, columns))
+    return Table("pairs", [*columns, *columns_of("note")], _Rows(tonight, columns))
 
 
-def _race_columns(tonight: Round, prefix: str, *, both: bool) -> Iterator[Column]:
-    kind = ("chart\n" if prefix else "fair\n") if both else ""
-    yield Column((f"{prefix}race_a", f"{prefix}race_b"), f"{kind}race", race)
-    yield Column(f"{prefix}p_win_a", "A wins", chance)
-    sure = "if ratings\nare right" if doubtful(tonight) and not both else None
-    yield Column(f"{prefix}p_win_a_plug_in", sure, chance, detail=True)
-    if prefix:
-        yield Column(f"{prefix}unfairness")
+def _race_columns(tonight: Round, prefix: str, *, both: bool) -> list[Column]:
+    """Return the columns of the fair race, or of the chart's; less of each where there are both."""
     timed = tonight.pace is not None
-    within = None if both else "9 of 10\nwithin"
-    average = "" if both else ",\naverage"
-    yield Column(f"{prefix}mean_games", None if timed else f"games{average}", decimals(1))
-    yield Column(f"{prefix}games_p90", None if timed else within)
+    keys = [
+        ("chart_race" if prefix else "fair_race_ab") if both else "race_pair",
+        "p_win_a_pair",
+        "p_win_a_plug_in" if doubtful(tonight) and not both else "-p_win_a_plug_in",
+        *(["unfairness_pair"] if prefix else []),
+        ("-" if timed else "") + ("mean_games_short" if both else "mean_games_pair"),
+        "-games_p90" if timed or both else "games_p90",
+    ]
     if timed:
-        yield Column(f"{prefix}mean_minutes", f"min{average}", decimals(0))
-        yield Column(f"{prefix}minutes_p90", within, decimals(0))
+        keys += ["mean_minutes_short", "-minutes_p90"] if both else ["mean_minutes", "minutes_p90"]
+    return [
+        replace(column, name=tuple(prefix + name for name in column.names))
+        for column in columns_of(" ".join(keys))
+    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +127,7 @@ class _Rows:
     def _rows(self, frame: pd.DataFrame) -> Iterator[Sequence[Any]]:
         by_name = dict(zip(frame.columns, zip(*rows_of(frame), strict=True), strict=True))
         columns: list[Sequence[Any]] = []
-        for column in [*self.columns, Column("note")]:
+        for column in [*self.columns, *columns_of("note")]:
             values = [by_name[name] for name in column.names]
             columns.append(values[0] if len(values) == 1 else _races(*values))
         return zip(*columns, strict=True)

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.kit.parts import Column, Part, Show, Table
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Show, Table
 from evenbreak.answers.kit.wording import count_of, decimals, listed
 from evenbreak.files.results.results_file import ResultsFile
-from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
 from evenbreak.ratings.prior import Evidence, PriorChoice
@@ -121,11 +121,7 @@ def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part
 
 def evidence_table(choice: PriorChoice) -> Table:
     """Return what it gains to let newcomers, teams and so on count."""
-    columns = [
-        Column("of", "what", left=True),
-        Column("gain", "log-loss saved a game", _gain),
-        Column("used", "used", lambda used: "yes" if used else "no"),
-    ]
+    columns = columns_of("of log_loss_gain used")
     rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
     title = (
         "What it gains to let more count, each in addition to those above it, with 95% intervals "
@@ -134,19 +130,10 @@ def evidence_table(choice: PriorChoice) -> Table:
     return Table("", columns, rows, title)
 
 
-def _gain(gain: Estimate) -> str:
-    return f"{gain.value:z.4f}  {gain.low:z.4f} to {gain.high:z.4f}"
-
-
 def groups_table(ratings: Ratings) -> Iterator[Table]:
     """Yield how far each team and division is above the average one, if they count."""
     if ratings.groups:
-        columns = [
-            Column("kind", "", left=True),
-            Column("name", "name", left=True),
-            Column("above", "above average by", _ONE),
-            Column("standard_error", "give or take", _ONE),
-        ]
+        columns = columns_of("group_kind group_name above standard_error")
         yield Table("", columns, list(ratings.groups))
 
 

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import form_data, form_details, form_words, like_scale_words
-from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, signed
+from evenbreak.answers.kit.wording import count_of, decimals, listed, percent
 from evenbreak.answers.league.prior import (
     evidence_rows,
     group_rows,
@@ -106,16 +107,12 @@ def _players_table(ratings: Ratings) -> Table:
     """Return every player, group by group, the strongest of each first."""
     by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
     columns = [
-        Column("player", "player", left=True),
-        Column("rating", "rating", _ONE),
-        Column("standard_error", "give or take", _ONE),
-        Column("quasi_error", "in comparisons", _ONE, detail=True),
-        *(Column(name, name if ratings.games.any() else None) for name in ("games", "won", "lost")),
-        Column("races_won", "matches won" if by_winner else None),
-        Column("races_lost", "matches lost" if by_winner else None),
-        Column("component", "group" if ratings.component.max() > 1 else None),
-        *([Column("match_form")] if ratings.match_form else []),
-        Column("scale"),
+        *columns_of("player rating standard_error quasi_error", show={"rating": decimals(1)}),
+        *columns_of("games won lost" if ratings.games.any() else "-games -won -lost"),
+        *columns_of("races_won races_lost" if by_winner else "-races_won -races_lost"),
+        column_of("component" if ratings.component.max() > 1 else "-component"),
+        *(columns_of("match_form") if ratings.match_form else []),
+        *columns_of("scale"),
     ]
     shared = [*([ratings.match_form] if ratings.match_form else []), ratings.scale.text]
     order = ratings.strongest_first()
@@ -129,13 +126,10 @@ def _players_table(ratings: Ratings) -> Table:
     return Table("players", columns, list(zip(names, *values, strict=True)))
 
 
-_PAIR_COLUMNS = (
-    Column("player_a", "A", left=True),
-    Column("player_b", "B", left=True),
-    Column("difference", "A above B by", signed(1)),
-    Column("standard_error", "give or take", _ONE),
-    Column("p_game_a", "A wins a game", decimals(3)),
-    Column("note"),
+_PAIR_COLUMNS = columns_of(
+    "player_a player_b a_above_b standard_error p_game_a note",
+    show={"p_game_a": decimals(3)},
+    a="A",
 )
 
 

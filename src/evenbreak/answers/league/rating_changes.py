@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.answers.columns.shown import points_or_new
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, some_of
 from evenbreak.answers.league.nights import count_dates
 from evenbreak.files.lists.roster import RosterFile
@@ -108,7 +110,7 @@ def _in_words(moves: RatingChanges) -> str:
     sentences = []
     for verb, sign in (("Up", 1), ("Down", -1)):
         names = [
-            f"{moves.before.players[k]} by {_points(abs(change[k]))}"
+            f"{moves.before.players[k]} by {points_or_new(abs(change[k]))}"
             for k in order
             if sign * change[k] > 0
         ]
@@ -151,7 +153,7 @@ def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | Non
         "scale": [scale] * len(after),
     }
     rows = [[values[place] for values in columns.values()] for place in order]
-    return Table("players", [Column(name) for name in columns], rows)
+    return Table("players", in_files(columns), rows)
 
 
 def _stated(values: NDArray[Any]) -> list[Any]:
@@ -174,13 +176,7 @@ def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
         for number, reason in enumerate(why.get(place, ())):
             name = moves.after.players[place]
             rows.append((*((None,) * 4 if number else (name, was, now, now - was)), reason))
-    columns = [
-        Column("player", "player", left=True),
-        Column("rating_before", "was", _points),
-        Column("rating", "now", _points),
-        Column("change", "change", _change),
-        Column("why", "why", left=True),
-    ]
+    columns = columns_of("player rating_before rating_now change why")
     return Table("", columns, rows)
 
 
@@ -190,23 +186,8 @@ def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
         (rank, moves.after.players[place], float(moves.after.rating[place]), games[place])
         for rank, place in enumerate(order, 1)
     ]
-    columns = [
-        Column("rank", ""),
-        Column("player", "player", left=True),
-        Column("rating", "rating", _points),
-        Column("games", "games"),
-    ]
+    columns = columns_of("rank player rating games", show={"rating": points_or_new})
     return Table("", columns, rows, "The new list:")
-
-
-def _points(rating: float) -> str:
-    if math.isnan(rating):
-        return "new"
-    return f"{rating:.0f}" if rating == round(rating) else f"{rating:.1f}"
-
-
-def _change(points: float) -> str:
-    return f"{points:+g}" if points else "0"
 
 
 def _reasons(moves: RatingChanges) -> dict[int, list[str]]:

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import column_of, columns_of, in_files
 from evenbreak.answers.kit.parts import Column, Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name, fingerprints
 from evenbreak.answers.kit.scales import decimals_of, form_used_words, game_chance, like_scale_words
@@ -74,8 +75,8 @@ def _race_table(sheet: Sheet) -> Table:
     names = sheet.listed["player"].tolist()
     places = [str(place + 1) for place in sheet.listed.index]
     wide = max(map(len, places))
-    columns = [Column("player", "", left=True)]
-    columns += [Column(place, place) for place in places]
+    columns = columns_of("row_player")
+    columns += [column_of("against_place", place=place) for place in places]
     rows = [
         (
             f"{place:>{wide}}  {name}",
@@ -99,13 +100,12 @@ def _ratings_table(sheet: Sheet) -> Table:
     listed = sheet.listed
     if count_groups(sheet.ratings) > 1:
         counts.append("component")
-    words = {"component": "group"}
     columns = [
-        Column("place", "#"),
-        Column("player", "player", left=True),
-        Column("rating", "rating", points),
-        Column("standard_error", "give or\ntake", points),
-        *(Column(name, words.get(name, name), "{:,}".format) for name in counts),
+        *columns_of(
+            "place_number player rating standard_error",
+            show={"rating": points, "standard_error": points},
+        ),
+        *columns_of(" ".join(counts)),
     ]
     frame = listed[["player", "rating", "standard_error", *counts]]
     rows = [(place + 1, *row) for place, row in zip(frame.index, rows_of(frame), strict=True)]
@@ -115,7 +115,7 @@ def _ratings_table(sheet: Sheet) -> Table:
 
 
 def _columns(frame: pd.DataFrame) -> list[Column]:
-    return [Column(str(name)) for name in frame.columns]
+    return in_files(frame.columns)
 
 
 def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:

@@ -11,8 +11,9 @@ import pandas as pd
 
 from evenbreak import __version__
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import count_of, decimals
+from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of
+from evenbreak.answers.kit.parts import Quantities, Table
+from evenbreak.answers.kit.wording import count_of
 from evenbreak.answers.league.season_tables import SeasonTables, weeks_with_players
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.handicaps.ladders.comparison import NEAR
@@ -62,11 +63,9 @@ def season_answer(
     20 seasons simulated
     """
     rows = summary_rows(season, tally, tables, settings)
-    summary = Table(
-        "summary", [Column("quantity"), Column("value"), Column("standard_error")], rows
-    )
+    summary = Table("summary", columns_of("quantity value -standard_error"), rows)
     data: dict[str, Any] = {name: value for name, value, _ in rows}
-    columns = [Column(str(name)) for name in tables.standings.columns]
+    columns = in_files(tables.standings.columns)
     data["standings"] = Table("", columns, rows_of(tables.standings)).to_dicts()
     data["standard_errors"] = {
         name: error for name, _, error in rows if error is not None and math.isfinite(error)
@@ -214,16 +213,10 @@ def _standings(standings: pd.DataFrame) -> Table:
     rows = [(str(place), *_cells(record)) for place, record in enumerate(records, 1)]
     if len(rows) > SHOWN + 1:
         rows[half:-half] = [("...", *[None] * 7)]
-    columns = [
-        Column("place", "", left=True),
-        Column("player", "player", left=True),
-        Column("rating_start", "rated", decimals(0)),
-        Column("matches", "matches", decimals(1)),
-        Column("points_mean", "won", decimals(1)),
-        Column("points_p10_p90", "8 of 10\nseasons"),
-        Column("p_win", "share\nwon", decimals(3)),
-        Column("rating_mean", "rated at\nthe end", decimals(1)),
-    ]
+    columns = columns_of(
+        "place_text player rating_start matches_played points_mean points_p10_p90 share_won "
+        "rating_end"
+    )
     return Table("", columns, rows)
 
 
@@ -245,25 +238,13 @@ def _cells(record: Mapping[Any, Any]) -> tuple[Any, ...]:
 def _statistics(rows: Sequence[Row]) -> Quantities:
     errors = {name: error for name, _, error in rows}
     values = {name: value for name, value, _ in rows}
-    words = {
-        "error_sd_start": "rating error at the start, standard deviation (points)",
-        "error_sd_end": "rating error at the end, standard deviation (points)",
-        "error_mean_start": "mean rating error at the start (points)",
-        "error_mean_end": "mean rating error at the end (points)",
-        "points_sd_by_luck": "matches won by one player, standard deviation of seasons",
-        "points_sd_between_players": "mean matches won, standard deviation of players",
-        "mean_rating_change": "mean change of a rating in a season (points)",
-    }
-
-    def note(name: str) -> str:
-        error = errors.get(name)
-        return "" if error is None or not error > 0.0 else f"± {_error(error)}"
-
+    names = (
+        *("error_sd_start", "error_sd_end", "error_mean_start", "error_mean_end"),
+        *("points_sd_by_luck", "points_sd_between_players", "mean_rating_change"),
+    )
+    notes = {name: f"± {_error(error)}" for name, error in errors.items() if error and error > 0.0}
     return Quantities(
-        [
-            Quantity(name, values.get(name), text, decimals(2), note(name))
-            for name, text in words.items()
-        ],
+        quantities_of({name: values.get(name) for name in names}, notes=notes),
         "± is one standard error of the simulation; more seasons make it smaller.",
         in_json=False,
     )

@@ -5,7 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.answers.league.prior import evidence_rows, levels_data
 from evenbreak.answers.league.validate_findings import details, findings_table
@@ -15,7 +16,6 @@ from evenbreak.answers.league.validate_judgement import (
     VAGUE,
     clearly_off,
     more_or_less,
-    percents,
     points_text,
     scored_of,
     share_of,
@@ -103,12 +103,7 @@ def _dates(found: Validation) -> int:
 
 def _games(found: Validation) -> Table:
     """Return how often favourites won games, beside the chances that they had been given."""
-    columns = [
-        Column("predicted", "predicted", percent),
-        Column("games", "games"),
-        Column("seen", "won", percent),
-        Column("range", "95% range", percents),
-    ]
+    columns = columns_of("predicted games seen_percent range_percent")
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
         "How often favourites won single games. The ratings are right where the prediction lies in "

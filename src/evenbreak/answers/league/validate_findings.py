@@ -4,8 +4,9 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import decimals, percent
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.league.validate_handicaps import handicap_rows, starts_table
 from evenbreak.answers.league.validate_judgement import points_text
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
@@ -50,7 +51,7 @@ def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table
     rows += [("no_favourite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
     rows += _test_rows(found, counts["game"])
     rows += handicap_rows(found, chart or LeagueChart())
-    return Table("findings", [Column(name) for name in COLUMNS], rows)
+    return Table("findings", in_files(COLUMNS), rows)
 
 
 def _prior_rows(found: Validation) -> Iterator[tuple[Any, ...]]:
@@ -162,14 +163,7 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
 
 
 def _scored(found: Validation, scale: Scale) -> Table:
-    columns = [
-        Column("of", "what", left=True),
-        Column("how", "how", left=True),
-        Column("prior", "prior", decimals(1)),
-        Column("log_loss", "log-loss", lambda one: _span(one, 4, "-")),
-        Column("brier", "Brier", decimals(3)),
-        Column("slope", "slope", lambda one: _span(one, 2, " to ")),
-    ]
+    columns = columns_of("of how prior log_loss brier slope")
     named = [(row.how, row) for row in found.scored] + [("default", row) for row in found.usual]
     rows = [
         (
@@ -179,11 +173,6 @@ def _scored(found: Validation, scale: Scale) -> Table:
         for how, row in named
     ]
     return Table("", columns, rows)
-
-
-def _span(estimate: Estimate, digits: int, to: str) -> str:
-    value, low, high = (f"{part:.{digits}f}" for part in estimate)
-    return f"{value}  {low}{to}{high}"
 
 
 def _prior(found: Validation, scale: Scale) -> str:
@@ -204,18 +193,7 @@ def _prior(found: Validation, scale: Scale) -> str:
     )
 
 
-def _range(ends: tuple[float, float]) -> str:
-    return f"{ends[0]:.3f} to {ends[1]:.3f}"
-
-
-_TEST_COLUMNS = (
-    Column("test", "", left=True),
-    Column("matches", "matches"),
-    Column("seen", "seen"),
-    Column("expected", "expected"),
-    Column("range", "95% interval", _range),
-    Column("p_value", "p", lambda p: f"{p:.2g}" if p >= 1e-4 else "< 0.0001"),
-)
+_TEST_COLUMNS = columns_of("test matches seen expected range p_value")
 
 
 def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
@@ -253,14 +231,9 @@ def _experience(found: Validation, scale: Scale) -> Table:
     def off(one: Estimate) -> str:
         return f"{points * one.value:+.1f}  {points * one.low:+.1f} to {points * one.high:+.1f}"
 
-    columns = [
-        Column("before", "games\nbefore"),
-        Column("matches", "matches"),
-        Column("predicted", "predicted", percent),
-        Column("seen", "won", percent),
-        Column("stronger", "points off,\n95% interval", off),
-        Column("spread", "spread of\nscores", decimals(2)),
-    ]
+    columns = columns_of(
+        "before matches predicted seen_percent points_off score_spread", show={"points_off": off}
+    )
     rows = [
         (
             _games_before(one),
@@ -283,14 +256,7 @@ def _games_before(one: ByExperience) -> str:
 
 def _by_spot(found: Validation) -> Table:
     """Return how often players who gave games won, by how many they gave."""
-    columns = [
-        Column("spot", "games given"),
-        Column("matches", "matches"),
-        Column("won", "won"),
-        Column("share", "share", decimals(3)),
-        Column("range", "95% interval", _range),
-        Column("expected", "predicted", decimals(3)),
-    ]
+    columns = columns_of("spot matches won share_of_matches range expected_share")
     rows = [
         (row.spot or "all", row.matches, row.won, row.share, (row.low, row.high), row.expected)
         for row in found.spots

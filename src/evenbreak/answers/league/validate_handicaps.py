@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 from typing import Any
 
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.columns.shown import percent_interval
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of, listed, percent, race
 from evenbreak.answers.league.validate_judgement import (
     clearly_off,
     more_or_less,
-    percents,
     scale_way,
     share_of,
     starts_trend,
@@ -53,9 +54,8 @@ def _fairness(found: Validation, by_games: int, scale: Scale) -> str:
     won = (
         f"Players who gave games won {every.won:,} of {count_of(every.matches, 'match', 'matches')}"
     )
-    figures = (
-        f"{won} ({percent(every.share)}; {percents((every.low, every.high))} allowing for luck)"
-    )
+    luck = percent_interval((every.low, every.high))
+    figures = f"{won} ({percent(every.share)}; {luck} allowing for luck)"
     by_size = _unfair_by_size(found, scale)
     off = clearly_off(share_of(every), 0.5)
     if off or by_games:
@@ -217,13 +217,14 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
         value, low, high = (scale.points(part) for part in one)
         return f"{value:z.0f}  {low:z.0f} to {high:z.0f}"
 
-    columns = [
-        Column("apart", "classes\napart" if starts.classes else "games\ngiven"),
-        Column("matches", "matches"),
-        Column("race", "most\nplayed", race),
-        Column("stronger", "points stronger,\n95% interval", stronger),
-        Column("taken", "taken\nback", lambda one: f"{scale.points(one):z.0f}"),
-    ]
+    def taken(games: float) -> str:
+        return f"{scale.points(games):z.0f}"
+
+    apart = "classes_apart" if starts.classes else "games_apart"
+    columns = columns_of(
+        f"{apart} matches race_played points_stronger taken",
+        show={"points_stronger": stronger, "taken": taken},
+    )
     value, low, high = starts.share
     title = (
         "By how many points the player who should give games is stronger, and how many the races "

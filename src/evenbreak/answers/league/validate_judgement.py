@@ -118,15 +118,6 @@ def scale_way(chart: LeagueChart) -> int:
     return int(fewer) - int(clearly_off(points, assumed * (1.0 + near)) > 0)
 
 
-def percents(ends: tuple[float, float]) -> str:
-    """Return a range of shares.
-
-    >>> percents((0.482, 0.579))
-    '48 to 58%'
-    """
-    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"
-
-
 def points_text(prior_sd: float, scale: Scale) -> str:
     """Return a prior's standard deviation in points."""
     return f"{prior_sd * scale.points_per_log_odds:.3g}"

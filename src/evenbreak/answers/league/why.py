@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, in_files
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import decimals_of, like_scale_words
-from evenbreak.answers.kit.wording import chance, percent, race
+from evenbreak.answers.kit.wording import percent, race
 from evenbreak.answers.league.pairs import matchups_frame
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces
@@ -104,7 +105,7 @@ def why_answer(
                 for one in more
             ],
         },
-        csv=Table("matches", [Column(name) for name in MATCH], matches),
+        csv=Table("matches", in_files(MATCH), matches),
     )
 
 
@@ -141,10 +142,10 @@ def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
         return f"{value:.{decimals}f}"
 
     columns = [
-        Column("player", "player", left=True),
-        Column("rating", "rating", points),
-        Column("standard_error", "give or take", points),
-        *(Column(name, name, "{:,}".format) for name in ("games", "won", "lost")),
+        *columns_of(
+            "player rating standard_error", show={"rating": points, "standard_error": points}
+        ),
+        *columns_of("games won lost"),
     ]
     rows = [
         (
@@ -165,13 +166,14 @@ def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
     def points(value: float | None) -> str:
         return "" if value is None else f"{value:.{decimals}f}"
 
-    columns = [
-        Column("player", "player", left=True),
-        Column("source", "source", SOURCES.__getitem__, left=True),
-        Column("rating", "rating\nby it alone", points),
-        Column("standard_error", "give or take", points),
-        Column("weight", "weight", percent),
-    ]
+    columns = columns_of(
+        "player rating_source rating_alone standard_error weight",
+        show={
+            "rating_source": SOURCES.__getitem__,
+            "rating_alone": points,
+            "standard_error": points,
+        },
+    )
     rows = [
         (ratings.players[player], *source)
         for player in pair
@@ -193,13 +195,12 @@ def _more_table(
     def change(value: float) -> str:
         return f"{value:+.{decimals}f}"
 
-    columns = [
-        Column("match", "one more match", left=True),
-        Column("change_a", over(a), change),
-        Column("change_b", over(b), change),
-        Column("race", "fair\nrace", race),
-        Column("p_win_a", f"{over(a)}\nwins it", chance),
-    ]
+    columns = columns_of(
+        "one_match change_a change_b fair_race wins_a",
+        show={"change_a": change, "change_b": change},
+        a=over(a),
+        b=over(b),
+    )
     rows = [
         (
             f"{one.winner} wins {one.score}",
@@ -220,12 +221,14 @@ def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) 
     most = sorted(own, key=lambda match: -abs(match[-1]))[:MOST_LISTED]
     dated = any(match[1] for match in own)
     columns = [
-        Column("date", "date" if dated else None, left=True),
-        Column("opponent", "against", left=True),
-        Column("opponent_rating", "rated", lambda value: f"{value:.{decimals}f}"),
-        Column("result", "", left=True),
-        Column("score", "score"),
-        Column("worth", "worth", lambda value: f"{value:+.{decimals}f}"),
+        column_of("date" if dated else "-date"),
+        *columns_of(
+            "opponent opponent_rating result score worth",
+            show={
+                "opponent_rating": lambda value: f"{value:.{decimals}f}",
+                "worth": lambda value: f"{value:+.{decimals}f}",
+            },
+        ),
     ]
     rows = [
         (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most

@@ -6,8 +6,9 @@ from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.parts import Column, Table
-from evenbreak.answers.kit.wording import chance, count_of, decimals, listed, percent
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Table
+from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.chains.ways import Way
 from evenbreak.games.rack import Rack
 from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
@@ -16,8 +17,6 @@ USUAL = ("winner", "loser", "alternate")
 
 SAME = 1e-12
 """Two shares that differ by less are the same but for rounding."""
-
-_LARGE = 1_000_000
 
 
 def breaks_answer(
@@ -47,15 +46,9 @@ def breaks_answer(
     values = compare_break_formats(rack, via=via, **stakes)
     kernel = {value.name: value.share for value in compare_break_formats(rack, **stakes)}
     usual = [value for value in values if value.name in USUAL]
-    columns = [
-        Column("breaks", "breaks", _who, left=True),
-        Column("share_a", "A wins", chance),
-        Column("points_per_rack", "A's points\na rack", _four),
-        Column("sd_points", "spread of\npoints", _four, detail=True),
-        Column("fair_win", "even if\na win pays", _four),
-        Column("first_break_racks", "first break\nis worth", _four),
-        Column("memory", "left after\na rack", _four, detail=True),
-    ]
+    columns = columns_of(
+        "breaks share_a points_per_rack sd_points fair_win first_break_racks memory"
+    )
     return Answer(
         f"The breaker wins a rack with probability {rack.p1:g} (A) or "
         f"{rack.chance(2, breaker=2):g} (B)\nA wins {win:g} for each rack won and pays {lose:g} "
@@ -119,11 +112,3 @@ def _in_a_session(best: BreakFormatValue) -> str:
         f"Over 100 racks with {best.name} breaks, A comes out {ahead if points else 'even'} on "
         f"average, give or take {10 * best.sd_points:,.0f}."
     )
-
-
-def _who(breaks: str) -> str:
-    return f"always {breaks.upper()}" if breaks in ("a", "b") else breaks
-
-
-def _four(value: float) -> str:
-    return f"{value:.4g}" if abs(value) >= _LARGE else decimals(4)(value)

@@ -11,7 +11,8 @@ import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import chance, count_of, games, listed
 from evenbreak.chains.chain import Chain
 from evenbreak.chains.explore import chain_of
@@ -60,17 +61,17 @@ def chain_answer(
     limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = mean_steps_of(chain)
     states, structure = list(chain.states), chain.structure
-    columns = [Column("state", "state", left=True), Column("kind", "kind", left=True)]
+    columns = columns_of("state kind")
     values: list[Sequence[Any]] = [states, structure.kinds]
     sentences = [in_the_end(limit, structure.kinds, mean_steps)]
     density = None
     if steps is not None:
         after = f"after {count_of(steps, 'step')}"
         density = dict(zip(states, propagate(chain, steps=steps).tolist(), strict=True))
-        columns.append(Column("density", after, chance))
+        columns.append(column_of("density", after=after))
         values.append(list(density.values()))
         sentences.insert(0, f"A{after[1:]} the chain is in {_places(density)}.")
-    columns.append(Column("limit", "in the long run", chance))
+    columns.append(column_of("limit"))
     values.append(limit.probability.tolist())
     classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
     return Answer(
@@ -97,7 +98,7 @@ def chain_answer(
         },
         csv=Table(
             "probabilities",
-            [Column("state"), Column("probability", exact=True)],
+            columns_of("-state probability"),
             list((density or limit.to_dict()).items()),
         ),
     )

@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import chance, games, listed, percent, signed
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import chance, listed, percent
 from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.matches.crossings import Crossing, Crossings
 from evenbreak.matches.formats import MatchFormat
@@ -58,7 +59,7 @@ def compare_answer(
     parts: list[Part] = [_advice(compared, players), _formats(compared, players, axis)]
     if len(compared) > 1:
         parts.append(_turns(names, pairs, players, _stays(axis, hold)))
-    formats = Table("", [Column(name) for name in _COLUMNS], [_row(one) for one in compared])
+    formats = Table("", in_files(_COLUMNS), [_row(one) for one in compared])
     if players.taken_as_right:
         parts.append(players.taken_as_right)
     return Answer(
@@ -113,14 +114,7 @@ def _point(point: Crossing) -> dict[str, float | None]:
 
 def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Table:
     a = players.names[0]
-    columns = [
-        Column("format", "format", left=True),
-        Column("p_win_a", f"{a} wins", chance),
-        Column("from_even", "from even", signed(4)),
-        Column("mean_games", "games, on\naverage", games),
-        Column("games_p90", "9 of 10\nend within"),
-        Column("even", f"even if\n{axis} is"),
-    ]
+    columns = columns_of("format wins_a from_even mean_games games_p90 even", a=a, axis=axis)
     rows = [
         (
             str(one.format),
@@ -171,7 +165,7 @@ def _turns(
         (f"{names[i]} or {names[j]}", _turn(found, names[i], names[j]))
         for (i, j), found in pairs.items()
     ]
-    columns = [Column("formats", "", left=True), Column("better", "", left=True)]
+    columns = columns_of("formats better")
     return Table("", columns, rows, f"The better format for {a} as {axis} grows{stays}:")
 
 

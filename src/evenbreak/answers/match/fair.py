@@ -5,8 +5,9 @@ from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import DEFECTIVE, by_way
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import chance, games, percent
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.games.race import Race
@@ -49,13 +50,7 @@ def fair_answer(
             f"{mean:.1f} games on average.",
             Table(
                 "races",
-                [
-                    Column("race_a", f"{a}\nneeds"),
-                    Column("race_b", f"{b}\nneeds"),
-                    Column("p_win_a", f"{a}\nwins", chance),
-                    Column("mean_games", "games, on\naverage", games),
-                    Column("games_p90", "9 of 10\nend within"),
-                ],
+                columns_of("race_a race_b wins_a mean_games games_p90", a=a, b=b),
                 rows,
             ),
             *_way(via, players, races),

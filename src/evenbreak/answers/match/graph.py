@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import chance, count_of, decimals, listed, percent
+from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of, quantity_of
+from evenbreak.answers.kit.parts import Quantities, Table
+from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.answers.match.chain import Road, in_the_end, mean_steps_of
 
 LEADING = 6
@@ -74,15 +75,9 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
             "the end the distance to the limit falls by this share with each step.",
             Quantities(
                 [
-                    Quantity("gap", road.gap, "gap", decimals(6)),
-                    Quantity("period", road.limit.period, "period of the chain"),
+                    *quantities_of({"gap": road.gap, "period": road.limit.period}),
                     *(
-                        Quantity(
-                            f"difference_{way}",
-                            difference,
-                            f"difference of {WAY_WORDS[way]} from elimination",
-                            lambda d: f"{d:.1e}",
-                        )
+                        quantity_of("way", difference, way=way, words=WAY_WORDS[way])
                         for way, difference in road.differences.items()
                     ),
                 ]
@@ -187,12 +182,7 @@ def _gap_words(road: Road) -> str:
     )
 
 
-_EIGENVALUE = [
-    Column("number", ""),
-    Column("real", "eigenvalue", decimals(6), exact=True),
-    Column("imaginary", "imaginary part", lambda part: f"{part:+.6f}i" if part else "", exact=True),
-    Column("modulus", "modulus", decimals(6), exact=True),
-]
+_EIGENVALUE = columns_of("eigenvalue real imaginary modulus")
 
 
 def _leading(values: Sequence[complex]) -> Table:
@@ -222,7 +212,9 @@ def eigenvector_table(road: Road) -> Table:
     """
     pairs = road.spectrum
     if pairs is None:
-        return Table("eigenvectors", [Column("state")], [(state,) for state in road.chain.states])
+        return Table(
+            "eigenvectors", columns_of("-state"), [(state,) for state in road.chain.states]
+        )
     names, columns = ["state"], [list(road.chain.states)]
     for side, vectors in (("right", pairs.right), ("left", pairs.left.T)):
         for k, vector in enumerate(vectors.T, 1):
@@ -232,12 +224,12 @@ def eigenvector_table(road: Road) -> Table:
                 names.append(f"{side}_{k}_imaginary")
                 columns.append(vector.imag.tolist())
     rows = list(zip(*columns, strict=True))
-    return Table("eigenvectors", [Column(name, exact=name != "state") for name in names], rows)
+    return Table("eigenvectors", [*columns_of("-state"), *in_files(names[1:], exact=True)], rows)
 
 
 def arcs_table(road: Road) -> Table:
     """Return the arcs, those out of the start first, because a file of arcs begins there."""
-    columns = [Column("source"), Column("target"), Column("probability", exact=True)]
+    columns = columns_of("source target probability")
     arcs: list[Any] = sorted(
         road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start
     )
@@ -250,15 +242,7 @@ def states_table(road: Road) -> Table:
     nodes = [attributes for _, attributes in road.graph.nodes(data=True)]
     return Table(
         "states",
-        [
-            Column("state"),
-            Column("kind"),
-            Column("winner"),
-            Column("class"),
-            Column("class_kind"),
-            Column("period"),
-            Column("limit", exact=True),
-        ],
+        columns_of("-state -kind -winner class class_kind -period -limit"),
         list(
             zip(
                 road.chain.states,
@@ -281,13 +265,7 @@ def classes_table(road: Road) -> Table:
     sums = np.bincount(structure.label, weights=limit, minlength=structure.count)
     return Table(
         "classes",
-        [
-            Column("class"),
-            Column("states"),
-            Column("kind"),
-            Column("period"),
-            Column("limit", exact=True),
-        ],
+        columns_of("class states -kind -period -limit"),
         list(
             zip(
                 range(1, structure.count + 1),
@@ -310,6 +288,6 @@ def limit_table(road: Road) -> Table:
     ]
     return Table(
         "limit",
-        [Column("state"), *(Column(way, exact=True) for way in WAY_WORDS)],
+        [*columns_of("-state"), *in_files(WAY_WORDS, exact=True)],
         list(zip(road.chain.states, *columns, strict=True)),
     )

@@ -5,8 +5,9 @@ from dataclasses import replace
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import chance, games, percent, signed
+from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.match.odds import match_words
 from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.games.ahead import Ahead
@@ -38,7 +39,7 @@ def live_answer(
     now, course = odds.now, _course(odds)
     to_come = Table(
         "comebacks",
-        [Column(name) for name in (*_PLACE, "p_win_a", "leverage")],
+        in_files((*_PLACE, "p_win_a", "leverage")),
         [(*_place(moment), moment.p_win_1, moment.leverage) for moment in odds.comebacks()],
     )
     parts: list[Part] = [_in_words(now, players)]
@@ -95,19 +96,19 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
     a, b = players.names
     after, other = now.p_win_1_after or (None, None)
     return Quantities(
-        [
-            Quantity("p_win_a", now.p_win_1, f"{a} wins the match", chance),
-            Quantity("p_win_b", now.p_win_2, f"{b} wins the match", chance),
-            Quantity(
-                "p_win_a_if_a", after, f"{a} wins the match if {a} wins the next game", chance
-            ),
-            Quantity(
-                "p_win_a_if_b", other, f"{a} wins the match if {b} wins the next game", chance
-            ),
-            Quantity("leverage", now.leverage, "what the next game is worth (leverage)", chance),
-            Quantity("mean_racks_left", now.mean_racks, "games left, on average", games),
-            Quantity("racks_left_p90", now.racks_p90, "9 out of 10 matches end within", games),
-        ],
+        quantities_of(
+            {
+                "p_win_a": now.p_win_1,
+                "p_win_b": now.p_win_2,
+                "p_win_a_if_a": after,
+                "p_win_a_if_b": other,
+                "next_game": now.leverage,
+                "mean_racks_left": now.mean_racks,
+                "racks_left_p90": now.racks_p90,
+            },
+            a=a,
+            b=b,
+        ),
         in_json=False,
     )
 
@@ -127,7 +128,7 @@ def _course(odds: LiveOdds) -> Table:
         *("rack", "won_by", *_PLACE, "p_win_a", "p_win_b", "swing_a"),
         *("p_win_a_if_a", "p_win_a_if_b", "leverage", "mean_racks_left", "racks_left_p90"),
     ]
-    return Table("course", [Column(name) for name in names], rows)
+    return Table("course", in_files(names), rows)
 
 
 def _as_it_went(odds: LiveOdds, players: TwoPlayers) -> Table:
@@ -146,14 +147,7 @@ def _as_it_went(odds: LiveOdds, players: TwoPlayers) -> Table:
             1,
         )
     ]
-    columns = [
-        Column("rack", "game"),
-        Column("won_by", "won by"),
-        Column("score", "score"),
-        Column("p_win_a", f"{a} wins", chance),
-        Column("swing_a", "change", signed(4)),
-        Column("leverage", "leverage", chance),
-    ]
+    columns = columns_of("rack won_by score wins_a swing_a leverage", a=a)
     return Table("", columns, rows)
 
 
@@ -231,11 +225,11 @@ def _matrix(
     if leads:
         by_lead = {i - j: text for (i, j), text in shown.items()}
         rows = [(_lead(lead, names), by_lead[lead]) for lead in sorted(by_lead)]
-        return Table("", [Column("lead", "", left=True), Column("p_win_a", "")], rows, title)
+        return Table("", columns_of("lead p_win_a_by_lead"), rows, title)
     down = sorted({i for i, _ in cells})
     across = sorted({j for _, j in cells})
-    columns = [Column("score_a", "", left=True)]
-    columns += [Column(f"score_b_{j}", f"{b} {j}") for j in across]
+    columns = columns_of("score_a")
+    columns += [column_of("score_b", b=b, score=j) for j in across]
     matrix = [(f"{a} {i}", *(shown.get((i, j)) for j in across)) for i in down]
     return Table("", columns, matrix, title)
 

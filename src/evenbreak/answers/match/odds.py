@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Part, Quantities, Quantity
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities
 from evenbreak.answers.kit.wording import chance, decimals, games, percent
 from evenbreak.answers.match.two_players import TwoPlayers
 from evenbreak.games.ahead import Ahead
@@ -45,45 +46,30 @@ def odds_answer(
     odds = _odds(players, match) if via is None else match_odds(match, via=via)
     p_win = _exact_wins(match) if exact else ()
     a, b = players.names
-    from_now = " from now on" if any(match.score) else ""
-    by_break = players.p_game_a is None
-    quantities = [
-        Quantity("p_game_a", _p_game(players), f"{a} wins a game", chance),
-        Quantity("p1", players.rack.p1 if by_break else None),
-        Quantity("p2", players.rack.p2),
-        Quantity("p_win_a", odds.p_win_1, f"{a} wins the match", chance),
-        Quantity("p_win_b", odds.p_win_2, f"{b} wins the match", chance),
-        *(Quantity(f"p_win_{who}_exact", str(p)) for who, p in zip("ab", p_win, strict=False)),
-        Quantity(
-            "p_never_ends",
-            odds.p_never_ends,
-            "the match never ends" if odds.p_never_ends else None,
-            chance,
-        ),
-        Quantity("mean_games", odds.mean_games, "games, on average", games),
-        Quantity("sd_games", odds.sd_games, "games, standard deviation", games, detail=True),
-        Quantity("games_p50", odds.games_p50, "half of the matches end within", games),
-        Quantity("games_p90", odds.games_p90, "9 out of 10 matches end within", games),
-        Quantity(
-            "p_hill_hill",
-            odds.p_hill_hill,
-            "it goes hill-hill: the last possible game decides",
-            chance,
-        ),
-        Quantity(
-            "p_shutout_a", odds.p_shutout_1, f"{a} wins without losing a game{from_now}", chance
-        ),
-        Quantity(
-            "p_shutout_b", odds.p_shutout_2, f"{b} wins without losing a game{from_now}", chance
-        ),
-        Quantity("scale", None if players.scale is None else players.scale.name),
-    ]
+    from_now = "_from_now" if any(match.score) else ""
+    values = {
+        "p_game_a": _p_game(players),
+        "-p1": players.rack.p1 if players.p_game_a is None else None,
+        "-p2": players.rack.p2,
+        "p_win_a": odds.p_win_1,
+        "p_win_b": odds.p_win_2,
+        **{f"p_win_{who}_exact": str(p) for who, p in zip("ab", p_win, strict=False)},
+        "p_never_ends" if odds.p_never_ends else "-p_never_ends": odds.p_never_ends,
+        "mean_games": odds.mean_games,
+        "sd_games": odds.sd_games,
+        "games_p50": odds.games_p50,
+        "match_p90": odds.games_p90,
+        "p_hill_hill": odds.p_hill_hill,
+        f"p_shutout_a{from_now}": odds.p_shutout_1,
+        f"p_shutout_b{from_now}": odds.p_shutout_2,
+        "scale": None if players.scale is None else players.scale.name,
+    }
     return Answer(
         f"{players.description}\n{match_words(match, players.names)}",
         [
             _in_words(odds, match, players),
             *([_exact_words(p_win, players.names)] if exact else []),
-            Quantities(quantities),
+            Quantities(quantities_of(values, a=a, b=b)),
             *_way(via, odds, match),
             *filter(None, [players.averaged, players.by_form]),
         ],

@@ -5,7 +5,8 @@ from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.chains.ways import Way
 from evenbreak.practice.shots import (
@@ -28,18 +29,9 @@ _SUPPOSED = {
 _OF_LATER = {"later", "p_win_all_shots"}
 """The columns for shots after the first two."""
 
-_COLUMNS = (
-    Column("shot", "shot", left=True),
-    Column("kind", "kind", left=True),
-    Column("p1", "you\nmake", "{:g}".format),
-    Column("p2", "miss\nleaves", "{:g}".format),
-    Column("p_win_infinite", "you win,\nrepeated", chance),
-    Column("p_win_two_shots", "you win,\n2 shots", chance),
-    Column("later", "then", left=True),
-    Column("p_win_all_shots", "you win,\nall shots", chance),
-    Column("critical_p2", "even\nat", chance),
-    Column("behind", "behind\nbest", chance),
-    Column("turning_p2", "best\nup to", chance),
+_COLUMNS = columns_of(
+    "shot kind p1 p2 p_win_infinite p_win_two_shots later p_win_all_shots critical_p2 behind "
+    "turning_p2"
 )
 
 

@@ -1,8 +1,9 @@
 """A match of straight pool: who wins it, how long it takes, and the spot that makes it even."""
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Quantities, Quantity, statistic
-from evenbreak.answers.kit.wording import chance, count_of, games, percent
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Quantities
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.matches.straight_pool import (
     Spot,
     StraightPool,
@@ -37,23 +38,27 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
         [
             _in_words(match, odds, spot),
             Quantities(
-                [
-                    Quantity("p_make_a", float(match.p1)),
-                    Quantity("p_make_b", float(match.p2)),
-                    Quantity("safety", float(match.safety_1)),
-                    Quantity("points_a", match.points_1),
-                    Quantity("points_b", match.points_2),
-                    Quantity("p_win_a", odds.p_win_1, "A wins the match", chance),
-                    Quantity("p_win_b", odds.p_win_2, "B wins the match", chance),
-                    Quantity("p_never_ends", odds.p_never_ends),
-                    Quantity("mean_innings", odds.mean_innings, "innings, on average", games),
-                    statistic("sd_innings", odds.sd_innings, "innings, standard deviation", games),
-                    Quantity("innings_p50", odds.innings_p50, "half of the matches end within"),
-                    Quantity("innings_p90", odds.innings_p90, "9 out of 10 matches end within"),
-                    Quantity("even_points_a", even_a, "even match: A plays to"),
-                    Quantity("even_points_b", even_b, "even match: B plays to"),
-                    Quantity("p_win_a_even", spot.p_win_1, "even match: A wins", chance),
-                ]
+                quantities_of(
+                    {
+                        "p_make_a": float(match.p1),
+                        "p_make_b": float(match.p2),
+                        "safety": float(match.safety_1),
+                        "points_a": match.points_1,
+                        "points_b": match.points_2,
+                        "p_win_a": odds.p_win_1,
+                        "p_win_b": odds.p_win_2,
+                        "-p_never_ends": odds.p_never_ends,
+                        "mean_innings": odds.mean_innings,
+                        "sd_innings": odds.sd_innings,
+                        "innings_p50": odds.innings_p50,
+                        "innings_p90": odds.innings_p90,
+                        "even_points_a": even_a,
+                        "even_points_b": even_b,
+                        "p_win_a_even": spot.p_win_1,
+                    },
+                    a="A",
+                    b="B",
+                )
             ),
         ],
     )

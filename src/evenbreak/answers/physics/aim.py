@@ -4,15 +4,10 @@ import math
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
-from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.physics.hit import SQUIRT, Hit, Unit, Units, degrees
 from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensitivity
-
-_AIM_WORDS = {
-    "throw_deg": ("throw, degrees", 2),
-    "aim_cut_deg": ("cut angle to aim for, degrees", 2),
-}
 
 
 def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
@@ -48,11 +43,9 @@ def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
     quantities = [
         *hit.asked(aimed, units.speed),
         length.quantity("distance", distance),
-        *worded(angles, _AIM_WORDS),
-        length.quantity("offset", offset, "aim to the right of the middle of the pocket"),
-        length.quantity(
-            "rule_offset", hit.hand * found.offset_of_text, "the same by the rule of thumb"
-        ),
+        *quantities_of(angles),
+        length.quantity("offset_to_aim", offset),
+        length.quantity("rule_offset", hit.hand * found.offset_of_text),
     ]
     left_out = [SQUIRT] if hit.side else []
     return Answer(
@@ -86,19 +79,6 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
     )
 
 
-_THROW_WORDS = {
-    "throw_deg": ("throw, degrees", 2),
-    "object_cut_deg": ("angle at which the object ball leaves, degrees", 2),
-    "no_throw_side": ("english that cancels the throw, --side", 3),
-}
-_DETAILS = {
-    "throw_factor": ("share of the friction that acts sideways, -1 to 1", 3),
-    "sensitivity": ("sensitivity: change of that share per unit of spin", 2),
-    "friction_stops": ("the balls stop slipping during contact, which limits the throw", 0),
-    "object_side": ("sidespin J that the object ball takes on", 3),
-}
-
-
 def throw_answer(hit: Hit, units: Units) -> Answer:
     """Return the throw of a hit.
 
@@ -116,12 +96,12 @@ def throw_answer(hit: Hit, units: Units) -> Answer:
         "throw_deg": throw,
         "object_cut_deg": hit.cut - hit.hand * throw,
         "throw_factor": factor,
-        "sensitivity": sensitivity if math.isfinite(sensitivity) else None,
+        "throw_sensitivity": sensitivity if math.isfinite(sensitivity) else None,
         "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * found.mu * abs(factor),
         "no_throw_side": gearing_side(shot[0]),
         "object_side": given,
     }
-    quantities = [*hit.asked(found, units.speed), *worded(values, _THROW_WORDS, _DETAILS)]
+    quantities = [*hit.asked(found, units.speed), *quantities_of(values)]
     return Answer(
         hit.heading(found, units.speed), [throw_words(throw, hit), Quantities(quantities)]
     )

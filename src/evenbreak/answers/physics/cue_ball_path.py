@@ -3,8 +3,8 @@
 import math
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
-from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.physics.hit import Hit, Units, degrees
 from evenbreak.physics.collision import Collision
 from evenbreak.physics.deflection import (
@@ -18,22 +18,6 @@ from evenbreak.physics.deflection import (
     split_roll_cut,
 )
 from evenbreak.physics.slide import roll_velocity
-
-_WORDS = {
-    "deflection_deg": ("deflection without friction between the balls, degrees", 2),
-    "deflection_thrown_deg": ("deflection with friction between the balls, degrees", 2),
-    "throw_deg": ("throw of the object ball, degrees", 2),
-    "departure_deg": ("angle between the two paths just after the hit, degrees", 2),
-}
-_DETAILS = {
-    "sensitivity": ("change of the deflection per degree of cut, degrees", 3),
-    "largest_deflection_deg": ("largest deflection at any cut, degrees", 2),
-    "largest_deflection_cut_deg": ("cut for that, degrees", 2),
-    "right_angle_cut_deg": ("cut for a deflection of 90 degrees, degrees", 2),
-    "equal_energy_cut_deg": ("cut at which both balls roll with the same energy, degrees", 2),
-    "object_energy_share": ("the object ball's share of the energy just after the hit", 3),
-    "object_energy_share_rolling": ("the object ball's share of the energy once both roll", 3),
-}
 
 _AT_REST = 1e-12
 """The speed below which a ball counts as standing still, over that of the cue ball."""
@@ -60,7 +44,7 @@ def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
         "deflection_thrown_deg": rough,
         "throw_deg": found.throw,
         "departure_deg": _departure(found),
-        "sensitivity": None if stops else deflection_slope(angle, topspin),
+        "deflection_sensitivity": None if stops else deflection_slope(angle, topspin),
         "largest_deflection_deg": None if largest is None else deflection(largest, topspin),
         "largest_deflection_cut_deg": largest,
         "right_angle_cut_deg": right_angle_cut(topspin) if -2.5 <= topspin < 0.0 else None,
@@ -76,7 +60,7 @@ def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
         "object_energy_share_rolling": _object_share(energy_in_roll(angle, topspin)),
     }
     sentence = path_words(in_degrees["deflection_thrown_deg"], in_degrees["deflection_deg"], hit)
-    quantities = [*hit.asked(found, units.speed), *worded(values, _WORDS, _DETAILS)]
+    quantities = [*hit.asked(found, units.speed), *quantities_of(values)]
     return Answer(hit.heading(found, units.speed), [sentence, Quantities(quantities)])
 
 

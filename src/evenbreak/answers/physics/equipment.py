@@ -3,18 +3,12 @@
 import math
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
-from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.answers.physics.hit import IMPERIAL, Unit, Units
 from evenbreak.physics.rolling import TABLE_SPEEDS, lag_speed, table_speed
 from evenbreak.physics.strike import best_stick_ratio, break_energy_share
-
-_BREAK_WORDS = {
-    "energy_share": ("share of the stroke's energy that reaches the cue ball", 3),
-    "stick_energy_share": ("the same with your cue (--stick)", 3),
-    "stick_speed_share": ("speed of the break with your cue / with the best", 3),
-}
 
 
 def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | None) -> Answer:
@@ -41,12 +35,12 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
     sentence = f"The best cue to break with weighs {weight.text(best * ball)}."
     if stick is not None and speed is not None:
         sentence += f" One of {weight.typed(stick)} breaks {_slower(speed)} for the same effort."
-    optimal = weight.quantity("optimal_cue", best * ball, "best cue", 1)
-    ounces = IMPERIAL.mass.quantity("optimal_cue", best * ball)
+    optimal = weight.quantity("optimal_cue", best * ball)
+    ounces = IMPERIAL.mass.quantity("-optimal_cue", best * ball)
     values = {"energy_share": most, "stick_energy_share": share, "stick_speed_share": speed}
     quantities = [
         *([optimal] if weight is IMPERIAL.mass else [ounces, optimal]),
-        *worded(values, _BREAK_WORDS),
+        *quantities_of(values),
     ]
     return Answer(
         f"Forearm and hand of {weight.typed(forearm)}, cue ball of {weight.typed(ball)}",
@@ -64,8 +58,6 @@ def _slower(speed: float) -> str:
     return f"{percent}% slower" if float(percent) else "as fast"
 
 
-_TABLE_WORDS = {"table_speed": ("table speed", 1)}
-_DETAILS = {"mu_roll": ("effective rolling friction, 1 / table speed", 4)}
 _LEAST, _MOST = 40.0, 250.0
 """Outside these speeds a wrong time or unit is likelier than such a table."""
 
@@ -82,9 +74,9 @@ def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer
     values = {"table_speed": speed, "mu_roll": 1.0 / speed, "cloth": cloth}
     pace = lag_speed(lag_time, distance=distance)
     quantities = [
-        *worded(values, _TABLE_WORDS, _DETAILS),
-        units.speed.quantity("first_speed", pace, "speed of the ball off the cushion"),
-        units.length.quantity("roll", distance, "distance that its centre rolls", detail=True),
+        *quantities_of(values),
+        units.speed.quantity("first_speed", pace),
+        units.length.quantity("roll", distance),
     ]
     doubts = []
     if not _LEAST <= speed <= _MOST:

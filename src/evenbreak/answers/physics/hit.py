@@ -3,8 +3,8 @@
 import math
 from typing import Any, NamedTuple
 
+from evenbreak.answers.kit.columns import quantities_of, quantity_of
 from evenbreak.answers.kit.parts import Quantity
-from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import SlipFriction
@@ -45,24 +45,15 @@ class Unit(NamedTuple):
         """
         return f"{value / self.size:.6g} {self.words}"
 
-    def quantity(
-        self,
-        name: str,
-        value: float | None,
-        words: str | None = None,
-        places: int = 2,
-        *,
-        detail: bool = False,
-    ) -> Quantity:
+    def quantity(self, key: str, value: float | None) -> Quantity:
         """Return a value, given in SI units, as a quantity in this unit.
 
-        >>> quantity = METRIC.speed.quantity("ball_speed", 1.5, "speed of the ball")
+        >>> quantity = METRIC.speed.quantity("ball_speed", 1.5)
         >>> quantity.name, quantity.value, quantity.words
         ('ball_speed_m_s', 1.5, 'speed of the ball, metres per second')
         """
         number = None if value is None else float(value) / self.size
-        heading = None if words is None else f"{words}, {self.words}"
-        return Quantity(f"{name}_{self.key}", number, heading, decimals(places), detail=detail)
+        return quantity_of(key, number, unit=self.key, units=self.words)
 
 
 class Units(NamedTuple):
@@ -216,13 +207,13 @@ class Hit(NamedTuple):
             the unit of speed.
         """
         values: dict[str, Any] = {
-            "cut_deg": self.cut,
+            "-cut_deg": self.cut,
             "topspin": self.topspin,
-            "side": self.side,
+            "-side": self.side,
             "english": self.english,
             **friction_values(self.mu, found, self.friction),
         }
-        return [*worded(values, {}), speed.quantity("hit_speed", self.speed)]
+        return [*quantities_of(values), speed.quantity("-hit_speed", self.speed)]
 
     def heading(self, found: Collision, speed: Unit, *more: str) -> str:
         """Return what is hit and how, and what friction is assumed, in two lines."""

@@ -4,8 +4,8 @@ import math
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Quantities, Quantity, Table
-from evenbreak.answers.kit.worded import worded
+from evenbreak.answers.kit.columns import columns_of, quantities_of, quantity_of
+from evenbreak.answers.kit.parts import Quantities, Quantity, Table
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.answers.physics.hit import (
     SQUIRT,
@@ -20,18 +20,6 @@ from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.deflection import deflection
 from evenbreak.physics.leg import Leg, Phase, Pocket
 from evenbreak.physics.shot import Shot, spin_ratios
-
-_WORDS = {
-    "cut_deg": ("cut angle, degrees", 2),
-    "hit_spin_speed_ratio": ("topspin J at the hit (1 is natural roll)", 3),
-    "hit_side_spin_speed_ratio": ("sidespin J at the hit (above 0 is right)", 3),
-    "throw_deg": ("throw of the object ball, degrees", 2),
-    "deflection_thrown_deg": ("deflection of the cue ball, degrees", 2),
-}
-_DETAILS = {
-    "deflection_deg": ("deflection without friction between the balls, degrees", 2),
-    "energy_lost_at_hit_j": ("energy lost at the hit, joules", 3),
-}
 
 
 def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = None) -> Answer:
@@ -61,9 +49,9 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
         *_tip(found, units),
         *_hit(found, units),
         *_aim(aimed, units),
-        *_way("approach", "", found.approach, units),
-        *_way("cue", "cue ball", found.cue_leg, units),
-        *_way("object", "object ball", found.object_leg, units),
+        *_way("approach", found.approach, units),
+        *_way("cue", found.cue_leg, units),
+        *_way("object", found.object_leg, units),
     ]
     words = shot_words(found, aimed, units, pocket) + ([SQUIRT] if found.strike.side else [])
     return Answer(
@@ -76,16 +64,16 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
 def _tip(found: Shot, units: Units) -> list[Quantity]:
     strike = found.strike
     values = {
-        "spin_speed_ratio": strike.topspin,
-        "side_spin_speed_ratio": strike.side,
+        "-spin_speed_ratio": strike.topspin,
+        "-side_spin_speed_ratio": strike.side,
         "direction_deg": _degrees(-math.remainder(found.direction, 2.0 * math.pi)),
         "cut_deg": _degrees(found.cut),
         "reached": found.reached,
     }
     return [
-        units.speed.quantity("ball_speed", strike.speed, "speed of the cue ball off the tip"),
+        units.speed.quantity("speed_off_tip", strike.speed),
         units.speed.quantity("stick_speed", strike.stick_speed),
-        *worded(values, _WORDS),
+        *quantities_of(values),
     ]
 
 
@@ -104,16 +92,16 @@ def _hit(found: Shot, units: Units) -> list[Quantity]:
         "hit_spin_speed_ratio": topspin,
         "hit_side_spin_speed_ratio": side,
         "throw_deg": _degrees(throw),
-        "object_cut_deg": _degrees(object_cut),
+        "-object_cut_deg": _degrees(object_cut),
         "deflection_deg": _degrees(smooth),
         "deflection_thrown_deg": _degrees(found.deflection),
         "energy_lost_at_hit_j": lost,
     }
     return [
-        Quantity("hit_s", state and state.time),
-        units.speed.quantity("hit_speed", speed, "speed of the cue ball at the hit"),
-        *worded(friction_values(found.mu, found.collision, found.friction), {}),
-        *worded(values, _WORDS, _DETAILS),
+        quantity_of("hit_s", state and state.time),
+        units.speed.quantity("hit_speed", speed),
+        *quantities_of(friction_values(found.mu, found.collision, found.friction)),
+        *quantities_of(values),
     ]
 
 
@@ -128,12 +116,12 @@ def _aim(aimed: AimedShot | None, units: Units) -> list[Quantity]:
         length("target_x", x),
         length("target_y", y),
         length("aim_offset", offset),
-        Quantity("aim_turn_deg", _degrees(turn)),
+        quantity_of("aim_turn_deg", _degrees(turn)),
         length("miss", miss),
     ]
 
 
-def _way(name: str, ball: str, leg: Leg | None, units: Units) -> list[Quantity]:
+def _way(name: str, leg: Leg | None, units: Units) -> list[Quantity]:
     """Return how far a ball slides and rolls, and where and how its way ends."""
     slides = rolls = x = y = time = speed = ending = pocket = None
     if leg is not None:
@@ -144,15 +132,13 @@ def _way(name: str, ball: str, leg: Leg | None, units: Units) -> list[Quantity]:
         ending, pocket, time = leg.ending, leg.pocket or None, leg.end
         speed = 0.0 if ending == "rest" else end.speed
     length = units.length.quantity
-    heading = f"{ball} ends, from the head cushion" if ball else None
     return [
         length(f"{name}_slide", slides),
         length(f"{name}_roll", rolls),
-        Quantity(f"{name}_end", ending),
-        Quantity(f"{name}_pocket", pocket),
-        length(f"{name}_end_x", x, heading, 1, detail=True),
-        length(f"{name}_end_y", y, "and from the right one" if ball else None, 1, detail=True),
-        Quantity(f"{name}_end_s", time),
+        *quantities_of({f"{name}_end": ending, f"{name}_pocket": pocket}),
+        length(f"{name}_end_x", x),
+        length(f"{name}_end_y", y),
+        quantity_of(f"{name}_end_s", time),
         units.speed.quantity(f"{name}_end_speed", speed),
     ]
 
@@ -170,18 +156,11 @@ def _phases(found: Shot, units: Units) -> Table:
     """Return the phases as a person reads them."""
     length, speed = units.length, units.speed
     far, fast = length.key, speed.key.replace("_", "/")
-    hundredths, joules = decimals(2), decimals(3)
-    columns = [
-        Column("ball", "", left=True),
-        Column("motion", "", left=True),
-        Column("begin_s", "from\ns", hundredths),
-        Column("end_s", "to\ns", hundredths),
-        Column("length", f"travels\n{far}", decimals(1)),
-        Column("speed", f"speed\n{fast}", hundredths),
-        Column("end_speed", f"at end\n{fast}", hundredths),
-        Column("energy", "energy\njoules", joules, detail=True),
-        Column("end_energy", "at end\njoules", joules, detail=True),
-    ]
+    columns = columns_of(
+        "ball motion begin_s end_s phase_length speed end_speed energy end_energy",
+        far=far,
+        fast=fast,
+    )
     rows = []
     for leg, phase in _moves(found):
         ends = (phase.begin, phase.end)

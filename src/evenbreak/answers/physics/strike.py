@@ -4,8 +4,8 @@ import math
 from dataclasses import replace
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities, Quantity
-from evenbreak.answers.kit.worded import worded
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.answers.physics.hit import Units, spin_words
 from evenbreak.errors import InputError
@@ -20,22 +20,6 @@ from evenbreak.physics.offset import (
 )
 from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
 from evenbreak.physics.strike import Strike
-
-_WORDS = {
-    "spin_speed_ratio": ("topspin J (1 is natural roll)", 3),
-    "side_spin_speed_ratio": ("sidespin J (above 0 is right)", 3),
-    "roll_side_spin_speed_ratio": ("sidespin J once the ball rolls", 3),
-    "ball_speed_ratio": ("speed of the ball / speed of the cue", 3),
-    "later_spin_speed_ratio": ("topspin J at --distance", 3),
-    "later_side_spin_speed_ratio": ("sidespin J at --distance", 3),
-    "stun_offset": ("--offset for a stun shot at --distance, at the same speed of the ball", 3),
-}
-_DETAILS = {
-    "off_centre": ("distance from the centre, in radii", 3),
-    "miscue_offset": ("largest distance without a miscue, in radii", 3),
-    "roll_speed_ratio": ("the same once the ball rolls", 3),
-    "later_offset": ("offset that gives that topspin at once", 3),
-}
 
 MOST_TIP_FRICTION = 1.0
 """No tip has a higher coefficient of friction."""
@@ -88,7 +72,7 @@ def strike_answer(
     speed = f"; cue at {units.speed.typed(strike.stick_speed)}" if speed_known else ""
     return Answer(
         f"{tip_words(strike)}{speed}",
-        [sentence, Quantities([*worded(place, _WORDS, _DETAILS), *found])],
+        [sentence, Quantities([*quantities_of(place), *found])],
     )
 
 
@@ -161,16 +145,16 @@ def _found(
     stun = stun_distance(pace, spin, cloth) if spin < 0.0 else None
     speed, length = units.speed.quantity, units.length.quantity
     moving = [
-        speed("ball_speed", pace, "speed of the ball"),
-        speed("stick_speed_after", strike.stick_speed_after, "speed of the cue after", detail=True),
-        speed("roll_speed", roll_speed(pace, pace * spin), "speed of the ball once it rolls"),
-        length("slide", drag_distance(pace, spin, cloth), "distance until it rolls"),
-        length("stun", stun, "distance until it is a stun shot"),
+        speed("ball_speed", pace),
+        speed("stick_speed_after", strike.stick_speed_after),
+        speed("roll_speed", roll_speed(pace, pace * spin)),
+        length("slide", drag_distance(pace, spin, cloth)),
+        length("stun", stun),
     ]
     if not speed_known:
         moving = [replace(one, value=None) for one in moving]
-    later = worded(_later(strike, cloth, distance), _WORDS, _DETAILS)
-    return [*worded(spins, _WORDS, _DETAILS), *moving, *later]
+    later = quantities_of(_later(strike, cloth, distance))
+    return [*quantities_of(spins), *moving, *later]
 
 
 def _later(strike: Strike, cloth: Cloth, distance: float | None) -> dict[str, float | None]:

@@ -5,18 +5,16 @@ from itertools import pairwise
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
 from evenbreak.answers.kit.simulated import luck_words
-from evenbreak.answers.kit.wording import chance, count_of, decimals
+from evenbreak.answers.kit.wording import count_of
 from evenbreak.chains.ways import Way
 from evenbreak.files.practice import DrillLogFile
 from evenbreak.practice.drills import MORE, DrillStatistics, drill_statistics
 from evenbreak.practice.log_analysis import LogAnalysis
 from evenbreak.practice.log_tests import PlayedAgainTest
 from evenbreak.stats.summary import Distribution
-
-MUCH = 1e6
-"""From here on a gain is shown with three digits."""
 
 
 def drill_answer(
@@ -49,18 +47,21 @@ def drill_answer(
             "Odd-numbered and even-numbered attempts are at different levels for ever; the long "
             "run is the average of both."
         )
-    columns = [
-        Column("level", "level", left=True),
-        Column("p_success", "success", chance),
-        Column("long_run", "share of attempts\nin the long run", chance),
-        Column("gain", "gain", amount, detail=True),
-        Column("lift", "five more in 100\nraise the average by", amount),
-    ]
+    columns = columns_of("level p_success long_run_share gain lift_of_five")
     return Answer(
         description,
         [*parts, Table("levels", columns, list(rows)), *_way(via, statistics)],
         details=[
-            Quantities([Quantity("mean", law.mean, "average level", decimals(3)), *spread(law)]),
+            Quantities(
+                [
+                    *quantities_of(
+                        {
+                            "mean_level": law.mean,
+                        }
+                    ),
+                    *spread(law),
+                ]
+            ),
             GAIN_WORDS,
         ],
         data={"practise_next": statistics.practise_next, "period": statistics.period},
@@ -97,25 +98,18 @@ GAIN_WORDS = (
 
 def spread(law: Distribution) -> list[Quantity]:
     """Return the summary of the level in the long run, without its mean."""
-    return [
-        Quantity("median", law.median, "median: half of the attempts are at this or below"),
-        Quantity("mode", law.mode, "mode: the most frequent level"),
-        Quantity("sd", law.sd, "standard deviation", decimals(3)),
-    ]
+    return quantities_of(
+        {
+            "median_level": law.median,
+            "mode_level": law.mode,
+            "sd_level": law.sd,
+        }
+    )
 
 
 def better(p: float) -> str:
     """Return the improvement by which levels are compared, from a chance p."""
     return "five more successes in 100" if p <= 1.0 - MORE else "successes without a miss"
-
-
-def amount(value: float) -> str:
-    """Return a gain or a lift with three decimals, or three digits if it is huge.
-
-    >>> amount(2.3014), amount(5.56e299), amount(float("inf"))
-    ('2.301', '5.56e+299', 'inf')
-    """
-    return f"{value:.3f}" if value < MUCH else f"{value:.3g}"
 
 
 UNLIKELY = 0.05
@@ -188,23 +182,10 @@ def _heading(file: DrillLogFile, *, levels_given: bool) -> str:
 
 
 def _table(analysis: LogAnalysis) -> Table:
-    columns = [
-        Column("level", "level", left=True),
-        Column("attempts", "tried"),
-        Column("successes", "made"),
-        Column("p_success", "success", chance),
-        Column("p_low", "between", decimals(2)),
-        Column("p_high", "and", decimals(2)),
-        Column("p_model", "model", chance, detail=True),
-        Column("visited", "so far", chance),
-        Column("expected", "by\nchance", chance, detail=True),
-        Column("long_run", "long run", chance),
-        Column("gain", "gain", amount, detail=True),
-        Column("lift", "lift", amount),
-        Column("lift_low", "lift\nfrom", amount, detail=True),
-        Column("lift_high", "to", amount, detail=True),
-        Column("p_best", "best", decimals(2)),
-    ]
+    columns = columns_of(
+        "level attempts successes p_success p_low p_high p_model visited expected_by_chance "
+        "long_run gain lift lift_low lift_high p_best_level"
+    )
     return Table(
         "levels",
         columns,
@@ -219,18 +200,15 @@ def _table(analysis: LogAnalysis) -> Table:
 def _averages(analysis: LogAnalysis) -> Quantities:
     low, high = analysis.mean_low, analysis.mean_high
     return Quantities(
-        [
-            Quantity("mean_so_far", analysis.visited.mean, "average level so far", decimals(2)),
-            Quantity(
-                "mean",
-                analysis.implied.mean,
-                "average level in the long run",
-                decimals(2),
-                note=f"(between {low:.2f} and {high:.2f})",
-            ),
-            Quantity("mean_low", low),
-            Quantity("mean_high", high),
-        ]
+        quantities_of(
+            {
+                "mean_so_far": analysis.visited.mean,
+                "mean_in_long_run": analysis.implied.mean,
+                "mean_low": low,
+                "mean_high": high,
+            },
+            notes={"mean_in_long_run": f"(between {low:.2f} and {high:.2f})"},
+        )
     )
 
 

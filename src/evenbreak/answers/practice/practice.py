@@ -5,11 +5,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Part, Quantities, Quantity, statistic
-from evenbreak.answers.kit.wording import chance, count_of, decimals, how_often, luck_words, percent
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Quantity
+from evenbreak.answers.kit.wording import count_of, decimals, how_often, luck_words, percent
 from evenbreak.arrays import Floats
 from evenbreak.files.practice import ScoresFile
-from evenbreak.stats.compare import Comparison, Scores
+from evenbreak.stats.compare import Comparison
 from evenbreak.stats.confidence import Luck, MeanInterval, mean_interval, sd_of, was_it_luck
 from evenbreak.stats.trend import Trend, TrendLine, trend, trend_line
 
@@ -24,15 +25,8 @@ EXPECTED_AT_LEAST = 5.0
 LUCK = 0.1
 """From this p-value on, a difference or a slope is no sign of a change."""
 
-TESTS = (
-    ("welch", "Welch's t: are the averages equal?"),
-    ("student", "Student's t: the same, if the spreads are equal"),
-    ("anova", "analysis of variance: the same again"),
-    ("variances", "F: are the spreads equal?"),
-    ("mann_whitney", "Mann-Whitney: by ranks"),
-    ("chi_squared", "chi-squared: above or below the median of all"),
-)
-"""Each test, with the question that it answers."""
+TESTS = ("welch", "student", "anova", "variances", "mann_whitney", "chi_squared")
+"""The tests whose p-values are shown."""
 
 
 def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Comparison) -> Answer:
@@ -76,43 +70,33 @@ def _scores(file: ScoresFile) -> str:
 
 def _quantities(found: Comparison) -> list[Quantity]:
     effect = found.effect
-    return [
-        *_summary("before", found.before),
-        *_summary("after", found.after),
-        Quantity("confidence", found.confidence),
-        Quantity(
-            "difference", found.difference, "difference", TWO, _between(found.low, found.high)
-        ),
-        Quantity("low", found.low),
-        Quantity("high", found.high),
-        *(
-            statistic(f"p_{name}", test and test.p_value, words, chance)
-            for name, words in TESTS
-            for test in [getattr(found, name)]
-        ),
-        statistic(
-            "g",
-            effect.g,
-            "Hedges' g: difference in standard deviations",
-            TWO,
-            _between(effect.low, effect.high),
-        ),
-        Quantity("g_low", effect.low),
-        Quantity("g_high", effect.high),
-        Quantity("p_after_higher", effect.p_after_higher, "the later score is higher", chance),
-    ]
+    tests = {name: getattr(found, name) for name in TESTS}
+    values = {
+        "n_before": found.before.n,
+        "mean_before": found.before.mean,
+        "sd_before": found.before.sd,
+        "n_after": found.after.n,
+        "mean_after": found.after.mean,
+        "sd_after": found.after.sd,
+        "confidence": found.confidence,
+        "mean_difference": found.difference,
+        "low": found.low,
+        "high": found.high,
+        **{f"p_{name}": test and test.p_value for name, test in tests.items()},
+        "g": effect.g,
+        "g_low": effect.low,
+        "g_high": effect.high,
+        "p_after_higher": effect.p_after_higher,
+    }
+    notes = {
+        "mean_difference": _between(found.low, found.high),
+        "g": _between(effect.low, effect.high),
+    }
+    return quantities_of(values, notes=notes)
 
 
 def _between(low: float | None, high: float | None) -> str:
     return f"({low:.2f} to {high:.2f})" if low is not None else ""
-
-
-def _summary(when: str, scores: Scores) -> list[Quantity]:
-    return [
-        Quantity(f"n_{when}", scores.n),
-        Quantity(f"mean_{when}", scores.mean, f"average {when}", TWO),
-        statistic(f"sd_{when}", scores.sd, f"standard deviation {when}", TWO),
-    ]
 
 
 def _change_in_words(found: Comparison) -> str:
@@ -194,20 +178,23 @@ def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answ
     normal = own and mean_interval(file.scores, confidence, method="normal")
     share = f"{100 * confidence:g}%"
     mean = float(file.scores.mean())
-    quantities = [
-        Quantity("n", len(file.scores)),
-        Quantity("mean", mean, "average", TWO, note=_interval(own)),
-        statistic("sd", own and own.sd, "standard deviation", TWO),
-        Quantity("confidence", confidence),
-        Quantity("low", own and own.low),
-        Quantity("high", own and own.high),
-        Quantity("low_normal", normal and normal.low),
-        Quantity("high_normal", normal and normal.high),
-        Quantity("slope_per_week", line and line.slope, "change in a week", TWO, _interval(line)),
-        Quantity("slope_low", line and line.low),
-        Quantity("slope_high", line and line.high),
-        statistic("p_slope", line and line.p_value, "chance of such a slope by luck", chance),
-    ]
+    quantities = quantities_of(
+        {
+            "n": len(file.scores),
+            "mean": mean,
+            "sd": own and own.sd,
+            "confidence": confidence,
+            "low": own and own.low,
+            "high": own and own.high,
+            "low_normal": normal and normal.low,
+            "high_normal": normal and normal.high,
+            "slope_per_week": line and line.slope,
+            "slope_low": line and line.low,
+            "slope_high": line and line.high,
+            "p_slope": line and line.p_value,
+        },
+        notes={"mean": _interval(own), "slope_per_week": _interval(line)},
+    )
     details: list[Part] = []
     if normal is not None:
         details.append(
@@ -327,34 +314,28 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
     luck = was_it_luck(file.scores, score, confidence=confidence)
     sd = mean_interval(file.scores, confidence).sd
     high = score >= luck.mean
-    as_high, as_low = ("this high", None) if high else (None, "this low")
-    more, share = f"among {luck.n + 1} scores, by rank alone", f"{100 * confidence:g}%"
-    quantities = [
-        Quantity("score", score),
-        Quantity("n", luck.n),
-        Quantity("mean", luck.mean, "average before", TWO),
-        statistic("sd", sd, "standard deviation before", TWO),
-        Quantity("confidence", confidence),
-        statistic("units", luck.t.units, "standard units off, by Student's t", TWO),
-        Quantity("p_as_far", luck.t.as_far, "this far off by luck, up or down", chance),
-        Quantity("p_as_high", luck.t.as_high, as_high and f"{as_high} by luck", chance),
-        Quantity("p_as_low", luck.t.as_low, as_low and f"{as_low} by luck", chance),
-        statistic(
-            "p_as_high_by_rank", luck.as_high_by_rank, as_high and f"{as_high} {more}", chance
-        ),
-        statistic("p_as_low_by_rank", luck.as_low_by_rank, as_low and f"{as_low} {more}", chance),
-        statistic(
-            "units_normal", luck.normal.units, "standard units off, by the normal distribution", TWO
-        ),
-        statistic("p_as_far_normal", luck.normal.as_far, "this far off, by that", chance),
-        statistic(
-            "units_cautious",
-            luck.cautious.units,
-            f"standard units beyond the {share} interval",
-            TWO,
-        ),
-        statistic("p_as_far_cautious", luck.cautious.as_far, "this far off, by that", chance),
-    ]
+    share, as_high, as_low = f"{100 * confidence:g}%", "" if high else "-", "-" if high else ""
+    quantities = quantities_of(
+        {
+            "-score": score,
+            "n": luck.n,
+            "mean_earlier": luck.mean,
+            "sd_earlier": sd,
+            "confidence": confidence,
+            "units": luck.t.units,
+            "p_as_far": luck.t.as_far,
+            f"{as_high}p_as_high": luck.t.as_high,
+            f"{as_low}p_as_low": luck.t.as_low,
+            f"{as_high}p_as_high_by_rank": luck.as_high_by_rank,
+            f"{as_low}p_as_low_by_rank": luck.as_low_by_rank,
+            "units_normal": luck.normal.units,
+            "p_as_far_normal": luck.normal.as_far,
+            "units_cautious": luck.cautious.units,
+            "p_as_far_cautious": luck.cautious.as_far,
+        },
+        share=share,
+        n=luck.n + 1,
+    )
     return Answer(
         f"{score:g} after {count_of(luck.n, 'score')} in {file.source}",
         [_luck_in_words(luck), Quantities(quantities)],

@@ -4,8 +4,9 @@ import math
 from dataclasses import dataclass
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Quantities, Quantity, statistic
-from evenbreak.answers.kit.wording import chance, decimals, games, percent
+from evenbreak.answers.kit.columns import quantities_of, quantity_of
+from evenbreak.answers.kit.parts import Quantities
+from evenbreak.answers.kit.wording import percent
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
 
@@ -69,28 +70,23 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
         for key, (_, low, high) in ranges.items()
     }
     not_over = None if losing is None else law.cumulative(losing)
-    quantities = [
-        Quantity("p_make", float(law.p), "chance of making a shot", chance),
-        Quantity("safety", safety),
-        Quantity("innings", innings),
-        Quantity("mean", law.mean, "average: the fair line if every ball pays", decimals(2)),
-        Quantity("median", law.median, "median: the fair line for over or under", games),
-        Quantity("mode", law.mode, "mode: the most likely number", games),
-        statistic("sd", law.sd, "standard deviation", decimals(2)),
-        statistic("relative_sd", law.relative_sd, "standard deviation / average", decimals(3)),
+    values = {
+        "p_make": float(law.p),
+        "safety": safety,
+        "innings": innings,
+        "mean_run": law.mean,
+        "median_run": law.median,
+        "mode_run": law.mode,
+        "sd": law.sd,
+        "relative_sd": law.relative_sd,
         # With safety play blank innings stand apart, and the rule does not hold for several.
-        statistic(
-            "median_estimate",
-            law.median_estimate if innings == 1 or safety == 1 else None,
-            "median, by the rule of thumb",
-            decimals(2),
-        ),
-        *(
-            Quantity(key, chances.get(key), ranges[key][0] if key in ranges else None, chance)
-            for key in ("p_at_least", "p_between", "p_over")
-        ),
-        Quantity("p_not_over", not_over, f"not over: {losing} or fewer", chance),
-    ]
+        "median_estimate": law.median_estimate if innings == 1 or safety == 1 else None,
+    }
+    quantities = quantities_of(values)
+    for key in ("p_at_least", "p_between", "p_over"):
+        words, *_ = ranges.get(key, ("",))
+        quantities.append(quantity_of(key, chances.get(key), range=words))
+    quantities.append(quantity_of("p_not_over", not_over, losing=losing))
     return Answer(
         _heading(law, innings),
         [

@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Table
-from evenbreak.answers.kit.wording import chance, count_of, decimals, percent
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Table
+from evenbreak.answers.kit.wording import count_of, decimals, percent
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.league.dump_cycle import DumpCycle, best_cycle
@@ -126,7 +127,7 @@ def sandbag_pay_answer(
             f"the rating is then {ladder.widest} points below the skill",
         ]
     plain = [tuple(map(_finite, row)) for row in found.pays.rows]
-    rows = Table("rows", [Column(name) for name in best._fields], plain)
+    rows = Table("rows", in_files(best._fields), plain)
     return Answer(
         _heading(found, question),
         [*_in_words(found, question), _by_dumped(found.pays.rows, question), _EXPLANATION],
@@ -208,16 +209,11 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
 
 
 def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
-    columns = [
-        Column("dumped", "matches\ndumped"),
-        Column("given_away", "given\naway", NUMBER),
-        Column("p_first", "wins\nthe next", chance),
-        Column("p_in_a_row", f"wins {question.in_a_row}\nin a row", chance),
-        Column("extra_wins", f"extra\nwins in {question.earnest}", NUMBER),
-        Column("for_the_last", "by the\nlast", NUMBER),
-        Column("break_even", "pays\nfrom", NUMBER),
-        Column("profit", "profit", NUMBER),
-    ]
+    columns = columns_of(
+        "dumped given_away p_first p_in_a_row extra_wins for_the_last pays_from profit",
+        wins=question.in_a_row,
+        matches=question.earnest,
+    )
     of_dumps = ("given_away", "extra_wins", "for_the_last", "profit")
     view = [
         [
@@ -231,16 +227,11 @@ def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
 
 def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -> Answer:
     """Return what sandbagging pays on each chart of a system; in files, a row for each."""
-    columns = [
-        Column("chart", "chart", left=True),
-        Column("dumped", "best\ndumped"),
-        Column("p_first", "wins\nthe next", chance),
-        Column("p_in_a_row", f"wins {question.in_a_row}\nin a row", chance),
-        Column("extra_wins", f"extra\nwins in {question.earnest}", NUMBER),
-        Column("break_even", "pays\nfrom", NUMBER),
-        Column("profit", "profit", NUMBER),
-        Column("enters_low", "enters\nlow", NUMBER),
-    ]
+    columns = columns_of(
+        "chart best_dumped p_first p_in_a_row extra_wins pays_from profit enters_low",
+        wins=question.in_a_row,
+        matches=question.earnest,
+    )
     rows = []
     for one in found:
         best, name = one.all_pays.best, one.ladder.chart.name

@@ -6,9 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from evenbreak.answers.columns.shown import evidence
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, race, some_of
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import count_of, listed, percent, race, some_of
 from evenbreak.league.sandbag_watch import PlayedNight, Watched
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.fit import fit
@@ -86,7 +88,7 @@ def sandbag_watch_answer(
         what may be wrong with what was given.
     """
     rows = watch_rows(watched, results)
-    players = Table("players", [Column(name, cell=_yes) for name in WatchRow._fields], rows)
+    players = Table("players", in_files(WatchRow._fields, cell=_yes), rows)
     if not rows:
         data: dict[str, Any] = {"alpha": None, "honest": None, "tried_events": []}
         return Answer(source, ["No match was played."], warnings=warnings, data=data, csv=players)
@@ -236,15 +238,7 @@ def _tried(one: Watched) -> Iterator[str]:
 
 def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
     shown = rows[: max(SHOWN, sum(row.flagged for row in rows))]
-    columns = [
-        Column("player", "player", left=True),
-        Column("matches", "matches"),
-        Column("won", "won"),
-        Column("e_value", "evidence\nnow", evidence),
-        Column("largest_e", "highest", evidence),
-        Column("alarm_match", "flagged\nat match"),
-        Column("alarm_date", "on"),
-    ]
+    columns = columns_of("player matches won e_value_now largest_e alarm_match alarm_date")
     names = [column.name for column in columns]
     yield Table("", columns, [[getattr(row, str(name)) for name in names] for row in shown])
     if len(rows) > len(shown):
@@ -265,7 +259,7 @@ def sandbag_player_answer(
     ]
     names = ("date", "opponent", "rating", "opponent_rating", "games_won", "games_lost")
     needs = ("needs", "opponent_needs", "won", "e_value", "factor")
-    matches = Table("matches", [Column(name, cell=_yes) for name in (*names, *needs)], rows)
+    matches = Table("matches", in_files((*names, *needs), cell=_yes), rows)
     limit = evidence(1.0 / one.alpha)
     said = (
         f"Not flagged: the evidence is {evidence(one.e_value)} now and was never above "
@@ -297,15 +291,7 @@ def sandbag_player_answer(
 
 
 def _matches(rows: Sequence[tuple[Any, ...]]) -> Table:
-    columns = [
-        Column("date", "date", left=True),
-        Column("opponent", "opponent", left=True),
-        Column("ratings", "ratings"),
-        Column("race", "race"),
-        Column("score", "score"),
-        Column("factor", "weight", decimals(2)),
-        Column("e_value", "evidence", evidence),
-    ]
+    columns = columns_of("date opponent ratings race_text score factor e_value")
     view = [
         (
             date,
@@ -359,17 +345,6 @@ def match_rows(one: Watched, nights: Sequence[PlayedNight]) -> list[tuple[Any, .
             )
             place += 1
     return found
-
-
-def evidence(e: float) -> str:
-    """Return a value of the evidence.
-
-    >>> evidence(0.0123), evidence(34.5), evidence(62_671.0), evidence(1.23e9)
-    ('0.012', '34.5', '62,671', '1.2e+09')
-    """
-    if e >= 1e6 or 0.0 < e < 1e-3:
-        return f"{e:.1e}"
-    return f"{e:,.0f}" if e >= 100 else f"{e:.3g}" if e >= 1 else f"{e:.2g}"
 
 
 def _e(log_e: float) -> float:

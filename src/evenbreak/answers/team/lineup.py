@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.simulated import error_of_share, luck_words
-from evenbreak.answers.kit.wording import chance, count_of, listed, percent
+from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills
 from evenbreak.teams.meeting import SEALED, Meeting
@@ -79,7 +80,14 @@ def lineup_answer(
     tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
         _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
-        Quantities([Quantity("p_win", found.worth), Quantity("best", _name(found.best))]),
+        Quantities(
+            quantities_of(
+                {
+                    "-p_win_night": found.worth,
+                    "best": _name(found.best),
+                }
+            )
+        ),
         table,
     ]
     data: dict[str, Any] = {"set": found.set_number, "ours": found.ours, "blind": found.blind}
@@ -165,19 +173,15 @@ def _in_words(found: Advice, named: Sequence[str]) -> str:
 def _table(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> Table:
     sign = 1.0 if found.ours else -1.0
     whose = "player" if found.ours else "their pick"
-    columns = [
-        Column("name", whose, left=True),
-        Column("p_win", "you win\nthe night", chance),
-        Column("cost", "worse than\nthe best by", cost_words),
-    ]
+    columns = columns_of("pick p_win_night cost", whose=whose)
     answers = any(option.answer for option in found.options) and not found.blind
     if answers:
-        columns.append(Column("answer", "their answer" if found.ours else "answer", left=True))
+        columns.append(column_of("answer"))
     if found.blind:
-        columns.append(Column("mix", "pick it", percent))
+        columns.append(column_of("pick_mix"))
     if sure:
-        columns.append(Column("p_best", "best pick if the\nratings are off", percent))
-        columns.append(Column("p_best_error", "standard\nerror", percent, detail=True))
+        columns.append(column_of("p_best"))
+        columns.append(column_of("p_best_error"))
     top = found.worth if found.blind else found.best.worth
     rows = []
     for option in found.options:
@@ -221,11 +225,7 @@ def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
             known = each == solution.night.order
             value = solution.value if known else solved(meeting.night(each)).value
             rows.append([each, _order_words(name, each), value])
-    columns = [
-        Column("order", "order", left=True),
-        Column("meaning", "who names first", left=True),
-        Column("p_win", "you win\nthe night", chance),
-    ]
+    columns = columns_of("order names_first p_win_night")
     return Table("orders", columns, rows, title="What each order of nomination is worth")
 
 
@@ -287,13 +287,7 @@ def sealed_answer(
         words = f"Play {listed(list(played[0].names))}, in an order drawn at random"
     else:
         words = "Draw one of the line-ups below by its share, and its order at random"
-    columns = [
-        Column("name"),
-        Column("sits_out", "sits out", left=True),
-        Column("p_win", "you win\nthe night", chance),
-        Column("cost", "worse than\nthe best by", cost_words),
-        Column("mix", "hand it in", percent),
-    ]
+    columns = columns_of("-name sits_out p_win_night cost mix")
     listing = found.ours[:_LISTED]
     rows = [
         [
@@ -314,7 +308,14 @@ def sealed_answer(
         f"{scale_words(meeting.scale)}",
         [
             f"{words}: you win the night {percent(found.worth)} of the time, whatever they do.",
-            Quantities([Quantity("p_win", found.worth), Quantity("best", _best(found.ours))]),
+            Quantities(
+                quantities_of(
+                    {
+                        "-p_win_night": found.worth,
+                        "best": _best(found.ours),
+                    }
+                )
+            ),
             table,
             f"Against a random order, every order of theirs is worth the same.{more}",
         ],
@@ -337,12 +338,3 @@ def race_words(race: Race) -> str:
     if isinstance(race, Fairest):
         return f"the fairest races to {race.race_to}"
     return f"races to {race}" if isinstance(race, int) else f"races by {race.name}"
-
-
-def cost_words(cost: float) -> str:
-    """Return a difference of chances.
-
-    >>> cost_words(0.041), cost_words(0.0)
-    ('4.1%', '')
-    """
-    return f"{100.0 * cost:.1f}%" if cost >= 5e-4 else ""

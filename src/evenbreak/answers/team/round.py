@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.wording import chance, count_of, decimals, percent
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.team.lineup import race_words
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
@@ -89,17 +90,20 @@ there are no ties.
         (start, *law.with_start(start))
         for start in known_starts(law, *([] if csi is None else [csi]))
     ]
-    columns = [
-        Column("start_1", "head start", lambda start: _start_words(start, names), left=True),
-        Column("p_win_1", f"{names[0]}\nwins", chance),
-        Column("p_tie", "tie", chance),
-        Column("p_lose_1", f"{names[1]}\nwins", chance),
-    ]
-    data = [
-        Quantity("mean_lead_1", law.mean, f"lead of {names[0]} on average", decimals(2)),
-        Quantity("fair_start_1", fair),
-        Quantity("csi_start_1", csi),
-    ]
+    columns = columns_of(
+        "start_1 p_win_1 p_tie p_lose_1",
+        show={"start_1": lambda start: _start_words(start, names)},
+        a=names[0],
+        b=names[1],
+    )
+    data = quantities_of(
+        {
+            "mean_lead_1": law.mean,
+            "fair_start_1": fair,
+            "csi_start_1": csi,
+        },
+        a=names[0],
+    )
     return Answer(
         f"{count_of(len(teams[0]), 'player')} against {len(teams[1])}, {played}\n"
         f"Ratings {scale_words(scale)}",
@@ -301,22 +305,20 @@ def _cap_words(teams: Sequence[str], free: Floats, capped: Floats) -> str:
 def _quantities(nights: Floats) -> Quantities:
     edges = first_edges(nights)
     return Quantities(
-        [
-            Quantity("first_edge_mean", float(np.nanmean(edges))),
-            Quantity("first_edge_most", float(np.nanmax(np.abs(edges)))),
-        ]
+        quantities_of(
+            {
+                "first_edge_mean": float(np.nanmean(edges)),
+                "first_edge_most": float(np.nanmax(np.abs(edges))),
+            }
+        )
     )
 
 
 def _teams_table(rules: LeagueRules, capped: Floats, free: Floats | None) -> Table:
     columns = [
-        Column("team", "team", left=True),
-        Column("players", "players"),
-        Column("rating_mean", "mean\nrating", lambda rating: f"{rating:.0f}"),
-        Column("level_sum", f"levels of the\nhighest {rules.sets}"),
-        Column("p_win_free", "wins without\nthe cap", chance),
-        Column("p_win", "wins with\nthe cap" if free is not None else "wins", chance),
-        Column("cap_worth", "the cap\nchanges", lambda change: f"{100.0 * change:+.1f}%"),
+        *columns_of("team players rating_mean level_sum p_win_free", sets=rules.sets),
+        column_of("p_win_team" if free is None else "p_win_capped"),
+        *columns_of("cap_worth"),
     ]
     rows: list[list[Any]] = []
     for k, (team, roster) in enumerate(rules.rosters.items()):
@@ -328,9 +330,9 @@ def _teams_table(rules: LeagueRules, capped: Floats, free: Floats | None) -> Tab
         rows.append([team, len(roster), mean, total, before, float(capped[k]), worth])
     rows.sort(key=lambda row: -row[5] if row[6] is None else row[6])
     if free is None:
-        columns[4], columns[6] = Column("p_win_free"), Column("cap_worth")
+        columns[4], columns[6] = columns_of("-p_win_free -cap_worth")
     if all(row[3] is None for row in rows):
-        columns[3] = Column("level_sum")
+        columns[3] = column_of("-level_sum")
     title = "Each team against all others"
     return Table("teams", columns, rows, title=title)
 
@@ -343,10 +345,5 @@ def _orders_table(rules: LeagueRules, nights: Floats) -> Table:
         edges = first_edges(nights if order == rules.order else rules.nights(order))
         meaning = _IN_WORDS.get(named.get(order, ""), "your league's")
         rows.append([order, meaning, np.nanmean(edges), np.nanmax(np.abs(edges))])
-    columns = [
-        Column("order", "order", left=True),
-        Column("meaning", "who names first", left=True),
-        Column("edge_mean", "worth to A,\non average", lambda edge: f"{100.0 * edge:+.1f}%"),
-        Column("edge_most", "between two\nteams, at most", lambda edge: f"{100.0 * edge:.1f}%"),
-    ]
+    columns = columns_of("order names_first edge_mean edge_most")
     return Table("orders", columns, rows, title="What naming first is worth")

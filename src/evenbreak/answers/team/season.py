@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, share
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.arrays import Ints
 from evenbreak.teams.season.chances import SeasonChances
 from evenbreak.teams.season.season import TeamSeason
@@ -91,21 +92,16 @@ def _in_words(found: SeasonChances) -> str:
 def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
     season, teams = found.season, len(found.season.teams)
     played = _matches(season.played, teams)
-    columns = [
-        Column("team", "team", left=True),
-        Column("played", "played"),
-        Column("points", "points", _points),
-        Column("p_title", "title", share),
-    ]
+    columns = columns_of("team played points p_title")
     values: list[Any] = [season.teams, played.tolist(), _of_points(season.points)]
     values.append(found.p_first(1).tolist())
     if up is not None and up > 1:
-        columns.append(Column("p_up", f"first {up}", share))
+        columns.append(column_of("p_up", places=up))
         values.append(found.p_first(up).tolist())
     if down is not None:
-        columns.append(Column("p_down", f"last {down}", share))
+        columns.append(column_of("p_down", places=down))
         values.append(found.p_place[:, teams - down :].sum(axis=1).tolist())
-    columns.append(Column("place_mean", "place,\naverage", decimals(1)))
+    columns.append(column_of("place_mean"))
     values.append(found.mean_place.tolist())
     order = sorted(range(teams), key=lambda k: (found.mean_place[k], -season.points[k]))
     return Table("teams", columns, [[column[k] for column in values] for k in order])
@@ -114,13 +110,13 @@ def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
 def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table:
     """Return the points that make each team sure, whatever the others do."""
     season, teams = found.season, len(found.season.teams)
-    columns = [Column("team", "team", left=True), Column("points_for_title", "title", _or_safe)]
+    columns = columns_of("team points_for_title")
     values = [season.points_to_be_sure(1)]
     if up is not None and up > 1:
-        columns.append(Column("points_for_up", f"first {up}", _or_safe))
+        columns.append(column_of("points_for_up", places=up))
         values.append(season.points_to_be_sure(up))
     if down is not None:
-        columns.append(Column("points_to_stay", "staying up", _or_safe))
+        columns.append(column_of("points_to_stay"))
         values.append(season.points_to_be_sure(teams - down))
     shown = [season.teams, *map(_of_points, values)]
     rows = [
@@ -140,14 +136,6 @@ def _of_points(points: Any) -> list[float | int | None]:
     """Return points as numbers of one kind: whole ones if all are; None for NaN."""
     kind = int if all(point.is_integer() for point in points[np.isfinite(points)]) else float
     return [None if np.isnan(point) else kind(point) for point in points.tolist()]
-
-
-def _points(value: float) -> str:
-    return f"{value:g}"
-
-
-def _or_safe(value: float) -> str:
-    return "safe" if value == 0.0 else f"{value:g}"
 
 
 def _matches(pairs: Ints, teams: int) -> Ints:
@@ -183,22 +171,15 @@ def _tonight(found: SeasonChances, up: int | None, down: int | None, rounds: str
                 p_win = p_home if team == home else p_away
                 rows.append([season.teams[team], season.teams[other], float(p_win), *best[1]])
     rows.sort(key=lambda row: -abs(row[4] - row[5]))
-    columns = [
-        Column("team", "team", left=True),
-        Column("opponent", "against", left=True),
-        Column("p_win", "wins", percent),
-        Column("at_stake", "at stake", left=True),
-        Column("p_if_won", "if they\nwin", share),
-        Column("p_if_lost", "if they\nlose", share),
-    ]
+    columns = columns_of("team opponent p_win_next at_stake p_if_won p_if_lost")
     title = f"What {rounds or 'the next matches'} can change, the most first"
     return Table("tonight", columns, rows, title=title)
 
 
 def _places(found: SeasonChances) -> Table:
     teams = len(found.season.teams)
-    columns = [Column("team", "team", left=True)]
-    columns += [Column(f"p_{k}", str(k), share) for k in range(1, teams + 1)]
+    columns = columns_of("team")
+    columns += [column_of("p_in_place", place=k) for k in range(1, teams + 1)]
     rows = [
         [found.season.teams[team], *found.p_place[team].tolist()]
         for team in np.argsort(found.mean_place, kind="stable").tolist()

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import clock, count_of, share
 from evenbreak.answers.tournament.time import (
     WORTH_SAYING,
@@ -16,7 +17,6 @@ from evenbreak.answers.tournament.time import (
     finish_luck,
     finish_quantities,
     minute_of_day,
-    moves_words,
     time_of_day,
 )
 from evenbreak.errors import InputError
@@ -146,12 +146,7 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
 
 
 def _tables(night: Outlook) -> Table:
-    columns = [
-        Column("table", "table"),
-        Column("match", "rack", left=True),
-        Column(("player_a", "player_b"), "stays - challenger", " - ".join, left=True),
-        Column("state", "", left=True),
-    ]
+    columns = columns_of("table chip_rack chip_pair state_now")
     begun = minute_of_day(night.start)
     rows = [
         [
@@ -179,15 +174,12 @@ def _players(night: Outlook, *, playing: bool) -> Table:
     for place, name in enumerate(reversed(state.gone), len(rows) + 1):
         rows.append([name, state.chips[name], None, None, place, 0.0])
     columns = [
-        Column("name", "player", left=True),
-        Column("chips", "chips"),
-        Column("table", "table"),
-        Column("in_line", "in line"),
-        Column("place", "place") if state.gone else Column("place"),
-        Column("p_title", "title", lambda p: share(p) if p else ""),
+        *columns_of("name chips table in_line"),
+        column_of("place") if state.gone else column_of("-place"),
+        *columns_of("p_title", show={"p_title": lambda p: share(p) if p else ""}),
     ]
     if not playing:
-        columns = [c if c.name in ("name", "chips", "place") else Column(c.name) for c in columns]
+        columns = columns_of("name chips -table -in_line place -p_title")
     return Table("players", columns, rows)
 
 
@@ -225,11 +217,7 @@ def chip_time_answer(
             rows.append([key, f"With {key.replace('_', ' ')}", later])
             if key == "one_more_table" and later <= -WORTH_SAYING:
                 words += f" With one more table it would end {clock(-later)} earlier."
-    columns = [
-        Column("change"),
-        Column("in_words", "change", left=True),
-        Column("minutes_later", "the finish\nmoves by", moves_words),
-    ]
+    columns = columns_of("-change in_words minutes_later")
     change = Table("what_if", columns, rows, title="What if")
     parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
     plain = event_pace(state.plan.discipline).mean_minutes(1)

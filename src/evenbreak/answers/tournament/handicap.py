@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import decimals, percent
+from evenbreak.answers.kit.columns import columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.tournament import Tournament
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
@@ -57,10 +58,12 @@ def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
 
 def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
     """Return the same as numbers."""
-    return [
-        Quantity("p_title_stronger_half", upper_half(ratings, odds.title)),
-        Quantity("unfairness", unfairness(odds.title)),
-    ]
+    return quantities_of(
+        {
+            "-p_title_stronger_half": upper_half(ratings, odds.title),
+            "-unfairness": unfairness(odds.title),
+        }
+    )
 
 
 def fairer_races(tournament: Tournament) -> list[Part]:
@@ -92,14 +95,9 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         **asked,
     )
     found = [one for one in found if one.games_mean >= _GAMES[0] * today.games_mean]
-    columns = [
-        Column("race", "races", left=True),
-        Column("losers_race", "losers'\nside", left=True),
-        Column("final_race", "final", left=True),
-        Column("p_title_stronger_half", "stronger\nhalf wins", percent),
-        Column("unfairness", "unfairness", decimals(2)),
-        Column("games_mean", "games,\naverage", decimals(0)),
-    ]
+    columns = columns_of(
+        "races_text losers_race final_race p_title_stronger_half unfairness games_mean"
+    )
     rows = [_row(today), *map(_row, found[:_SHOWN])]
     table = Table("fairer_races", columns, rows, title="Today's races, and the fairest by side")
     by_round = _by_round(tournament, today, found)
@@ -141,16 +139,13 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
         [side, number, f"to {best.games[side, number]}", _words(now[side, number])]
         for side, number in dict.fromkeys(map(round_of, bracket.matches))
     ]
-    columns = [
-        Column("side", "side", left=True),
-        Column("round", "round"),
-        Column("race", "race", left=True),
-        Column("race_today", "today", left=True),
-    ]
-    quantities = [
-        Quantity("unfairness_by_round", best.found.spread),
-        Quantity("games_mean_by_round", best.found.games_mean),
-    ]
+    columns = columns_of("side round race_text race_today")
+    quantities = quantities_of(
+        {
+            "unfairness_by_round": best.found.spread,
+            "games_mean_by_round": best.found.games_mean,
+        }
+    )
     said = (
         f"Round by round, races of other lengths bring unfairness from {today.spread:.2f} down to "
         f"{best.found.spread:.2f}, with {best.found.games_mean:.0f} games on average."

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import count_of, decimals, listed, percent, share
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament.odds import points_off
 from evenbreak.answers.tournament.prizes import Stake, stakes
@@ -186,8 +187,8 @@ def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
 
 def _title_table(night: Outlook) -> Table:
     rows = sorted((row for row in _title_odds(night) if row[1] > 0.0), key=lambda row: -row[1])
-    columns = [Column("name", "player", left=True), Column("p_title", "title", share)]
-    sure = Column("p_title_if_sure", "title, if the\nratings are right", share)
+    columns = columns_of("name p_title")
+    sure = column_of("p_title_if_sure")
     shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
     few = [row[: len(shown)] for row in rows[:_SHOWN]]
     luck = "" if night.odds.exact else f", give or take {points_off(night.odds, title=True)}"
@@ -195,10 +196,10 @@ def _title_table(night: Outlook) -> Table:
 
 
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
-    columns = [Column("name", "player", left=True), Column("rating", "rating")]
+    columns = columns_of("name rating")
     rows = [[entrant.name, entrant.rating] for entrant in state.entrants.values()]
     if state.plan.form == "chips":
-        columns.append(Column("chips", "chips"))
+        columns.append(column_of("chips"))
         for row, entrant in zip(rows, state.entrants.values(), strict=True):
             row.append(chips_of(state.plan, entrant))
     words = [*said, "Make the draw with: evenbreak tournament draw"]
@@ -294,14 +295,7 @@ def _next_table(
 ) -> Table:
     state = night.state
     later = {call.match: call.later for call in calls if np.isfinite(call.later)}
-    columns = [
-        Column("match", "match", left=True),
-        Column(("player_a", "player_b"), "between", " - ".join, left=True),
-        Column(("race_a", "race_b"), "race", _colon),
-        Column(("score_a", "score_b"), "score", _colon),
-        Column("table", "table"),
-        Column("state", "", left=True),
-    ]
+    columns = columns_of("match pair race_pair score_pair table state_now")
     rows: list[list[Any]] = []
     for table, name in tables:
         pair = state.pair(name)
@@ -319,22 +313,14 @@ def _next_table(
         if decided and prizes:
             rows[-1].append(decided[name].prize if name in decided else None)
     if not any(row[3] for row in rows):
-        columns[3] = Column(("score_a", "score_b"))
+        columns[3] = column_of("-score_pair")
     if calls:
-        columns.append(Column("minutes_later", "called first,\nends later by", _minutes))
+        columns.append(column_of("wait_costs"))
     if decided:
-        columns.append(Column("title_at_stake", "title odds\nthat move", percent))
+        columns.append(column_of("title_at_stake"))
     if decided and prizes:
-        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
+        columns.append(column_of("prize_at_stake"))
     return Table("next", columns, rows)
-
-
-def _minutes(later: float) -> str:
-    return f"{later:.0f} min"
-
-
-def _colon(score: tuple[int, int]) -> str:
-    return f"{score[0]}:{score[1]}"
 
 
 def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
@@ -346,19 +332,13 @@ def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
             shared = Place(possible[0].first, possible[-1].last, possible[0].event)
             rows.append((shared, str(shared), name))
     rows.sort(key=lambda row: (row[0].event, row[0].first, row[0].last))
-    columns = [Column("place", "place"), Column("name", "player", left=True)]
+    columns = columns_of("place name")
     return Table("places", columns, [row[1:] for row in rows])
 
 
 def bracket_table(state: Evening) -> Table:
     """Return all matches of the bracket, with players, scores and where the players come from."""
-    columns = [
-        Column("match", "match", left=True),
-        Column(("player_a", "player_b"), "between", " - ".join, left=True),
-        Column(("score_a", "score_b"), "score", _colon),
-        Column("winner", "winner", left=True),
-        Column("table", "table"),
-    ]
+    columns = columns_of("match pair score_pair winner table")
     rows = []
     for match in state.bracket.matches:
         seats = state.standing.seats[match.name]
@@ -387,10 +367,6 @@ def swiss_table(state: Evening) -> list[Part]:
     if not over:
         return []
     rows = swiss_standings(swiss_of(state.plan, state.order), over)
-    columns = [
-        Column("name", "player", left=True),
-        Column("won", "matches\nwon"),
-        Column("buchholz", "won by their\nopponents"),
-    ]
+    columns = columns_of("name matches_won buchholz")
     title = f"Standings after round {len(over)}"
     return [Table("standings", columns, [list(row) for row in rows], title=title)]

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import chance, count_of, decimals, percent, share
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
 from evenbreak.answers.tournament.tournament import Tournament
 from evenbreak.arrays import Floats
@@ -71,18 +72,24 @@ def tournament_odds_answer(
     """
     found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
     plug_in, odds = found
-    quantities = [
-        Quantity("exact", plug_in.exact and not found.averaged),
-        Quantity("ratings_averaged", found.averaged),
-    ]
+    quantities = quantities_of(
+        {
+            "exact": plug_in.exact and (not found.averaged),
+            "ratings_averaged": found.averaged,
+        }
+    )
     words = _in_words(odds)
     if isinstance(odds, TitleOdds):
         rng = np.random.default_rng(seed)
         rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng).mean
         quantities = [
-            Quantity("p_second_final", odds.p_second_final),
-            Quantity("matches_mean", odds.matches_mean),
-            Quantity("rematches_mean", rematches),
+            *quantities_of(
+                {
+                    "p_second_final": odds.p_second_final,
+                    "matches_mean": odds.matches_mean,
+                    "rematches_mean": rematches,
+                }
+            ),
             *quantities,
         ]
         words += f" {_matches_words(odds, rematches)}"
@@ -128,9 +135,9 @@ def odds_table(
         whether to say how many times an equal share the title odds are.
     """
     places = odds.bracket.places
-    columns = [Column("seed", "seed"), Column("name", "player", left=True), Column("rating")]
+    columns = columns_of("seed name -rating")
     columns += [
-        Column(place_key(place), place_words(place), share, detail=k >= _SHOWN)
+        column_of("p_place", detail=k >= _SHOWN, name=place_key(place), place=place_words(place))
         for k, place in enumerate(places)
     ]
     seats = range(len(odds.title))
@@ -139,23 +146,21 @@ def odds_table(
         for k in seats
     ]
     if odds is not plug_in:
-        columns.append(Column("p_title_if_sure", "title, if the\nratings are right", share))
+        columns.append(column_of("p_title_if_sure"))
         for k in seats:
             rows[k].append(float(plug_in.title[k]))
     if not odds.exact:
         first = places.index(Place(1, 1))
-        columns.append(Column("p_title_error", "standard error\nof the title", chance, detail=True))
+        columns.append(column_of("p_title_error"))
         for k in seats:
             rows[k].append(float(odds.error[k, first]))
     if shares:
         wide = odds is not plug_in
-        columns.append(
-            Column("times_equal_share", "times an\nequal share", decimals(2), detail=wide)
-        )
+        columns.append(column_of("times_equal_share", detail=wide))
         for k in seats:
             rows[k].append(float(len(seats) * odds.title[k]))
     if prizes:
-        columns.append(Column("prize_mean", "prize,\naverage", decimals(2)))
+        columns.append(column_of("prize_mean"))
         for k, prize in enumerate(odds.expected_prize(prizes).tolist()):
             rows[k].append(prize)
     order = sorted(seats, key=lambda k: -odds.title[k])

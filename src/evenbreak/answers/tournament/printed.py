@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.answers.tournament.tournament import pair_words
 from evenbreak.files.store.tournament import TITLES, event_rows
@@ -29,13 +30,7 @@ def printed_answer(state: Evening, what: str, place: str) -> Answer:
     place
         the file.
     """
-    columns = [
-        Column("seed", "seed"),
-        Column("name", "player", left=True),
-        Column("match", "first match", left=True),
-        Column("between", "between", left=True),
-        Column("table", "table"),
-    ]
+    columns = columns_of("seed name first_match between table")
     rows = [
         [one.seed, one.name, one.match, " - ".join(one.pair), one.table]
         for one in first_matches(state)
@@ -167,16 +162,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
     score_b       3
     Name: 0, dtype: object
     """
-    columns = [
-        Column("date", "date", left=True),
-        Column("event"),
-        Column("match", "match", left=True),
-        Column(("player_a", "player_b"), "between", " - ".join, left=True),
-        Column(("score_a", "score_b"), "score", lambda score: f"{score[0]}:{score[1]}"),
-        Column(("race_a", "race_b"), "race", lambda race: f"{race[0]}:{race[1]}"),
-        Column("winner", "winner", left=True),
-        Column("forfeit", "forfeit", lambda yes: "yes" if yes else "", left=True),
-    ]
+    columns = columns_of("date event match pair score_pair race_pair winner forfeit")
     rows = []
     for result, at in sorted(played_matches(state), key=lambda one: one.at):
         score = None if result.forfeit else result.score
@@ -212,6 +198,6 @@ def tournament_events_answer(events: Sequence[Event], name: str) -> Answer:
     name
         the tournament's name.
     """
-    columns = [Column(title, title, left=True) for title in TITLES]
+    columns = [column_of("event_title", title=title) for title in TITLES]
     table = Table("events", columns, [list(row) for row in event_rows(events)])
     return Answer(name, [f"{count_of(len(events), 'event')}.", table], csv=table)

@@ -6,16 +6,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import count_of, decimals, percent
+from evenbreak.answers.kit.columns import columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import count_of
 from evenbreak.errors import InputError
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.calcutta import calcutta, fair_shares, lot_worth
 from evenbreak.tournaments.money.payouts import Payouts
 from evenbreak.tournaments.odds.title import PlaceOdds
-
-_MONEY = decimals(2)
 
 
 def tournament_prizes_answer(
@@ -57,17 +56,20 @@ def tournament_prizes_answer(
     left = "" if pot - paid < 0.005 else f"; the other {pot - paid:.2f} of {pot:.2f} is the house's"
     places = Table(
         "places",
-        [
-            Column("place", "place"),
-            Column("share", "share", percent),
-            Column("money", "money", _MONEY),
-        ],
+        columns_of("place share money"),
         [[k, amount / pot if pot else 0.0, amount] for k, amount in enumerate(amounts, start=1)],
     )
     parts: list[Part] = [
         f"{paid:.2f} is paid to {count_of(len(amounts), 'place')} of "
         f"{count_of(entrants, 'player')}: {amounts[0]:.2f} for the winner{left}.",
-        Quantities([Quantity("pot", pot), Quantity("paid", paid)]),
+        Quantities(
+            quantities_of(
+                {
+                    "pot": pot,
+                    "paid": paid,
+                }
+            )
+        ),
         places,
     ]
     csv = places
@@ -83,11 +85,7 @@ def tournament_prizes_answer(
 def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:
     prizes = odds.expected_prize(amounts)
     in_money = odds.p_place[:, [place.first <= len(amounts) for place in odds.bracket.places]]
-    columns = [
-        Column("name", "player", left=True),
-        Column("p_paid", "in the\nmoney", percent),
-        Column("prize_mean", "may expect", _MONEY),
-    ]
+    columns = columns_of("name p_paid prize_mean")
     rows: list[list[Any]] = [
         [name, float(paid), float(prize)]
         for name, paid, prize in zip(
@@ -133,12 +131,7 @@ def calcutta_answer(
         if lot.break_even is not None:
             half = lot_worth(fair, sold, lot.player, lot.break_even, paid_out=paid_out) / 2.0
         rows.append([lot.player, lot.fair_share, lot.break_even, half])
-    columns = [
-        Column("name", "player", left=True),
-        Column("fair_share", "share of\nthe payout", percent),
-        Column("break_even", "break-even\nbid now", _MONEY),
-        Column("half", "half of it\nis worth", _MONEY),
-    ]
+    columns = columns_of("name fair_share break_even half")
     table = Table("lots", columns, rows)
     bids = sum(sold.values())
     if not rows:

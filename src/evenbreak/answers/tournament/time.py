@@ -8,9 +8,10 @@ from datetime import datetime
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
+from evenbreak.answers.kit.columns import columns_of, quantities_of, quantity_of
+from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
 from evenbreak.answers.kit.scales import form_used_words
-from evenbreak.answers.kit.wording import clock, count_of, percent
+from evenbreak.answers.kit.wording import clock, count_of
 from evenbreak.answers.tournament.tournament import Tournament, pair_words
 from evenbreak.arrays import Floats
 from evenbreak.matches.pace import Pace, Turnover
@@ -62,8 +63,21 @@ def finish_quantities(finishes: Floats, *more: Quantity) -> Quantities:
     [('finish_p10', 10), ('finish_p50', 50), ('finish_p90', 90), ('finish_error', 5)]
     """
     bands, error = bands_of(finishes)
-    times = [Quantity(f"finish_p{100 * q:.0f}", at) for q, at in zip(QUANTILES, bands, strict=True)]
-    return Quantities([*times, Quantity("finish_error", error), *more])
+    times = [
+        quantity_of("finish", at, quantile=f"p{100 * q:.0f}")
+        for q, at in zip(QUANTILES, bands, strict=True)
+    ]
+    return Quantities(
+        [
+            *times,
+            *quantities_of(
+                {
+                    "finish_error": error,
+                }
+            ),
+            *more,
+        ]
+    )
 
 
 def finish_luck(finishes: Floats) -> str:
@@ -133,7 +147,7 @@ def tournament_time_answer(
         return finish(tournament.bracket, laws, tables=tables, **asked)
 
     changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
-    saved = (Quantity(f"minutes_saved_{what}", by) for what, by in savings(changes).items())
+    saved = (quantity_of("minutes_saved", by, change=what) for what, by in savings(changes).items())
     quantities = finish_quantities(found.finishes, *saved)
     table = starts_table(found, show)
     when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
@@ -159,17 +173,15 @@ def _takes(found: Finish) -> str:
 
 def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
     """Return when each match still to be played starts, soonest first."""
-    columns = [
-        Column("match", "match", left=True),
-        Column(("player_1", "player_2"), "between", " - ".join, left=True),
-        Column("start_p50", "starts\nabout", show),
-        Column(
-            ("start_p10", "start_p90"),
-            "8 times out of 10\nbetween",
-            lambda band: "" if band[0] == band[1] else f"{show(band[0])} and {show(band[1])}",
-        ),
-        Column("p_played", "is\nneeded", percent),
-    ]
+    columns = columns_of(
+        "match pair_12 start_p50 start_band p_played",
+        show={
+            "start_p50": show,
+            "start_band": lambda band: (
+                "" if band[0] == band[1] else f"{show(band[0])} and {show(band[1])}"
+            ),
+        },
+    )
     rows: list[list[Any]] = []
     for name in found.names:
         players = pair_words(found.standing, name)
@@ -243,17 +255,7 @@ def what_if(
     for key, change in changes.items():
         later, error = minutes_later(ask(*change), found)
         rows.append([key, f"With {_CHANGES[key]}", later, error])
-    columns = [
-        Column("change"),
-        Column("in_words", "change", left=True),
-        Column("minutes_later", "the finish\nmoves by", moves_words),
-        Column(
-            "minutes_later_error",
-            "standard\nerror",
-            lambda minutes: f"{minutes:.1f} min",
-            detail=True,
-        ),
-    ]
+    columns = columns_of("-change in_words minutes_later minutes_later_error")
     return Table("what_if", columns, rows, title="What if")
 
 
@@ -270,17 +272,6 @@ def savings_words(changes: Table) -> str:
         for key, saved in savings(changes).items()
         if saved >= WORTH_SAYING
     )
-
-
-def moves_words(minutes: float) -> str:
-    """Return by how much the finish moves.
-
-    >>> moves_words(-72.0), moves_words(0.2)
-    ('1 h 12 earlier', '0 min')
-    """
-    if abs(minutes) < 0.5:
-        return "0 min"
-    return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"
 
 
 def shorter(races: Races) -> Races | None:

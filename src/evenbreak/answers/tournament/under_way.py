@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.parts import Column, Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.wording import decimals, percent
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.chips import chip_time_answer
 from evenbreak.answers.tournament.night import begun_at, heading
 from evenbreak.answers.tournament.odds import favourite_words, how_words, odds_table
@@ -34,8 +35,6 @@ from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
 from evenbreak.tournaments.odds.title import TitleOdds
-
-_WORTH_SAYING = 3.0  # minutes
 
 
 def odds_under_way(
@@ -67,14 +66,20 @@ def odds_under_way(
     state, plug_in = outlook.state, outlook.as_if_sure
     odds = plug_in if sure else outlook.odds
     table = odds_table(state.ratings, plug_in, odds, prizes)
-    quantities = [
-        Quantity("exact", plug_in.exact and odds is plug_in),
-        Quantity("ratings_averaged", odds is not plug_in),
-    ]
+    quantities = quantities_of(
+        {
+            "exact": plug_in.exact and odds is plug_in,
+            "ratings_averaged": odds is not plug_in,
+        }
+    )
     if isinstance(odds, TitleOdds):
         quantities = [
-            Quantity("p_second_final", odds.p_second_final),
-            Quantity("matches_mean", odds.matches_mean),
+            *quantities_of(
+                {
+                    "p_second_final": odds.p_second_final,
+                    "matches_mean": odds.matches_mean,
+                }
+            ),
             *quantities,
         ]
     parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
@@ -109,21 +114,10 @@ def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
         rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
         if stake.prize is not None:
             rows[-1].append(stake.prize)
-    columns = [
-        Column("match", "match", left=True),
-        Column(("player_a", "player_b"), "between", " - ".join, left=True),
-        Column("title_at_stake", "title odds\nthat move", percent),
-        Column("minutes_if_a_wins", "finish if the\nfirst wins", _later, detail=True),
-    ]
+    columns = columns_of("match pair title_at_stake minutes_if_a_wins")
     if prizes:
-        columns.append(Column("prize_at_stake", "prize money\nthat moves", decimals(2)))
+        columns.append(column_of("prize_at_stake"))
     return Table("at_stake", columns, rows, title="What the next matches decide")
-
-
-def _later(minutes: float) -> str:
-    if abs(minutes) < _WORTH_SAYING:
-        return ""
-    return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
 
 
 def time_under_way(

@@ -15,14 +15,13 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Column, Part, Quantity, Table
 from evenbreak.files.catalogues import face_in
 from evenbreak.words import Sentence, in_face
 
-Named = TypeVar("Named", Column, Quantity)
 Say: TypeAlias = Callable[[str], str]
 
 _NUMBER = re.compile(r"([<>+-]?)(\d{1,3}(?:,\d{3})*|\d+)(\.\d+)?(%?)", re.ASCII)
@@ -143,14 +142,18 @@ def answer_in_language(language: str, answer: Answer, names: Collection[str] = (
     return replace(answer, heading=heading, parts=parts, details=(), warnings=())
 
 
-def _named(say: Say, one: Named) -> Named:
-    """Return a column or a quantity whose heading and values are said as the pages say them."""
+def _named(say: Say, one: Column) -> Column:
+    """Return a column whose heading and values are said as the pages say them."""
 
     def show(value: Any) -> str:
         return say(one.show(value))
 
     words = None if one.words is None else say(one.words)
     return replace(one, words=words, show=show)
+
+
+def _quantity(say: Say, one: Quantity) -> Quantity:
+    return replace(one, column=_named(say, one.column))
 
 
 def _part(say: Say, part: Part) -> Part:
@@ -161,5 +164,5 @@ def _part(say: Say, part: Part) -> Part:
         columns = [_named(say, part.columns[k]) for k in kept]
         rows = [[row[k] for k in kept] for row in part.rows]
         return replace(part, columns=columns, rows=rows, title=say(part.title))
-    of = [_named(say, one) for one in part.of if not one.detail]
+    of = [_quantity(say, one) for one in part.of if not one.detail]
     return replace(part, of=of, title=say(part.title))

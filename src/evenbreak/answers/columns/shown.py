@@ -1,0 +1,163 @@
+"""How values of certain columns are read by a person, where it is not by digits alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from evenbreak.answers.kit.parts import Show
+from evenbreak.answers.kit.wording import clock, decimals, range_words
+
+plain: Show = "{:g}".format
+"""A number as it was typed."""
+
+_LARGE = 1_000_000
+_WORTH_SAYING = 3.0  # minutes
+_ROUNDING = 1e-14  # differences up to this vary from computer to computer
+
+
+def in_hundred(places: int) -> Show:
+    """Return how a share is shown where its heading says that it is of a hundred."""
+    return lambda value: f"{100.0 * value:.{places}f}"
+
+
+def signed_percent(change: float) -> str:
+    """Return a difference of chances, with its sign."""
+    return f"{100.0 * change:+.1f}%"
+
+
+def percent_or_blank(cost: float) -> str:
+    """Return a difference of chances, if it shows.
+
+    >>> percent_or_blank(0.041), percent_or_blank(0.0)
+    ('4.1%', '')
+    """
+    return f"{100.0 * cost:.1f}%" if cost >= 5e-4 else ""
+
+
+def four(value: float) -> str:
+    """Return a number with four decimals, or four digits if it is huge."""
+    return f"{value:.4g}" if abs(value) >= _LARGE else decimals(4)(value)
+
+
+def amount(value: float) -> str:
+    """Return a number with three decimals, or three digits if it is huge.
+
+    >>> amount(2.3014), amount(5.56e299), amount(float("inf"))
+    ('2.301', '5.56e+299', 'inf')
+    """
+    return f"{value:.3f}" if value < _LARGE else f"{value:.3g}"
+
+
+def evidence(e: float) -> str:
+    """Return a value of the evidence.
+
+    >>> evidence(0.0123), evidence(34.5), evidence(62_671.0), evidence(1.23e9)
+    ('0.012', '34.5', '62,671', '1.2e+09')
+    """
+    if e >= 1e6 or 0.0 < e < 1e-3:
+        return f"{e:.1e}"
+    return f"{e:,.0f}" if e >= 100 else f"{e:.3g}" if e >= 1 else f"{e:.2g}"
+
+
+def rounding(difference: float) -> str:
+    """Return how far two calculations are apart."""
+    return f"{difference:.1e}" if difference > _ROUNDING else "rounding only"
+
+
+def small_p(p: float) -> str:
+    """Return a p-value."""
+    return f"{p:.2g}" if p >= 0.0001 else "< 0.0001"
+
+
+def imaginary(part: float) -> str:
+    """Return an imaginary part; nothing for a real number."""
+    return f"{part:+.6f}i" if part else ""
+
+
+def yes_or_blank(truth: bool) -> str:
+    """Return 'yes', or nothing."""
+    return "yes" if truth else ""
+
+
+def who_breaks(breaks: str) -> str:
+    """Return a break format."""
+    return f"always {breaks.upper()}" if breaks in ("a", "b") else breaks
+
+
+def versus(levels: Sequence[Any]) -> str:
+    """Return two levels."""
+    return f"{levels[0]} v {levels[1]}"
+
+
+def span(ends: tuple[int, int | None]) -> str:
+    """Return a range of differences, given by its ends."""
+    return range_words(*ends)
+
+
+def even_race(ends: tuple[int, int] | None) -> str:
+    """Return the races of equal players, which a chart of points does not have."""
+    if ends is None:
+        return "points"
+    first, last = ends
+    return str(first) if first == last else f"{first} to {last}"
+
+
+def points_or_new(rating: float) -> str:
+    """Return a rating as leagues print it; one that is not known is new."""
+    if math.isnan(rating):
+        return "new"
+    return f"{rating:.0f}" if rating == round(rating) else f"{rating:.1f}"
+
+
+def signed_points(points: float) -> str:
+    """Return the change of a rating."""
+    return f"{points:+g}" if points else "0"
+
+
+def or_safe(points: float) -> str:
+    """Return the points that a team needs; 'safe' if it needs none."""
+    return "safe" if points == 0.0 else f"{points:g}"
+
+
+def moves(minutes: float) -> str:
+    """Return by how much the finish moves.
+
+    >>> moves(-72.0), moves(0.2)
+    ('1 h 12 earlier', '0 min')
+    """
+    if abs(minutes) < 0.5:
+        return "0 min"
+    return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"
+
+
+def later(minutes: float) -> str:
+    """Return by how much the finish moves, if that is worth saying."""
+    if abs(minutes) < _WORTH_SAYING:
+        return ""
+    return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
+
+
+def with_range(digits: int, to: str = " to ") -> Show:
+    """Return how an estimate with its interval is shown."""
+
+    def show(estimate: Sequence[float]) -> str:
+        value, low, high = (f"{part:z.{digits}f}" for part in estimate)
+        return f"{value}  {low}{to}{high}"
+
+    return show
+
+
+def interval(ends: tuple[float, float]) -> str:
+    """Return an interval of chances."""
+    return f"{ends[0]:.3f} to {ends[1]:.3f}"
+
+
+def percent_interval(ends: tuple[float, float]) -> str:
+    """Return an interval of chances, in percent.
+
+    >>> percent_interval((0.482, 0.579))
+    '48 to 58%'
+    """
+    return f"{100 * ends[0]:.0f} to {100 * ends[1]:.0f}%"

@@ -1,0 +1,140 @@
+"""Columns and quantities by their keys in the registry, with what only an answer knows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from evenbreak.answers.columns.league import LADDERS, LEAGUE, VALIDATION
+from evenbreak.answers.columns.match import CHAINS, CHARTS, MATCH
+from evenbreak.answers.columns.practice import FILES, PHYSICS, PRACTICE
+from evenbreak.answers.columns.tournament import TEAMS, TOURNAMENT
+from evenbreak.answers.kit.parts import Column, Quantity, Show
+from evenbreak.words import say
+
+SUBJECTS = {
+    "match": MATCH,
+    "chain": CHAINS,
+    "chart": CHARTS,
+    "league": LEAGUE,
+    "validation": VALIDATION,
+    "ladder": LADDERS,
+    "tournament": TOURNAMENT,
+    "team": TEAMS,
+    "practice": PRACTICE,
+    "physics": PHYSICS,
+    "files": FILES,
+}
+"""The registry by subject."""
+
+COLUMNS: Mapping[str, Column] = {key: entry for part in SUBJECTS.values() for key, entry in part}
+"""The registry: each column and quantity by its key."""
+
+NOTHING: Mapping[str, Any] = {}
+
+
+def column_of(
+    key: str,
+    /,
+    *,
+    show: Show | None = None,
+    detail: bool | None = None,
+    unit: str = "",
+    **fields: Any,
+) -> Column:
+    r"""Return a column.
+
+    Parameters
+    ----------
+    key
+        its key; with a hyphen before it the column is in files only.
+    show
+        how a value is read, where only the answer knows; otherwise as the registry has it.
+    detail
+        whether it is for those who ask for details; otherwise as the registry has it.
+    unit
+        the ending of its name, where the unit is chosen by the user.
+    fields
+        what the fields of its words and of its name stand for.
+
+    >>> column_of("race_a", a="Ann").words, column_of("-race_a").words
+    ('Ann\nneeds', None)
+    >>> column_of("score_b", b="Bo", score=3).name
+    'score_b_3'
+    """
+    entry = COLUMNS[key.removeprefix("-")]
+    changes: dict[str, Any] = {}
+    if key.startswith("-"):
+        changes["words"] = None
+    elif entry.words is not None:
+        changes["words"] = say(entry.words, **fields) if "{" in entry.words else say(entry.words)
+    if isinstance(entry.name, str):
+        changes["name"] = "_".join(filter(None, [entry.name.format(**fields), unit]))
+    else:
+        changes["name"] = tuple(name.format(**fields) for name in entry.name)
+    if show is not None:
+        changes["show"] = show
+    if detail is not None:
+        changes["detail"] = detail
+    return replace(entry, **changes)
+
+
+def columns_of(keys: str, /, *, show: Mapping[str, Show] = NOTHING, **fields: Any) -> list[Column]:
+    """Return columns by their keys, which are parted by blanks.
+
+    Parameters
+    ----------
+    keys, fields
+        as for `column_of`.
+    show
+        how the values of some are read, by key.
+
+    >>> [one.name for one in columns_of("player rating -scale")]
+    ['player', 'rating', 'scale']
+    """
+    return [column_of(key, show=show.get(key), **fields) for key in keys.split()]
+
+
+def in_files(
+    names: Iterable[Any], *, exact: bool = False, cell: Show | None = None
+) -> list[Column]:
+    """Return columns that are in files only, named as a record or a frame names them."""
+    return [Column(str(name), exact=exact, cell=cell) for name in names]
+
+
+def quantity_of(key: str, value: Any, /, note: str = "", **fields: Any) -> Quantity:
+    """Return a quantity: a value, what is said behind it, and the rest as for `column_of`.
+
+    >>> quantity_of("p_win_a", 0.5, a="Ann").words
+    'Ann wins the match'
+    """
+    return Quantity(column_of(key, **fields), value, note)
+
+
+def quantities_of(
+    values: Mapping[str, Any],
+    /,
+    *,
+    notes: Mapping[str, str] = NOTHING,
+    show: Mapping[str, Show] = NOTHING,
+    **fields: Any,
+) -> list[Quantity]:
+    """Return values by their keys as quantities.
+
+    Parameters
+    ----------
+    values, fields
+        as for `column_of`; None where there is no value.
+    notes
+        what is said behind some, such as an interval, by key.
+    show
+        as for `columns_of`.
+
+    >>> [one.name for one in quantities_of({"mean": 4.5, "-sd": 1.5})]
+    ['mean', 'sd']
+    """
+    return [
+        Quantity(column_of(key, show=show.get(key), **fields), value, notes.get(key, ""))
+        for key, value in values.items()
+    ]
