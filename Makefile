@@ -41,14 +41,15 @@ thorough:         ## before a release: 200 or more of each attack in tests/tries
 	EVENBREAK_TIER=thorough EVENBREAK_TRIES=200 PYTHON=$(PYTHON) .ci/browse -n logical -m "thorough or drawn"
 
 doctests:         ## the examples in the docstrings of the sources
-	$(PYTHON) -m pytest -q -n logical src
+	$(PYTHON) -m pytest -q src
 
 lowest:           ## tests that lean on other libraries, at the lowest versions declared
 	$(PYTHON) -m venv .venv-lowest
 	$(PYTHON) .ci/lowest_versions.py > .venv-lowest/versions.txt
 	.venv-lowest/bin/python -m pip install -q -c .venv-lowest/versions.txt -e '.[excel,symbolic]' \
 		pytest hypothesis pytest-xdist
-	.venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning -k "not extended_precision" $(LEANING)
+	.venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning \
+		-m "not slow" -k "not extended_precision" $(LEANING)
 
 layers:           ## imports in one direction, files and terminal only at the end
 	$(PYTHON) -m pytest -q tests/test_layers.py
