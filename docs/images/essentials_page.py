@@ -117,13 +117,13 @@ PAGES = (
         (
             Step("A match, game by game", "live --p 0.6 --race 7:5 --racks abbab", (1, 4)),
             Step("Which level of a drill to practise", "drill --log data/drill_log.csv", (1, 2)),
-            Step("Which shot to take", "oneball 0.4 0.8 --or 0.3:0.3", (1,)),
+            Step("Which shot to take", "oneball --shot 0.4:0.8 --shot 0.3:0.3", (1,)),
             Step("Where to aim", "physics aim --cut 14.5 --distance 36", (1, 2)),
         ),
         (
             ("Was a good score luck?", "practice scores.csv --new 53"),
             ("How likely is a run of 50?", "runs --mean 12 --at-least 50"),
-            ("A fair spot in straight pool", "straight 24 19 --points 100"),
+            ("A fair spot in straight pool", "straight --averages 24:19 --points 100"),
             ("What a command can do", "fair --help"),
             ("Any answer as a web page, a table or data", "fair … --html fair.html, --csv, --json"),
         ),

@@ -23,7 +23,7 @@ BETWEEN = r"[:/\-–—−]"
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A finite number, as text."""
 
-_WHOLE = re.compile(r"[+-]?\d{1,18}", re.ASCII)
+_WHOLE = re.compile(r"[+-]?\d{1,40}", re.ASCII)
 
 
 class Kind:
@@ -109,8 +109,8 @@ class Whole(Kind):
 
     @property
     def limits(self) -> str:
-        """The limits in words."""
-        return f"{self.low:,} to {self.high:,}"
+        """The limits in words; one that hardly limits is left out."""
+        return f"{self.low:,} to {self.high:,}" if self.high < 10**9 else ""
 
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""
@@ -123,7 +123,7 @@ class Number(Kind):
 
     low: float = 0.0
     high: float = 1.0
-    wanted: str = "; give a number from 0 to 1"
+    wanted: str = ""
     metavar: str = "X"
 
     def read(self, text: str) -> float:
@@ -131,7 +131,8 @@ class Number(Kind):
         typed = text.strip()
         number = float(typed) + 0.0 if NUMBER.fullmatch(typed) else math.nan
         if not self.low <= number <= self.high:
-            raise InputError(f"{text!r}{self.wanted}{meant(text, self.low, self.high)}")
+            wanted = self.wanted or f"; give a number from {self.low:.7g} to {self.high:.7g}"
+            raise InputError(f"{text!r}{wanted}{meant(text, self.low, self.high)}")
         return number
 
     @property

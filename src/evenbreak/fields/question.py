@@ -182,6 +182,9 @@ class Question:
     """The base of all questions; see the head of this module."""
 
     examples: ClassVar[str] = ""
+    """What the help of its command ends with."""
+    old_words: ClassVar[tuple[str, ...]] = ()
+    """The options whose values were once typed without them; accepted for a version."""
 
     def __post_init__(self) -> None:
         for check in _checks(type(self)):

@@ -15,7 +15,7 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 HIGHEST_SEED = 2**32 - 1
 
 CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1", metavar="P")
-SHARE = Number(0.0, 1.0, "; give a number from 0 to 1", metavar="SHARE")
+SHARE = Number(metavar="SHARE")
 RACE = TwoWhole(
     wanted=f"give a whole number from 1 to {LONGEST}, such as 7, "
     "or one for each player with a colon between them, such as 7:5",

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import NUMBER, Choice, File, Flag, Named, Text, Whole, meant
-from evenbreak.fields.question import Field, Question
+from evenbreak.fields.question import Field, Question, Says
 from evenbreak.matches.formats import LONGEST, WHO_BREAKS, match_format
 from evenbreak.questions.common import (
     CHANCE,
@@ -292,7 +292,7 @@ class Live(Players, Played):
         bool, Field(Flag(), "Add the comeback table: the odds at each score to come.")
     ] = False
     form: FormOfDay = None
-    plot: PlotFile = None
+    plot: Annotated[PlotFile, Says(more="The match so far; needs `--racks`.")] = None
 
     def check(self) -> None:
         """Refuse what needs something else."""
@@ -332,7 +332,9 @@ class Compare(Players):
             section="Details",
         ),
     ] = None
-    plot: PlotFile = None
+    plot: Annotated[
+        PlotFile, Says(more="A's chance in each format against the chance in a game.")
+    ] = None
 
     @classmethod
     def split(cls, typed: dict[str, Any]) -> dict[str, Any]:

@@ -37,7 +37,7 @@ class TournamentPlan(Format, Question):
         str,
         Field(
             Choice(FORMATS),
-            "The kind of tournament: " + ", ".join(FORMATS) + ".",
+            ", ".join(FORMATS).capitalize() + ".",
             option="format",
             label=say("Format"),
             titles=FORMAT_TITLES,
@@ -66,8 +66,10 @@ class TournamentPlan(Format, Question):
         str | None,
         Field(
             Choice(SEEDINGS),
-            "The order of the seeds: as the file lists them, by rating, or drawn at random.",
-            usual="listed; blind in a chip tournament",
+            "The order of the seeds: listed (as in the file), rating, blind (at random), or drawn "
+            "(on paper).",
+            usual="listed; chips: blind",
+            metavar="ORDER",
             label=say("Draw"),
             titles={
                 "": say("Default: as listed; chip tournaments at random"),

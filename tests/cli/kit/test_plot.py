@@ -12,7 +12,7 @@ import pytest
         ("x.pdf", "ends in .png or .svg"),
     ],
 )
-@pytest.mark.parametrize("words", ["ladder", "breaks 0.9 0.5", "chart audit npl_10"])
+@pytest.mark.parametrize("words", ["ladder", "breaks --p1 0.9 --p2 0.5", "chart audit npl_10"])
 def test_an_impossible_picture_is_refused_before_the_work(run, tmp_path, words, name, problem):
     (tmp_path / "file").write_text("1", encoding="utf-8")
     (tmp_path / "folder.png").mkdir()

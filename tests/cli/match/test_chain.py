@@ -35,7 +35,7 @@ def test_one_ball_limit(run):
 
 def test_start_is_the_source_of_the_first_row_unless_said(answer):
     assert answer(ONE_BALL)["start"] == "S1"
-    assert answer(ONE_BALL, "--start", "S2")["limit"]["L"] == pytest.approx(0.2 / 0.44)
+    assert answer(ONE_BALL, "--start-state", "S2")["limit"]["L"] == pytest.approx(0.2 / 0.44)
 
 
 def test_numbers_read_back_exactly(run, answer):
@@ -96,7 +96,7 @@ def test_json_holds_the_density_too_where_steps_are_given(answer):
 
 def test_a_period(answer):
     arcs = HEADER + "A,B,1\nB,A,1\nX,A,1\n"
-    told = answer(arcs, "--start", "X")
+    told = answer(arcs, "--start-state", "X")
     assert (told["period"], told["limit"]) == (2, {"A": 0.5, "B": 0.5, "X": 0.0})
     assert {told["states"][state]["kind"] for state in "AB"} == {"recurrent"}
 
@@ -104,13 +104,13 @@ def test_a_period(answer):
 def test_period_is_the_least_common_multiple_of_what_is_reached(answer):
     arcs = HEADER + "S,A1,0.5\nS,B1,0.5\nA1,A2,1\nA2,A1,1\nB1,B2,1\nB2,B3,1\nB3,B1,1\n"
     assert answer(arcs)["period"] == 6
-    assert answer(arcs, "--start", "B2")["period"] == 3
+    assert answer(arcs, "--start-state", "B2")["period"] == 3
 
 
 def test_mean_steps_is_null_where_absorption_may_never_come(answer):
     arcs = HEADER + "S,W,0.5\nS,A,0.5\nA,B,1\nB,A,1\n"
     assert answer(arcs)["mean_steps"] is None
-    assert answer(arcs, "--start", "W")["mean_steps"] == 0
+    assert answer(arcs, "--start-state", "W")["mean_steps"] == 0
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_a_missing_file_ends_with_3(run):
 
 
 def test_an_unknown_start_ends_with_3(run):
-    result = run("chain", "-", "--start", "Q", stdin=ONE_BALL)
+    result = run("chain", "-", "--start-state", "Q", stdin=ONE_BALL)
     assert result.exit_code == 3
     assert "'Q'" in result.stderr
     assert "'S1', 'W'" in result.stderr

@@ -100,13 +100,13 @@ def test_a_graph_of_ones_own(run, tmp_path) -> None:
     graph.add_weighted_edges_from([("A", "B", 1), ("B", "A", 0.5), ("B", "C", 0.5), ("D", "C", 1)])
     path = tmp_path / "mine.graphml"
     nx.write_graphml(graph, path)
-    result = run("graph", str(path), "--start", "B", "--json", "--out", str(tmp_path / "out"))
+    result = run("graph", str(path), "--start-state", "B", "--json", "--out", str(tmp_path / "out"))
     answer = json.loads(result.stdout)
     assert (answer["states"], answer["arcs"], answer["start"]) == (4, 4, "B")
     assert [row["kind"] for row in answer["classes"]].count("absorbing") == 1
     assert answer["mean_steps"] == pytest.approx(3.0)
     assert (tmp_path / "out" / "graph.svg").read_bytes().startswith(b"<?xml")
-    result = run("graph", str(path), "--start", "C", "--json", "--out", str(tmp_path / "out"))
+    result = run("graph", str(path), "--start-state", "C", "--json", "--out", str(tmp_path / "out"))
     assert json.loads(result.stdout)["limit"][2]["elimination"] == 1.0
 
 
@@ -229,7 +229,7 @@ def test_a_chart_file_makes_a_ladder(run, tmp_path) -> None:
         ("ahead 3 win by 2 --p 0.6", "leave one out"),
         ("race 7.5 --p 0.6", "or a match, such as 7:5"),
         ("nlp_10", "did you mean 'npl_10'?"),
-        ("one-ball --start S2", "--start is for a chain in a file"),
+        ("one-ball --start-state S2", "--start-state is for a chain in a file"),
         ("one-ball --rows from", "--rows is for a chain in a file"),
         ("mine.json --p 0.5", "leave --p, --p1 and --p2 out"),
     ],

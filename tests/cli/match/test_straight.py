@@ -36,7 +36,7 @@ def straight(ask):
 
 
 def test_averages(straight):
-    answer = straight("9 4 --points 100")
+    answer = straight("--averages 9:4 --points 100")
     match = StraightPool(100, 100, 0.9, 0.8)
     odds, spot = straight_pool_odds(match), even_spot(match)
     assert (answer["p_make_a"], answer["p_make_b"]) == (0.9, 0.8)
@@ -48,16 +48,16 @@ def test_averages(straight):
 
 
 def test_the_stronger_player_keeps_their_points_in_the_even_match(straight):
-    one = straight("9 4 --points 100:80 --first b")
+    one = straight("--averages 9:4 --points 100:80 --first b")
     assert one["even_points_a"] == 100
     assert one["even_points_b"] < 80
-    other = straight("4 9 --points 80:100 --first a")
+    other = straight("--averages 4:9 --points 80:100 --first a")
     assert (other["even_points_a"], other["even_points_b"]) == (one["even_points_b"], 100)
     assert other["p_win_a_even"] == pytest.approx(1 - one["p_win_a_even"])
 
 
 def test_safety_and_first(straight):
-    answer = straight("24 19 --points 150 --safety 0.7 --first b")
+    answer = straight("--averages 24:19 --points 150 --safety 0.7 --first b")
     p_a, p_b = shot_chance(24, 0.7), shot_chance(19, 0.7)
     odds = straight_pool_odds(StraightPool(150, 150, p_a, p_b, safety_1=0.7, safety_2=0.7, first=2))
     assert answer["p_win_a"] == odds.p_win_1
@@ -65,7 +65,7 @@ def test_safety_and_first(straight):
 
 
 def test_a_match_that_never_ends(straight):
-    answer = straight("0 0 --points 5")
+    answer = straight("--averages 0:0 --points 5")
     assert answer["p_never_ends"] == 1
     assert {answer[key] for key in QUANTITIES[-7:]} == {None}
 
@@ -73,10 +73,10 @@ def test_a_match_that_never_ends(straight):
 @pytest.mark.parametrize(
     "line",
     [
-        "0 5 --points 100",
-        "100000 1 --points 1000",
+        "--averages 0:5 --points 100",
+        "--averages 100000:1 --points 1000",
         "--p1 0.999 --p2 0.01 --points 50",
-        "9 4 --points 1:1",
+        "--averages 9:4 --points 1:1",
     ],
 )
 def test_no_spot_makes_it_even(straight, line):
@@ -86,19 +86,22 @@ def test_no_spot_makes_it_even(straight, line):
 
 
 def test_long_matches_are_no_trouble(straight):
-    assert straight("24 19 --points 1000")["p_win_a"] == pytest.approx(0.8761, abs=5e-5)
-    assert straight("0.2 0.15 --points 1000")["p_win_a"] > 0.999
+    assert straight("--averages 24:19 --points 1000")["p_win_a"] == pytest.approx(0.8761, abs=5e-5)
+    assert straight("--averages 0.2:0.15 --points 1000")["p_win_a"] > 0.999
 
 
 def test_csv_into_a_pipe(run):
-    lines = run("straight", "9", "4", "--points", "50").stdout.splitlines()
+    lines = run("straight", "--averages", "9:4", "--points", "50").stdout.splitlines()
     assert lines[0] == "quantity,value"
     assert [line.split(",")[0] for line in lines[1:]] == QUANTITIES
     assert "points_b,50" in lines
 
 
 @pytest.mark.slow_after(3)
-@pytest.mark.parametrize("line", ["9 4 --points 100:80", "4 9 --points 1", "0 5 --points 10"])
+@pytest.mark.parametrize(
+    "line",
+    ["--averages 9:4 --points 100:80", "--averages 4:9 --points 1", "--averages 0:5 --points 10"],
+)
 @pytest.mark.parametrize("name", ["spot.png", "spot.svg"])
 def test_plot(run, tmp_path, line, name):
     path = tmp_path / name
@@ -111,21 +114,21 @@ def test_plot(run, tmp_path, line, name):
     "line, named",
     [
         ("9 4", "--points"),
-        ("9 --points 5", "averages are 9;"),
-        ("9 4 3 --points 5", "9 4 3"),
+        ("9 --points 5", "such as 24:19"),
+        ("9 4 3 --points 5", "9:4:3"),
         ("--points 5", "--p1 and --p2"),
         ("--p1 .5 --points 5", "--p1 and --p2"),
         ("9 4 --p1 .5 --points 5", "given twice"),
         ("9 x --points 5", "'x'"),
-        ("9 -4 --points 5", "'-4'"),
-        ("24,5 19 --points 5", "24.5"),
+        ("--averages 9:-4 --points 5", "'-4'"),
+        ("--averages 24,5:19 --points 5", "24.5"),
         ("9 1e9 --points 5", "from 0 to 100000"),
-        ("9 4 --points 0", "from 1 to 1000"),
-        ("9 4 --points 5:", "such as 7:5"),
-        ("9 4 --points 2000:5", "from 1 to 1000"),
-        ("9 4 --points 5 --first c", "'--first'"),
-        ("9 4 --points 5 --safety 2", "'2'"),
-        ("0 0 --points 5 --plot spot.png", "--plot"),
+        ("--averages 9:4 --points 0", "from 1 to 1000"),
+        ("--averages 9:4 --points 5:", "such as 7:5"),
+        ("--averages 9:4 --points 2000:5", "from 1 to 1000"),
+        ("--averages 9:4 --points 5 --first c", "'--first'"),
+        ("--averages 9:4 --points 5 --safety 2", "'2'"),
+        ("--averages 0:0 --points 5 --plot spot.png", "--plot"),
         ("--p1 .5 --p2 .5 --safety 0 --points 5 --plot spot.png", "--plot"),
         ("9 4 --point 5 --ponts 3", "--points"),
     ],

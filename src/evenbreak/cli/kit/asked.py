@@ -15,7 +15,7 @@ from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import say
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import NUMBER, Choice, Flag, Kind
-from evenbreak.fields.question import AskedError, Declared, declared, worded
+from evenbreak.fields.question import AskedError, Declared, declaration, declared, worded
 
 Asked = TypeVar("Asked")
 
@@ -58,7 +58,12 @@ def params_of(question: type) -> list[click.Parameter]:
     if len(words) > 1:  # they are told apart by `Question.split`
         joint = next(param for param in params if param.name == words[0].name)
         joint.metavar = " ".join(one.metavar for one in words)
+    if getattr(question, "old_words", ()):
+        params.append(click.Argument([_OLD_WORDS], nargs=-1, metavar="", expose_value=True))
     return params
+
+
+_OLD_WORDS = "old_words"
 
 
 def _param(one: Declared, question: type) -> click.Parameter:
@@ -184,6 +189,7 @@ class AskedCommand(click.Command):
                 sections.setdefault(field.section, []).append(param)
         if every:
             sections[_ANSWER] = [one for one in self.get_params(ctx) if one.name not in fields]
+        folded = []
         for section, params in sections.items():
             records = [one.get_help_record(ctx) for one in params]
             rows = [row for row in records if row is not None and row[1]]
@@ -191,19 +197,19 @@ class AskedCommand(click.Command):
                 continue
             if every or not section:
                 with formatter.section(section or "Options"):
-                    formatter.write_dl(rows)
+                    formatter.write_dl(rows, col_max=_WIDEST)
             else:
-                formatter.write_paragraph()
-                names = ", ".join(name for name, _ in rows)
-                formatter.write_text(f"{section}: {names}.")
+                names = (option for name, _ in rows for option in name.split()[:1])
+                folded.append((section, ", ".join(names)))
         if not every:
-            formatter.write_paragraph()
-            formatter.write_text(f"{_ANSWER}: {_COMMON}.")
-            formatter.write_text("All of them are explained by --help-all.")
+            with formatter.section(f"More, explained by {ALL_HELP}"):
+                formatter.write_dl([*folded, (_ANSWER, _COMMON)])
 
 
-_ANSWER = "Answer and help"
-_COMMON = "--text, --csv, --json, --html FILE, -v (--verbose)"
+_WIDEST = 24
+"""The columns of a help text that options have; those of wider ones begin a line below."""
+_ANSWER = "The answer"
+_COMMON = "--text, --csv, --json, --html FILE, --verbose (-v)"
 
 
 def _show_all(ctx: click.Context, param: click.Parameter, value: bool) -> None:  # noqa: ARG001
@@ -260,4 +266,23 @@ def asked_of(question: type[Asked], values: dict[str, Any], ctx: click.Context) 
         for name, value in values.items()
         if ctx.get_parameter_source(name) is not ParameterSource.DEFAULT and value is not None
     }
+    words = typed.pop(_OLD_WORDS, ())
+    if words:
+        _read_old_words(question, words, typed)
     return question(**question.split(typed))  # type: ignore[attr-defined]
+
+
+def _read_old_words(question: Any, words: tuple[str, ...], typed: dict[str, Any]) -> None:
+    """Read words as the options that they were the values of, with a note."""
+    fields = [declaration(question, name) for name in question.old_words]
+    texts = words if len(fields) > 1 else (":".join(words),)
+    if len(texts) != len(fields) or any(one.name in typed for one in fields if not one.field.many):
+        raise click.UsageError(f"Got unexpected extra argument ({words[-1]})")
+    now = " ".join(f"{one.option} {text}" for one, text in zip(fields, texts, strict=True))
+    say(f"Note: write {now} in place of {' '.join(words)}.")
+    for one, text in zip(fields, texts, strict=True):
+        try:
+            value = one.kind.read(text)
+        except InputError as error:
+            raise click.BadParameter(str(error), param_hint=repr(one.option)) from None
+        typed[one.name] = (value, *typed.get(one.name, ())) if one.field.many else value

@@ -7,22 +7,18 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from evenbreak import files
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import Decorator, out_option
+from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.terminal import write_folder
-from evenbreak.cli.kit.values import CHANCE, refuse
-from evenbreak.cli.match.chain import file_options
+from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import DataError, InputError
+from evenbreak.questions.games import Graph
 
 if TYPE_CHECKING:
     import networkx as nx
 
     from evenbreak.answers.match.chain import Road
-    from evenbreak.chains.matrices import Rows
     from evenbreak.files.arcs import ArcsFile
     from evenbreak.game import Game
     from evenbreak.matches.formats import MatchFormat
@@ -53,76 +49,28 @@ FILES = (
     "graph.png",
 )
 
-EXAMPLES = """\b
-Examples:
-  evenbreak graph one-ball --p1 0.4 --p2 0.8 --out one_ball
-  evenbreak graph series winner breaks --p1 0.6 --p2 0.55 --out breaks
-  evenbreak graph drill 9-ball --p 0.8 --out drill
-  evenbreak graph ahead 5:3 --p 0.6 --out ahead
-  evenbreak graph 7:5 alternate breaks --p1 0.6 --p2 0.5 --out race
-  evenbreak graph npl_10 --out ladder
-  evenbreak graph arcs.csv --out mine
-  evenbreak graph matrix.mtx --states states.csv --out mine
-"""
 
-
-def _chance(name: str, what: str) -> Decorator[Any]:
-    return click.option(f"--{name}", metavar="P", type=CHANCE, help=what)
-
-
-@click.command("graph", epilog=EXAMPLES)
-@click.argument("game", metavar="GAME|FILE", nargs=-1, required=True)
-@_chance("p", "Chance that A wins a game, or in a drill the chance of making a shot.")
-@_chance("p1", "Chance that A wins a game that A breaks, or makes the one ball.")
-@_chance("p2", "Chance that B wins a game that B breaks, or makes the one ball.")
-@file_options
-@out_option("Where the files go; created if it does not exist.")
-@faces(page=False, always_text=True)
-def command(
-    game: tuple[str, ...],
-    p: float | None,
-    p1: float | None,
-    p2: float | None,
-    start: str | None,
-    states: str | None,
-    rows: Rows | None,
-    out: str,
-) -> Answer:
-    """Write a game, or a graph of your own, as graph, matrix, eigenvalues and limit.
-
-    GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
-    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalogue; or
-    a chart, such as npl_10, for the ladder of rating errors that it makes. Without --p, or --p1 and
-    --p2, a game of the catalogue has example chances; any other match needs them. FILE is any chain
-    that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
-    matrix in Matrix Market form (.mtx). All of these are written, with tables of the rest and a
-    picture, and can be read again.
-    """
+@command_of(Graph, "graph", page=False, always_text=True)
+def command(asked: Graph) -> Answer:
+    """Write a game as graph, matrix, eigenvalues and limit."""
     from evenbreak.answers.match.chain import road_of
     from evenbreak.answers.match.graph import graph_answer
     from evenbreak.files.store.folder import check_folder
 
-    if p is not None and (p1 is not None or p2 is not None):
-        refuse("--p cannot be combined with --p1 and --p2; leave it out")
-    if (p1 is None) != (p2 is None):
-        refuse("--p1 and --p2 go together; give both")
-    chances = tuple(chance for chance in (p, p1, p2) if chance is not None)
-    name = " ".join(game)
+    chances, name, out = asked.chances, " ".join(asked.game), asked.out
     check_folder(out)
     if _is_file(name):
         if chances:
-            refuse("a chain in a file has chances of its own; leave --p, --p1 and --p2 out")
-        file = files.read_chain(name, states=states, rows=rows)
+            asked.refuse("a chain in a file has chances of its own; leave {p}, {p1} and {p2} out")
+        file = files.read_chain(name, states=asked.states, rows=asked.rows)
         _check_size(file)
         title = f"The chain in {file.source if name == '-' else Path(name).name}"
-        chain = file.chain(start)
-        road = road_of(file.graph(start), start=str(chain.start))
+        chain = file.chain(asked.start_state)
+        road = road_of(file.graph(asked.start_state), start=str(chain.start))
         written, doubts = _files(road.graph, road, title)
         doubts = [*file.warnings, *doubts]
     else:
-        for option, given in (("start", start), ("states", states), ("rows", rows)):
-            if given is not None:
-                refuse(f"--{option} is for a chain in a file; leave it out")
+        asked.refuse_file_options()
         title, played = _game(name, chances)
         road = road_of(played)
         written, doubts = _files(played, road, title)

@@ -1,0 +1,293 @@
+"""Questions about games shot by shot, about breaks, and about any Markov chain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from evenbreak.chains.matrices import Rows
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Named, Number, Text, Whole
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.questions.common import CHANCE, RACE, SHARE, ByWay, OutFolder, PlotFile
+from evenbreak.words import Parameter
+
+MOST_BALLS = 100_000
+"""The most balls that an option can name."""
+HIGHEST = 1_000_000
+"""The highest stake."""
+MOST_SHOTS = 1000
+"""The most shots to look ahead."""
+
+_STAKE = Number(0, HIGHEST, f" is not a stake; give a number from 0 to {HIGHEST}")
+
+Stake: TypeAlias = Annotated[float, Field(_STAKE)]
+Chance: TypeAlias = Annotated[float | None, Field(CHANCE)]
+Safety: TypeAlias = Annotated[
+    float,
+    Field(
+        SHARE,
+        "The first shot of an inning goes in ALPHA times as often as the others.",
+        metavar="ALPHA",
+    ),
+]
+Shots: TypeAlias = tuple[float, ...]
+
+
+def numbers_in(text: str, least: int, most: int, kind: Number, wanted: str) -> Shots:
+    """Return the numbers of a text, with colons between them.
+
+    >>> numbers_in("24:19", 2, 2, Number(0, 100), "give A:B")
+    (24.0, 19.0)
+    """
+    numbers = tuple(kind.read(part) for part in text.split(":") if part.strip())
+    if not least <= len(numbers) <= most:
+        raise InputError(f"{text!r}; {wanted}")
+    return numbers
+
+
+def _averages(text: str) -> Shots:
+    wanted = f"give the balls an inning of A and of B, from 0 to {MOST_BALLS}, such as 24:19"
+    return numbers_in(text, 2, 2, Number(0, MOST_BALLS), wanted)
+
+
+def _shot(text: str) -> Shots:
+    wanted = "give two or more numbers from 0 to 1 with colons between them, such as 0.3:0.3"
+    return numbers_in(text, 2, MOST_SHOTS, SHARE, wanted)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Breaks(Question):
+    """Compare break formats for two players in the long run, the best for A first."""
+
+    examples = """\
+  evenbreak breaks --p1 0.6 --p2 0.55
+  evenbreak breaks --p1 0.9 --p2 0.5 --win 1 --lose 2
+  evenbreak breaks --p1 0.9 --p2 0.5 --plot breaks.png
+"""
+    old_words = ("p1", "p2")
+    p1: Annotated[Chance, Says("Chance that A wins a rack that A breaks.")] = None
+    p2: Annotated[Chance, Says("Chance that B wins a rack that B breaks.")] = None
+    win: Annotated[Stake, Says("What A wins for each rack won.")] = 1.0
+    lose: Annotated[Stake, Says("What A pays for each rack lost.", metavar="Y")] = 1.0
+    first_break: Annotated[
+        str,
+        Field(
+            Choice(("a", "b")),
+            "Who breaks the first rack; it matters only if the break never passes on.",
+        ),
+    ] = "a"
+    via: ByWay = None
+    plot: Annotated[
+        PlotFile,
+        Says(more="The two players as a dot on the contour lines of A's share of the racks."),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a question without chances."""
+        if self.p1 is None or self.p2 is None:
+            self.refuse("the chances are missing; give {p1} P and {p2} P")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Straight(Question):
+    """Give the odds of a match of 14.1 straight pool, and the spot that makes it even.
+
+    Describe the players by the balls that they average an inning, {averages} A:B, or by {p1} and
+    {p2}.
+    """
+
+    examples = """\
+  evenbreak straight --averages 9:4 --points 100
+  evenbreak straight --averages 24:19 --points 150:130 --first b
+  evenbreak straight --p1 0.9 --p2 0.85 --points 100 --safety 0.8
+"""
+    old_words = ("averages",)
+    averages: Annotated[
+        Shots | None, Field(Named(_averages, "A:B"), "The balls that A and B average an inning.")
+    ] = None
+    p1: Annotated[Chance, Says("Chance that A makes a shot.")] = None
+    p2: Annotated[Chance, Says("Chance that B makes a shot.")] = None
+    points: Annotated[tuple[int, int], Field(RACE, "The points to win: A needs M, B needs N.")]
+    safety: Safety = 1.0
+    first: Annotated[str, Field(Choice(("a", "b")), "Who has the first inning.")] = "a"
+    plot: Annotated[
+        PlotFile, Says(more="A's chance against the points that the weaker player needs.")
+    ] = None
+
+    def check(self) -> None:
+        """Refuse players that are missing, or given twice."""
+        by_chance = self.p1 is not None or self.p2 is not None
+        if self.averages and by_chance:
+            self.refuse("the players are given twice; give {averages} A:B, or {p1} and {p2}")
+        if not self.averages and (self.p1 is None or self.p2 is None):
+            self.refuse("the players are missing; give {averages} A:B, or {p1} and {p2}")
+
+
+LOOK_AHEADS = {"infinite": "infinite", "two": "two shots", "all": "all shots"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneBall(Question):
+    """Choose the best shot in the one-ball game, and give your odds of winning it.
+
+    Of each {shots} P1 is your chance of making the shot, P2 the opponent's chance of making what
+    your miss leaves. If you know more, give the chances of the shots after those two: P3 is yours,
+    P4 the opponent's, and so on.
+    """
+
+    examples = """\
+  evenbreak oneball --shot 0.4:0.8
+  evenbreak oneball --shot 0.4:0.8 --shot 0.3:0.3 --shot 0.5:0.9
+  evenbreak oneball --shot 0.4:0.8:0.5:0.2 --shot 0.3:0.3:0.2:0.4
+"""
+    old_words = ("shots",)
+    shots: Annotated[
+        tuple[Shots, ...],
+        Field(
+            Named(_shot, "P1:P2[:P3...]"),
+            "A shot that you could take.",
+            many=True,
+            option="shot",
+            old=("or",),
+        ),
+    ] = ()
+    look_ahead: Annotated[
+        str | None,
+        Field(
+            Choice(LOOK_AHEADS),
+            "Rank by the first two shots repeated until one is made, or by the first two or all of "
+            "the shots, after which the game is even.",
+            usual="all if there is a P3, else infinite",
+        ),
+    ] = None
+    via: ByWay = None
+    plot: Annotated[
+        PlotFile,
+        Says(
+            more="The shots on the contour lines of the chance of winning; the thick line is even."
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a question without a shot, and a picture that would need more dimensions."""
+        if not self.shots:
+            self.refuse("the shots are missing; give some, such as {shots} 0.4:0.8")
+        if self.plot is not None and self.ahead == "all shots":
+            self.refuse("{plot} draws two chances a shot; add {look_ahead} infinite or two")
+
+    @property
+    def ahead(self) -> str:
+        """How far to look ahead."""
+        return self.look_ahead or (
+            "all shots" if any(len(shot) > 2 for shot in self.shots) else "infinite"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChainFile(Question):
+    """How a file of a chain is read."""
+
+    start_state: Annotated[
+        str | None,
+        Field(
+            Text("STATE"),
+            "Where it starts.",
+            usual="the start that the file names, else the first state",
+            old=("start",),
+        ),
+    ] = None
+    states: Annotated[
+        str | None,
+        Field(
+            File("STATES.csv"),
+            "The names of the states of a matrix, in its order.",
+            usual="1, 2, ...",
+        ),
+    ] = None
+    rows: Annotated[
+        Rows | None,
+        Field(
+            Choice(("from", "to")),
+            "What a row of a matrix holds: the chances out of its state, or into it.",
+            usual="to, so that columns sum to 1",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chain(ChainFile):
+    """Find where any Markov chain ends, or its long-run average, from a file.
+
+    FILE is a CSV file of arcs with the columns source, target and probability (- reads one from
+    standard input), a graph in GraphML (.graphml) or node-link JSON (.json), or a transition
+    matrix in Matrix Market form (.mtx). The arcs out of each state sum to 1; the chain ends in a
+    state that is only a target.
+    """
+
+    examples = """\
+  evenbreak chain arcs.csv
+  evenbreak chain arcs.csv --start-state S2 --json
+  evenbreak chain arcs.csv --steps 10
+  evenbreak chain matrix.mtx --states states.csv
+"""
+    path: Annotated[str, Field(File(), argument=True)]
+    steps: Annotated[
+        int | None,
+        Field(
+            Whole(0, 10**40),
+            "Also give the probabilities after N steps; CSV then has only these.",
+        ),
+    ] = None
+    via: ByWay = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Graph(ChainFile):
+    """Write a game, or a graph of your own, as graph, matrix, eigenvalues and limit.
+
+    GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
+    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalogue; or
+    a chart, such as npl_10, for the ladder of rating errors that it makes. Without {p}, or {p1} and
+    {p2}, a game of the catalogue has example chances; any other match needs them. FILE is any chain
+    that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
+    matrix in Matrix Market form (.mtx). All of these are written, with tables of the rest and a
+    picture, and can be read again.
+    """
+
+    examples = """\
+  evenbreak graph one-ball --p1 0.4 --p2 0.8 --out one_ball
+  evenbreak graph series winner breaks --p1 0.6 --p2 0.55 --out breaks
+  evenbreak graph 7:5 alternate breaks --p1 0.6 --p2 0.5 --out race
+  evenbreak graph npl_10 --out ladder
+  evenbreak graph matrix.mtx --states states.csv --out mine
+"""
+    game: Annotated[tuple[str, ...], Field(File("GAME|FILE"), argument=True, many=True)]
+    p: Annotated[
+        Chance, Says("Chance that A wins a game, or in a drill the chance of making a shot.")
+    ] = None
+    p1: Annotated[
+        Chance, Says("Chance that A wins a game that A breaks, or makes the one ball.")
+    ] = None
+    p2: Annotated[
+        Chance, Says("Chance that B wins a game that B breaks, or makes the one ball.")
+    ] = None
+    out: OutFolder
+
+    def check(self) -> None:
+        """Refuse chances that contradict each other."""
+        if self.p is not None and (self.p1 is not None or self.p2 is not None):
+            self.refuse("{p} cannot be combined with {p1} and {p2}; leave it out")
+        if (self.p1 is None) != (self.p2 is None):
+            self.refuse("{p1} and {p2} go together; give both")
+
+    @property
+    def chances(self) -> tuple[float, ...]:
+        """The chances that are given."""
+        return tuple(chance for chance in (self.p, self.p1, self.p2) if chance is not None)
+
+    def refuse_file_options(self) -> None:
+        """Refuse for a game what says how a file is read."""
+        for name in ("start_state", "states", "rows"):
+            if getattr(self, name) is not None:
+                self.refuse("{part} is for a chain in a file; leave it out", part=Parameter(name))
