@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.errors import DataError
 from evenbreak.files.tables.cells import Number, Text
-from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.problems import quoted, refusal
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import Texts, TextTable
 from evenbreak.words import Sentence, say
@@ -87,12 +86,12 @@ class ArcsFile(NamedTuple):
             start = self.start or self.states[0]
         elif start not in self.states:
             known = ", ".join(map(quoted, self.states[:5]))
-            problem = say(
+            raise refusal(
+                self.source,
                 "start {start} is not a state; the first states are {states}",
                 start=quoted(start),
                 states=known,
             )
-            raise DataError([warning(self.source, problem)])
         return chain_from_arrays(
             self.states, self.sources, self.targets, self.probabilities, start=start
         )

@@ -9,17 +9,17 @@ from __future__ import annotations
 import io
 import json
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from evenbreak.chains.matrices import sums_to_1
-from evenbreak.errors import DataError
 from evenbreak.files.arcs import ARCS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
 from evenbreak.files.tables.cells import Text
-from evenbreak.files.tables.problems import printable, quoted
+from evenbreak.files.tables.problems import Problems, printable, quoted, refusal, warning
 from evenbreak.files.tables.rows import content_of
 from evenbreak.files.tables.schema import Schema
+from evenbreak.words import Parameter, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -81,15 +81,19 @@ def read_chain(
     """
     form = PurePath(path).suffix.lower()
     if form != ".mtx" and (states is not None or rows is not None):
-        option = "states" if states is not None else "rows"
-        raise DataError([f"{path}: only a Matrix Market file (.mtx) needs {option}; leave it out"])
+        raise refusal(
+            str(path),
+            "only a Matrix Market file (.mtx) needs {option}; leave it out",
+            option=Parameter("states" if states is not None else "rows"),
+        )
     if form == ".mtx":
         return _of_matrix(path, states, rows)
     if form in OTHER_FORMS:
-        _refuse(
+        raise refusal(
             str(path),
-            f"a {form} file is not read here; write the graph as GraphML (networkx.write_graphml), "
+            "a {form} file is not read here; write the graph as GraphML (networkx.write_graphml), "
             "the matrix in Matrix Market form (scipy.io.mmwrite), or the arcs as CSV",
+            form=form,
         )
     if form in (".graphml", ".xml"):
         return _of_graph(path, _graphml)
@@ -134,44 +138,58 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
 def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     source, content = content_of(path)
     if len(content) > MOST_MEGABYTES << 20:
-        _refuse(source, f"is larger than {MOST_MEGABYTES} MB; write its arcs as CSV")
+        raise refusal(source, "is larger than {n} MB; write its arcs as CSV", n=MOST_MEGABYTES)
     try:
         graph = parsed(content)
     except Exception as error:
         form = "GraphML" if parsed is _graphml else "node-link JSON, with nodes and edges"
         reason = printable(" ".join(str(error).split()))
-        _refuse(source, f"cannot be read as {form} ({reason}); check the file")
+        raise refusal(
+            source, "cannot be read as {form} ({reason}); check the file", form=form, reason=reason
+        ) from None
     if not graph.is_directed() or graph.is_multigraph():
-        what = "is a multigraph" if graph.is_directed() else "is not directed"
-        _refuse(source, f"{what}; write a directed graph, with one arc from a state to another")
+        raise refusal(
+            source,
+            "{fault}; write a directed graph, with one arc from a state to another",
+            fault=say("is a multigraph") if graph.is_directed() else say("is not directed"),
+        )
     if not len(graph):
-        _refuse(source, "has no states; write a node for each")
+        raise refusal(source, "has no states; write a node for each")
     names = ("probability", *ARCS["probability"].aliases, WEIGHT)
-    problems, triples = [], []
+    problems, triples = Problems(source), []
     position = {state: k for k, state in enumerate(graph)}
     for j, i, attributes in graph.edges(data=True):
         chance: Any = next((attributes[name] for name in names if name in attributes), None)
         if type(chance) not in (int, float) or not 0.0 <= chance <= 1.0:
-            given = "no probability" if chance is None else f"probability {chance!r:.40}"
             weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
-            scaled = ", such as its weight divided by all that leave its source" * weighted
-            problems.append(
-                f"{source}: the arc {quoted(str(j))} -> {quoted(str(i))} has {given}; give each "
-                f"arc a number from 0 to 1, named probability{scaled}"
+            problems.add(
+                None,
+                "the arc {start} -> {end} has {chance}; give each arc a number from 0 to 1, named "
+                "probability{scaled}",
+                start=quoted(str(j)),
+                end=quoted(str(i)),
+                chance=say("no probability")
+                if chance is None
+                else say("probability {chance}", chance=f"{chance!r:.40}"),
+                scaled=say(", such as its weight divided by all that leave its source")
+                if weighted
+                else "",
             )
         triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]
     if len(set(states)) < len(states):
-        _refuse(source, "has two states that are written alike; give each a name of its own")
-    _raise_any(problems)
+        raise refusal(source, "has two states that are written alike; give each a name of its own")
+    problems.raise_any()
     ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
     sources, targets = ends.T
     p = np.array([triple[2] for triple in triples], dtype=np.float64)
-    _raise_any(f"{source}: {text}" for text in sum_problems(states, sources, p).values())
+    for problem in sum_problems(states, sources, p).values():
+        problems.add(None, problem)
+    problems.raise_any()
     nodes = dict(zip(states, graph.nodes.values(), strict=True))
     starts = [state for state, node in nodes.items() if node.get("kind") == "start"]
     if len(starts) > 1:
-        _refuse(source, f"has {len(starts)} nodes of the kind start; leave one")
+        raise refusal(source, "has {n} nodes of the kind start; leave one", n=len(starts))
     start = starts[0] if starts else None
     winners = _winners({state: node.get("winner") for state, node in nodes.items()}, source)
     return ArcsFile(states, sources, targets, p, source, (), start, winners)
@@ -188,10 +206,12 @@ def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
         except ValueError:
             found[state] = 0
         if found[state] < 1:
-            _refuse(
+            raise refusal(
                 source,
-                f"state {quoted(state)} has winner {quoted(str(winner))}; give the number of the "
-                "player who has won there, 1, 2, ...",
+                "state {state} has winner {winner}; give the number of the player who has won "
+                "there, 1, 2, ...",
+                state=quoted(state),
+                winner=quoted(str(winner)),
             )
     return found
 
@@ -201,20 +221,26 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     matrix = _square(content, source)
     wrong = np.flatnonzero(~((matrix.data >= 0.0) & (matrix.data <= 1.0)))
     if wrong.size:
-        _refuse(source, f"has the entry {matrix.data[wrong[0]]:.12g}; give numbers from 0 to 1")
+        entry = matrix.data[wrong[0]]
+        raise refusal(source, "has the entry {entry:.12g}; give numbers from 0 to 1", entry=entry)
     by_columns, by_rows = (sums_to_1(matrix, axis=axis) for axis in (0, 1))
     warnings: tuple[str, ...] = ()
     if rows is None and by_rows and not by_columns:
-        _refuse(
+        raise refusal(
             source,
             "is row-stochastic: its rows sum to 1 and its columns do not, so a row holds the "
-            "chances out of its state; say so with rows='from' (--rows from), or transpose it",
+            "chances out of its state; say so with {rows}='from', or transpose it",
+            rows=Parameter("rows"),
         )
     if rows is None and by_rows and (matrix - matrix.T).count_nonzero():
-        warnings = (
-            f"{source}: its rows and its columns sum to 1; a column was read as the chances out "
-            "of its state. Give --rows from if a row holds them, or --rows to if this is right",
+        either = warning(
+            source,
+            None,
+            "its rows and its columns sum to 1; a column was read as the chances out of its state. "
+            "Give {rows} from if a row holds them, or {rows} to if this is right",
+            rows=Parameter("rows"),
         )
+        warnings = (either,)
     if rows == "from":
         matrix = matrix.T.tocsc()
     n = matrix.shape[0]
@@ -225,13 +251,18 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
         warnings += more
     sources = np.repeat(np.arange(n), np.diff(matrix.indptr))
     targets = matrix.indices.astype(np.int64)
-    line = "row" if rows == "from" else "column"
     sums = np.bincount(sources, weights=matrix.data, minlength=n)
-    _raise_any(
-        f"{source}: {line} {k + 1} sums to {sums[k]:.12g}, not 1; give probabilities out of each "
-        "state, with a 1 on the diagonal for a state that is never left"
-        for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist()
-    )
+    problems = Problems(source)
+    for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist():
+        problems.add(
+            None,
+            "{line} {k} sums to {sum:.12g}, not 1; give probabilities out of each state, with a 1 "
+            "on the diagonal for a state that is never left",
+            line=say("row") if rows == "from" else say("column"),
+            k=k + 1,
+            sum=sums[k],
+        )
+    problems.raise_any()
     return ArcsFile(names, sources, targets, matrix.data, source, warnings, start, winners)
 
 
@@ -251,15 +282,24 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
         read: Any = mmread(io.BytesIO(content))
     except Exception as error:
         reason = printable(" ".join(str(error).split()))
-        _refuse(source, f"cannot be read as a Matrix Market file ({reason}); check the file")
+        raise refusal(
+            source,
+            "cannot be read as a Matrix Market file ({reason}); check the file",
+            reason=reason,
+        ) from None
     found = coo_array(read)
     if found.dtype.kind not in "iuf" or found.shape[0] != found.shape[1] or not found.shape[0]:
         kind = "complex " if found.dtype.kind == "c" else ""
         size = " x ".join(map(str, found.shape))
-        _refuse(source, f"holds a {kind}matrix of {size}; give a square one of real numbers")
+        raise refusal(
+            source,
+            "holds a {kind}matrix of {size}; give a square one of real numbers",
+            kind=kind,
+            size=size,
+        )
     matrix: csc_array[np.float64] = csc_array(found.astype(np.float64))
     if issparse(read) and matrix.nnz < found.nnz:
-        _refuse(source, "lists an entry twice; keep one of the two")
+        raise refusal(source, "lists an entry twice; keep one of the two")
     return matrix
 
 
@@ -271,24 +311,18 @@ def _states(
     table.problems.raise_any()
     names = table.cells("state")
     if len(names) != n or len(set(names)) < n or not all(names):
-        _refuse(
+        raise refusal(
             table.source,
-            f"names {len(set(filter(None, names)))} states in {len(names)} rows, and the matrix "
-            f"has {n}; give each a name of its own, in the order of the matrix",
+            "names {names} states in {rows} rows, and the matrix has {n}; give each a name of its "
+            "own, in the order of the matrix",
+            names=len(set(filter(None, names))),
+            rows=len(names),
+            n=n,
         )
     kinds = table.cells("kind") if "kind" in table else []
     start = next((name for name, kind in zip(names, kinds, strict=False) if kind == "start"), None)
     winners = dict(zip(names, table.cells("winner"), strict=True))
     return names, start, _winners(winners, table.source), table.warnings
-
-
-def _refuse(source: str, text: str) -> NoReturn:
-    raise DataError([f"{source}: {text}"])
-
-
-def _raise_any(problems: Any) -> None:
-    if found := list(problems):
-        raise DataError(found)
 
 
 HEADER = """Transition matrix of an evenbreak chain, column-stochastic: the entry in row i and

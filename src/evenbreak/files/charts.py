@@ -13,7 +13,7 @@ from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import LARGEST
 from evenbreak.files.tables.cells import Number, Whole
 from evenbreak.files.tables.header import missing_column
-from evenbreak.files.tables.problems import Problems, printable, warning
+from evenbreak.files.tables.problems import Problems, printable, refusal
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import TextTable
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, ChartDraft, ChartRow, chart, row_faults
@@ -311,11 +311,11 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
     if key in POINTS_CHARTS:
         return ChartFile(points_chart(key), (), ())
     if str(name_or_path) != "-" and not _exists(name_or_path):
-        problem = say(
+        raise refusal(
+            printable(str(name_or_path)),
             "there is no such file, and no chart has this name; name a file, or {charts}",
             charts=", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS)),
         )
-        raise DataError([warning(printable(str(name_or_path)), problem)])
     return read_chart_file(name_or_path)
 
 
@@ -370,7 +370,7 @@ def read_chip_chart(path: str | Path) -> ChipChart:
     try:
         return ChipChart(Path(path).stem, [ChipRow(*row) for row in rows], str(path))
     except InputError as error:
-        raise DataError([warning(table.source, error.sentence)]) from error
+        raise refusal(table.source, error.sentence) from error
 
 
 def chip_chart_of(name_or_path: str) -> ChipChart:

@@ -230,7 +230,7 @@ def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> l
             "it counts as a new start", "{n:,} such rows count as new starts", len(log.jumps)
         ),
     )
-    return [warning(table.source, problem, table.lines[rows[row]])]
+    return [warning(table.source, table.lines[rows[row]], problem)]
 
 
 class ScoresFile(NamedTuple):
@@ -296,4 +296,4 @@ def _undated(table: TextTable, rows: NDArray[np.int64], scores: int) -> list[str
         "{n} dates are missing, so no dates are used",
         rows.size,
     )
-    return [warning(table.source, missing, table.lines[rows[0]])]
+    return [warning(table.source, table.lines[rows[0]], missing)]

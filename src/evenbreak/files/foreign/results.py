@@ -20,7 +20,7 @@ from evenbreak.files.foreign.saved import (
     SavedTournament,
     misshapen,
 )
-from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.problems import refusal, warning
 from evenbreak.files.tables.rows import Export, Sheet, text_of
 from evenbreak.words import joined, say, say_count
 
@@ -44,18 +44,17 @@ def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] |
         data = json.loads(body.decode(encoding))
     except (ValueError, RecursionError) as error:
         damage = say("is damaged JSON from here on; save it again in the other program")
-        raise DataError([warning(source, damage, getattr(error, "lineno", 1))]) from None
+        raise refusal(source, damage, getattr(error, "lineno", 1)) from None
     for program in (cuescore, challonge, brackets_manager):
         if not program.is_one(data):
             continue
         try:
             return program.tournament(data), warnings
         except ExportError as error:
-            raise DataError([warning(source, error.sentence)]) from None
+            raise refusal(source, error.sentence) from None
         except MISSHAPEN:
-            raise DataError([warning(source, misshapen())]) from None
-    other = say("is JSON, but not a tournament saved from {programs}", programs=PROGRAMS)
-    raise DataError([warning(source, other)])
+            raise refusal(source, misshapen()) from None
+    raise refusal(source, "is JSON, but not a tournament saved from {programs}", programs=PROGRAMS)
 
 
 def export_of(content: bytes, source: str) -> Export | None:
@@ -72,7 +71,7 @@ def export_of(content: bytes, source: str) -> Export | None:
         return None
     saved, warnings = found
     problems = [
-        warning(source, match_problem(number, match.problem), number)
+        warning(source, number, match_problem(number, match.problem))
         for number, match in enumerate(saved.matches, 1)
         if match.problem
     ]
@@ -85,14 +84,13 @@ def export_of(content: bytes, source: str) -> Export | None:
     remarks = Counter(remark for _, part in played for remark in part.remarks)
     noted = _counted(left_out, remarks)
     if not played:
-        nothing = say("has no match that was played{noted}", noted=noted)
-        raise DataError([warning(source, nothing)])
+        raise refusal(source, "has no match that was played{noted}", noted=noted)
     rows = [list(TITLES), *(part.row() for _, part in played)]
     if noted:
         read = say_count(
             "read {n} match{noted}", "read {n:,} matches{noted}", len(played), noted=noted
         )
-        warnings = [*warnings, warning(source, read)]
+        warnings = [*warnings, warning(source, None, read)]
     return Export(Sheet(source, [0, *(number for number, _ in played)], rows), warnings)
 
 

@@ -9,7 +9,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from evenbreak.errors import DataError, EvenbreakError, InputError
+from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.foreign.results import PROGRAMS, match_problem, saved_in
 from evenbreak.files.foreign.saved import (
     MISSHAPEN,
@@ -19,7 +19,7 @@ from evenbreak.files.foreign.saved import (
     SavedTournament,
     misshapen,
 )
-from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import content_of
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
@@ -71,8 +71,7 @@ def read_saved_tournament(
     source, content = content_of(path)
     found = saved_in(content, source)
     if found is None:
-        other = say("is not a tournament saved from {programs}", programs=PROGRAMS)
-        raise DataError([warning(source, other)])
+        raise refusal(source, "is not a tournament saved from {programs}", programs=PROGRAMS)
     saved, _ = found
     wrong = (
         match_problem(number, match.problem)
@@ -80,15 +79,15 @@ def read_saved_tournament(
         if match.problem
     )
     if problem := saved.refusal or next(wrong, ""):
-        raise DataError([warning(source, problem)])
+        raise refusal(source, problem)
     try:
         return _events(saved, plan, entrants, at)
     except InputError as error:
-        raise DataError([warning(source, error.sentence)]) from None
+        raise refusal(source, error.sentence) from None
     except EvenbreakError:
         raise
     except MISSHAPEN:
-        raise DataError([warning(source, misshapen())]) from None
+        raise refusal(source, misshapen()) from None
 
 
 def _events(

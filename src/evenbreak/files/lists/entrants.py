@@ -21,7 +21,7 @@ from evenbreak.files.lists.roster import (
 )
 from evenbreak.files.lists.typed_list import read_players
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.ratings.roster import Roster
 from evenbreak.words import say
 
@@ -112,7 +112,7 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
                 whose=whose,
                 hint=known.hint(name),
             )
-            warnings.append(warning(entrants.source, new, line))
+            warnings.append(warning(entrants.source, line, new))
     return Entered(tuple(names), tuple(places), (*entrants.warnings, *warnings))
 
 
@@ -151,14 +151,12 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     warnings = [
         warning(
             entrants.source,
-            say(
-                "the rating {stated:g} of {player} is not used; {list} has {rating:g}",
-                stated=stated.rating[k],
-                player=quoted(roster.players[k]),
-                list=league.source,
-                rating=roster.rating[k],
-            ),
             entrants.lines[k],
+            "the rating {stated:g} of {player} is not used; {list} has {rating:g}",
+            stated=stated.rating[k],
+            player=quoted(roster.players[k]),
+            list=league.source,
+            rating=roster.rating[k],
         )
         for k in np.flatnonzero(differ).tolist()
     ]
@@ -197,10 +195,10 @@ def check_one_scale(league: RatedList, entrants: RosterFile) -> None:
         )
     else:
         return None
-    problem = say(
+    raise refusal(
+        entrants.source,
         "its scale {theirs} differs from {ours} in {list}; put all ratings on one scale",
         theirs=theirs,
         ours=ours,
         list=league.source,
     )
-    raise DataError([warning(entrants.source, problem)])

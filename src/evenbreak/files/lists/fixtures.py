@@ -190,12 +190,10 @@ def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) 
     warnings = [
         warning(
             table.source,
-            say(
-                "the same two meet in week {week} as in line {line}; both matches are played",
-                week=week[row],
-                line=table.lines[earlier[row]],
-            ),
             table.lines[row],
+            "the same two meet in week {week} as in line {line}; both matches are played",
+            week=week[row],
+            line=table.lines[earlier[row]],
         )
         for row in again.tolist()
     ]

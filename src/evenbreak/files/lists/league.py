@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import InputError
 from evenbreak.files.lists.entrants import check_one_scale, entered
 from evenbreak.files.lists.roster import (
     FARTHEST,
@@ -17,7 +17,7 @@ from evenbreak.files.lists.roster import (
     RosterFile,
     roster_of,
 )
-from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.problems import refusal, warning
 from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
@@ -128,7 +128,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             played=np.where(roster.matches == NOT_STATED, ESTABLISHED, roster.matches),
         )
     except InputError as error:
-        raise DataError([warning(table.source, error.sentence)]) from None
+        raise refusal(table.source, error.sentence) from None
     warnings = [*file.warnings]
     rounded = int((whole != roster.rating).sum())
     if rounded:
@@ -137,7 +137,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             "{n:,} ratings are rounded to whole points, as charts need",
             rounded,
         )
-        warnings.append(warning(table.source, note))
+        warnings.append(warning(table.source, None, note))
     return LeagueFile(
         players,
         roster,
@@ -173,8 +173,7 @@ def league_of_entrants(
     """
     check_one_scale(file, entrants)
     if len(entrants.roster) < 2:
-        too_few = say("has 1 player; a league needs two or more")
-        raise DataError([warning(entrants.source, too_few)])
+        raise refusal(entrants.source, "has 1 player; a league needs two or more")
     who = entered(entrants, file.roster.players, file.source)
     at = np.array(who.places, dtype=np.int64)
     new = at < 0

@@ -263,7 +263,7 @@ def refuse_to_read(file: RatedList, scale: Scale, whose: str, remedy: str) -> No
             scale, file.roster.rating.tolist(), file.roster.players, whose=whose, remedy=remedy
         )
     except InputError as error:
-        raise InputError(warning(file.source, error.sentence)) from None
+        raise InputError(warning(file.source, None, error.sentence)) from None
 
 
 def read_roster(path: str | Path) -> RosterFile:

@@ -13,7 +13,7 @@ from evenbreak.files.csv_writer import csv_lines
 from evenbreak.files.lists.roster import LARGEST, ROSTER, WRITTEN, roster_of
 from evenbreak.files.tables.cells import Day, Number
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.files.tables.problems import warning
+from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.schema import Schema
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.fitted import Ratings
@@ -157,13 +157,13 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
             ]
         )
     if file.levels and file.scale is None:
-        levels = say("its ratings are skill levels; give ratings in points to begin from")
-        raise DataError([warning(file.source, levels)])
+        raise refusal(
+            file.source, "its ratings are skill levels; give ratings in points to begin from"
+        )
     roster = file.roster
     rated = np.flatnonzero(~np.isnan(roster.rating))
     if not len(rated):
-        nothing = say("no player in it has a rating to begin from")
-        raise DataError([warning(file.source, nothing)])
+        raise refusal(file.source, "no player in it has a rating to begin from")
     known = KnownNames(players)
     places = [known.place(roster.players[k]) for k in rated]
     error = roster.standard_error[rated]

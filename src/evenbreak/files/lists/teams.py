@@ -11,12 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats, Ints, array_values
-from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import ROSTER, WRITTEN, RosterFile, roster_of
 from evenbreak.files.lists.typed_list import read_players
 from evenbreak.files.tables.cells import Number, Text, Whole
 from evenbreak.files.tables.names import Name, same_name
-from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
@@ -173,8 +172,7 @@ def read_squads(path: str | Path) -> dict[str, TeamList]:
         teams.setdefault(name, []).append(line)
     table.problems.raise_any()
     if len(teams) < 2:
-        one = say("names one team only; a league has two or more")
-        raise DataError([warning(table.source, one)])
+        raise refusal(table.source, "names one team only; a league has two or more")
     every = set(table.lines.tolist())
     return {name: _team_of(table.without(every - set(lines))) for name, lines in teams.items()}
 
@@ -297,8 +295,7 @@ def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, 
     unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
     every = _matches(table, teams, scores)
     if unplayed.all():
-        nothing = say("no match in it has been played; fill in the scores")
-        raise DataError([warning(table.source, nothing)])
+        raise refusal(table.source, "no match in it has been played; fill in the scores")
     to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
     return every.among(~unplayed), replace(to_come, warnings=())
 
@@ -354,7 +351,7 @@ def _twice(
     warnings: list[str] = []
 
     def warn(text: str, line: int) -> None:
-        warnings.append(warning(table.source, text, line))
+        warnings.append(warning(table.source, line, text))
 
     for row, line in enumerate(table.lines.tolist()):
         home, away = pairs[row].tolist()

@@ -34,7 +34,7 @@ def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: 
     more = len(texts) - MOST_LISTED
     if more > 0:
         verdict = say("and {n:,} more such scores; {verdict}", n=more, verdict=verdict)
-    return [*texts[:MOST_LISTED], warning(source, verdict)]
+    return [*texts[:MOST_LISTED], warning(source, None, verdict)]
 
 
 def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
@@ -44,14 +44,12 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
     return [
         warning(
             source,
-            say(
-                "{a}-{b} can hardly be games won, as nearly all winners here have {usual:.0f} or "
-                "fewer; they may be points",
-                a=results.score_a[row],
-                b=results.score_b[row],
-                usual=usual,
-            ),
             lines[row],
+            "{a}-{b} can hardly be games won, as nearly all winners here have {usual:.0f} or "
+            "fewer; they may be points",
+            a=results.score_a[row],
+            b=results.score_b[row],
+            usual=usual,
         )
         for row in rows.tolist()
     ]
@@ -105,7 +103,7 @@ def _counted(problems: Sequence[str], rows: int, source: str) -> list[str]:
     listed = first_ones(
         problems, MOST_LISTED, source, lambda n: say("and {n:,} more problems", n=n)
     )
-    return [warning(source, count), *listed]
+    return [warning(source, None, count), *listed]
 
 
 YEARS_APART = 5
@@ -148,12 +146,10 @@ def date_warnings(
     warnings = [
         warning(
             source,
-            say(
-                "date {date} is {why}; correct it if it was mistyped",
-                date=str(dates[row]),
-                why=say("in the future") if future[row] else others,
-            ),
             lines[row],
+            "date {date} is {why}; correct it if it was mistyped",
+            date=str(dates[row]),
+            why=say("in the future") if future[row] else others,
         )
         for row in np.flatnonzero(future | far)
     ]

@@ -213,7 +213,7 @@ def _not_used(names: list[str], source: str) -> list[str]:
     if not names:
         return []
     text = say("columns not used, since others say the same: {names}", names=quoted_list(names))
-    return [warning(source, text)]
+    return [warning(source, None, text)]
 
 
 def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> list[Pair]:

@@ -191,12 +191,11 @@ def _merged(names: dict[str, str], source: str) -> list[str]:
     warnings = [
         warning(
             source,
-            say(
-                "{text} is read as {name}, as names that differ in case or spaces alone mean one "
-                "player",
-                text=quoted(text),
-                name=quoted(name),
-            ),
+            None,
+            "{text} is read as {name}, as names that differ in case or spaces alone mean one "
+            "player",
+            text=quoted(text),
+            name=quoted(name),
         )
         for text, name in names.items()
     ]
@@ -223,7 +222,7 @@ def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
         aliases=FilePath(aliases),
         names=joined([*changed[:MOST_RENAMED], *rest], ", "),
     )
-    return [warning(source, text)]
+    return [warning(source, None, text)]
 
 
 def _repeated_rows(table: TextTable) -> list[str]:
@@ -241,7 +240,7 @@ def _repeated_rows(table: TextTable) -> list[str]:
         "was entered twice",
         len(again),
     )
-    return [warning(table.source, text, table.lines[again[0]])]
+    return [warning(table.source, table.lines[again[0]], text)]
 
 
 def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
@@ -262,7 +261,7 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
         b=results.score_b[row],
         more=len(tied) - 1,
     )
-    return (warning(table.source, text, table.lines[row]),)
+    return (warning(table.source, table.lines[row], text),)
 
 
 def met_pairs(results: Results) -> list[tuple[str, str]]:
@@ -347,6 +346,7 @@ def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[st
         if again:
             yield warning(
                 file.source,
+                None,
                 say_count(
                     "{n} match is in an earlier file too, with the same players, score and day; "
                     "leave it out of one of the files, or it counts twice",

@@ -108,11 +108,10 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
     warnings = [
         warning(
             table.source,
-            say(
-                "{text} has letters that cannot be seen; it is read as {name}",
-                text=quoted(text),
-                name=quoted(clean_name(text)),
-            ),
+            None,
+            "{text} has letters that cannot be seen; it is read as {name}",
+            text=quoted(text),
+            name=quoted(clean_name(text)),
         )
         for text in texts
         if _HIDDEN.search(text)

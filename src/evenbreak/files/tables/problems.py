@@ -64,19 +64,29 @@ def first_ones(
     left = len(warnings) - most
     if left <= 0:
         return list(warnings)
-    return [*warnings[:most], warning(source, rest(left))]
+    return [*warnings[:most], warning(source, None, rest(left))]
 
 
-def warning(source: str, text: str, line: Any = 0) -> Sentence:
-    """Return what is to be known of a file, or of a line in it.
+def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence:
+    """Return what is to be known of a line of a file, or of the file: template and values.
 
-    >>> warning("r.csv", "is empty"), warning("r.csv", "is tied", 7)
-    ('r.csv: is empty', 'r.csv:7: is tied')
+    >>> warning("r.csv", None, "is empty"), warning("r.csv", 7, "{a}-{b} is tied", a=5, b=5)
+    ('r.csv: is empty', 'r.csv:7: 5-5 is tied')
     """
+    text = template if isinstance(template, Sentence) else say(template, **values)
     place = FilePath(source)
     if not line:
         return say("{source}: {text}", source=place, text=text)
     return say("{source}:{line}: {text}", source=place, line=line, text=text)
+
+
+def refusal(source: str, template: str, line: Any = None, /, **values: Any) -> DataError:
+    """Return the error that refuses a file for one reason, in a line if it is there.
+
+    >>> str(refusal("r.csv", "has {n} sheets", n=2))
+    'r.csv: has 2 sheets'
+    """
+    return DataError([warning(source, line, template, **values)])
 
 
 class Problems:
@@ -143,7 +153,7 @@ class Problems:
         """Return the problems, a line each, those of the file as a whole first."""
         # Stable: problems of one line stay in the order in which they were found.
         ordered = sorted(self._found, key=lambda problem: problem[0])
-        return tuple(warning(self.source, problem, line) for line, problem in ordered)
+        return tuple(warning(self.source, line, problem) for line, problem in ordered)
 
     def raise_any(self) -> None:
         """Raise all problems, if there are any.

@@ -17,10 +17,10 @@ from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
-from evenbreak.errors import DataError
 from evenbreak.files.tables import workbook
 from evenbreak.files.tables.header import Header
-from evenbreak.files.tables.problems import printable, quoted, quoted_list
+from evenbreak.files.tables.problems import printable, quoted, quoted_list, refusal, warning
+from evenbreak.words import say_count
 
 MAGIC = {
     b"\xd0\xcf\x11\xe0": "an old or locked Excel workbook; save it as .xlsx without a password",
@@ -54,27 +54,27 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
     """Return what to call a file in messages, and its bytes; '-' is standard input."""
     if str(path) == "-":
         if sys.stdin is None:
-            raise DataError(["stdin: is closed; name a file, or pipe one into the command"])
+            raise refusal("stdin", "is closed; name a file, or pipe one into the command")
         return "stdin", _no_larger(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
     source = printable(str(path))
     try:
         with Path(path).open("rb") as file:
             content = file.read(MOST_BYTES + 1)
     except FileNotFoundError:
-        raise DataError([f"{source}: there is no such file; check its name"]) from None
+        raise refusal(source, "there is no such file; check its name") from None
     except IsADirectoryError:
-        raise DataError([f"{source}: is a folder; name a file in it"]) from None
+        raise refusal(source, "is a folder; name a file in it") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise DataError([f"{source}: cannot be read ({reason}); check the file"]) from None
+        raise refusal(source, "cannot be read ({reason}); check the file", reason=reason) from None
     return source, _no_larger(content, source)
 
 
 def _no_larger(content: bytes, source: str) -> bytes:
     """Return a file's bytes, or refuse a file that is larger than any table of a league."""
     if len(content) > MOST_BYTES:
-        raise DataError(
-            [f"{source}: is larger than {MOST_BYTES >> 20} MB; name a table, or split it up"]
+        raise refusal(
+            source, "is larger than {most} MB; name a table, or split it up", most=MOST_BYTES >> 20
         )
     return content
 
@@ -92,20 +92,18 @@ def text_of(content: bytes, source: str) -> Text:
     """
     for magic, kind in MAGIC.items():
         if content.startswith(magic):
-            raise DataError([f"{source}: is {kind}"])
+            raise refusal(source, "is {kind}", kind=kind)
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         try:
             content = content.decode("utf-16").removeprefix("\ufeff").encode()
         except UnicodeError:
-            raise DataError(
-                [f"{source}: is damaged UTF-16 text; save the file again, in UTF-8"]
-            ) from None
+            raise refusal(source, "is damaged UTF-16 text; save the file again, in UTF-8") from None
     nul = content.find(b"\0")
     if nul >= 0:
         line = content.count(b"\n", 0, nul) + 1
-        raise DataError([f"{source}:{line}: holds a NUL byte; save the file as CSV, in UTF-8"])
+        raise refusal(source, "holds a NUL byte; save the file as CSV, in UTF-8", line)
     try:
-        encoding, warnings = "utf-8-sig", []
+        encoding, warnings = "utf-8-sig", list[str]()
         text = content.decode(encoding)
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
@@ -115,12 +113,14 @@ def text_of(content: bytes, source: str) -> Text:
             text = content.decode(encoding)
         except UnicodeDecodeError as also:
             line = content.count(b"\n", 0, also.start) + 1
-            raise DataError(
-                [f"{source}:{line}: is neither UTF-8 nor Windows-1252 text; save it as UTF-8"]
+            raise refusal(
+                source, "is neither UTF-8 nor Windows-1252 text; save it as UTF-8", line
             ) from None
-        warnings = [f"{source}:{line}: is not UTF-8; read as Windows-1252, so check the accents"]
+        warnings = [
+            warning(source, line, "is not UTF-8; read as Windows-1252, so check the accents")
+        ]
     if not text.strip():
-        raise DataError([f"{source}: is empty; write a header line, then one line for each row"])
+        raise refusal(source, "is empty; write a header line, then one line for each row")
     return Text(content, encoding, warnings)
 
 
@@ -227,10 +227,10 @@ def sheets_of(content: bytes, source: str) -> list[Sheet]:
     except OSError as error:
         answer = {"problem": f"cannot be read now ({error.strerror}); try again"}
     if "problem" in answer:
-        raise DataError([f"{source}: {answer['problem']}"])
+        raise refusal(source, answer["problem"])
     sheets = [Sheet(*sheet) for sheet in answer["sheets"] if sheet[2]]
     if not sheets:
-        raise DataError([f"{source}: has no sheet with anything in it; write a header and rows"])
+        raise refusal(source, "has no sheet with anything in it; write a header and rows")
     return sheets
 
 
@@ -338,13 +338,16 @@ def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
     rows = _of_sheet(sheet, source, header)
     if len(complete) < 2:
         return rows
-    others = quoted_list([other.name for other in complete[1:]])
-    also, it = ("has", "it") if len(complete) == 2 else ("have", "them")
-    warning = (
-        f"{source}: only the sheet {quoted(sheet.name)} is read, although {others} {also} such a "
-        f"table too; to read {it}, save each sheet as a file of its own"
+    also = say_count(
+        "only the sheet {sheet} is read, although {others} has such a table too; to read it, save "
+        "each sheet as a file of its own",
+        "only the sheet {sheet} is read, although {others} have such a table too; to read them, "
+        "save each sheet as a file of its own",
+        len(complete) - 1,
+        sheet=quoted(sheet.name),
+        others=quoted_list([other.name for other in complete[1:]]),
     )
-    return rows._replace(warnings=[warning, *rows.warnings])
+    return rows._replace(warnings=[warning(source, None, also), *rows.warnings])
 
 
 def _of_sheet(sheet: Sheet, source: str, header: Header) -> TableRows:
@@ -360,6 +363,10 @@ def _skipped(lines: list[int], rows: list[list[str]], source: str) -> list[str]:
     texts = [" ".join(filter(None, map(str.strip, row))) for row in rows]
     if not any(texts):
         return []
-    above = "the line above it is" if len(rows) == 1 else f"{len(rows)} lines above it are"
-    shown = quoted_list([text for text in texts if text])
-    return [f"{source}:{lines[-1]}: the header is in this line; {above} not used: {shown}"]
+    header = say_count(
+        "the header is in this line; the line above it is not used: {texts}",
+        "the header is in this line; {n} lines above it are not used: {texts}",
+        len(rows),
+        texts=quoted_list([text for text in texts if text]),
+    )
+    return [warning(source, lines[-1], header)]

@@ -91,12 +91,11 @@ def similar_name_warnings(
     warnings = [
         warning(
             source,
-            say(
-                "{names} may be one {kind}; {remedy}",
-                names=listed(list(map(quoted, group))),
-                kind=of,
-                remedy=remedy,
-            ),
+            None,
+            "{names} may be one {kind}; {remedy}",
+            names=listed(list(map(quoted, group))),
+            kind=of,
+            remedy=remedy,
         )
         for group in groups
     ]

@@ -22,7 +22,7 @@ from evenbreak.arrays import array_values
 from evenbreak.files.tables.header import Header, Hint
 from evenbreak.files.tables.problems import Problems, quoted_list, warning
 from evenbreak.files.tables.rows import Export, Rows, content_of, table_rows
-from evenbreak.words import say, say_count
+from evenbreak.words import say_count
 
 
 class Texts(NamedTuple):
@@ -211,7 +211,7 @@ def read_table(
     places, unused = header.places(titles, line, problems, sample)
     if unused:
         names = quoted_list(unused)
-        warnings.append(warning(source, say("columns not used: {titles}", titles=names)))
+        warnings.append(warning(source, None, "columns not used: {titles}", titles=names))
     row_lines, columns = _columns(body, len(titles), places, problems)
     _add_unreadable(unreadable, problems)
     if rows and not len(row_lines) and not len(problems):
