@@ -10,23 +10,23 @@ import re
 from pathlib import Path
 
 from evenbreak.files import arcs, chain_files, charts, practice
-from evenbreak.files.lists import fixtures, roster, saved_ratings, teams
-from evenbreak.files.results import aliases, matches
-from evenbreak.files.tables.cells import Column, Day, Parsed, Text, Whole
+from evenbreak.files.lists import roster, saved_ratings, season, teams
+from evenbreak.files.results import columns, results_file
+from evenbreak.files.tables.dates import Day
 from evenbreak.files.tables.names import Name
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Column, Parsed, Schema, Text, Whole
 from evenbreak.ratings.results_frame import LARGEST_WHOLE
 
 PAGE = Path(__file__).parent / "reference" / "files.md"
 TABLE = re.compile(r"(<!-- columns: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of columns -->)", re.DOTALL)
 
-_NEEDED = [name for name, column in matches.RESULTS.columns.items() if column.needed]
-_OTHERS = [name for name in matches.RESULTS.columns if name not in _NEEDED]
+_NEEDED = [name for name, column in columns.RESULTS.columns.items() if column.needed]
+_OTHERS = [name for name in columns.RESULTS.columns if name not in _NEEDED]
 SCHEMAS = {
-    "results": matches.RESULTS.only(*_NEEDED),
-    "more of results": matches.RESULTS.only(*_OTHERS),
-    "layouts": matches.LAYOUTS,
-    "aliases": aliases.ALIASES,
+    "results": columns.RESULTS.only(*_NEEDED),
+    "more of results": columns.RESULTS.only(*_OTHERS),
+    "layouts": columns.LAYOUTS,
+    "aliases": results_file.ALIASES,
     "chart by difference": charts.DIFFERENCES,
     "chart by level": charts.LEVELS,
     "chart of points": charts.POINTS,
@@ -38,8 +38,8 @@ SCHEMAS = {
     "roster": roster.ROSTER,
     "saved ratings": saved_ratings.OF_PRIOR,
     "season": roster.OF_SEASON,
-    "pairs": fixtures.PAIRS,
-    "schedule": fixtures.SCHEDULE.only("week"),
+    "pairs": season.PAIRS,
+    "schedule": season.SCHEDULE.only("week"),
     "team": teams.OF_TEAM,
     "team results": teams.TEAM_RESULTS,
     "teams": teams.TEAMS,

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.cells import Number, Text
 from evenbreak.files.tables.problems import quoted, refusal
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Schema, Text
 from evenbreak.files.tables.table import Texts, TextTable
 from evenbreak.words import Sentence, say
 

@@ -15,10 +15,9 @@ import numpy as np
 
 from evenbreak.chains.matrices import sums_to_1
 from evenbreak.files.arcs import ARCS, SUM_TOLERANCE, WEIGHT, ArcsFile, read_arcs, sum_problems
-from evenbreak.files.tables.cells import Text
 from evenbreak.files.tables.problems import Problems, printable, quoted, refusal, warning
 from evenbreak.files.tables.rows import content_of
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Schema, Text
 from evenbreak.words import Parameter, say
 
 if TYPE_CHECKING:

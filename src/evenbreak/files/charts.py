@@ -11,10 +11,9 @@ import numpy as np
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import LARGEST
-from evenbreak.files.tables.cells import Number, Whole
 from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.problems import Problems, printable, refusal
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Schema, Whole
 from evenbreak.files.tables.table import TextTable
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, ChartDraft, ChartRow, chart, row_faults
 from evenbreak.handicaps.charts.chart_of import catalogue_name

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.cells import DateOrder, Day, Number, Text, Whole, YesNo
+from evenbreak.files.tables.dates import DateOrder, Day
 from evenbreak.files.tables.problems import quoted, warning
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Schema, Text, Whole, YesNo
 from evenbreak.files.tables.table import TextTable
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 from evenbreak.ratings.results_frame import letters

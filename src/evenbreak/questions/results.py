@@ -11,7 +11,7 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, File, Flag, Named, Text
 from evenbreak.fields.question import Field, Question
-from evenbreak.files.tables.cells import is_two_dates, read_date
+from evenbreak.files.tables.dates import is_two_dates, read_date
 from evenbreak.words import Parameter
 
 _READING = "Reading the file"

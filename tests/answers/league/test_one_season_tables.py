@@ -6,7 +6,7 @@ import pytest
 
 from evenbreak.answers.league.season_tables import matches_frame, truth_frame
 from evenbreak.files.csv_writer import to_csv
-from evenbreak.files.lists.league import read_league
+from evenbreak.files.lists.season import read_league
 from evenbreak.files.results.results_file import read_results
 from evenbreak.league import LeaguePlayers, PlayedSeason, Season, season_matches
 

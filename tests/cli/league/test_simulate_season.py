@@ -9,7 +9,7 @@ from evenbreak.cli.league.simulate_season import (
     refuse_contradictions,
     season_of_options,
 )
-from evenbreak.files.lists.league import read_league
+from evenbreak.files.lists.season import read_league
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from places import DATA

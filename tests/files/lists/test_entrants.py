@@ -4,8 +4,8 @@ import xlsxwriter
 
 from evenbreak.errors import DataError
 from evenbreak.files.lists.entrants import read_entrants, roster_of_entrants
-from evenbreak.files.lists.league import league_of_entrants, read_league
 from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.lists.season import league_of_entrants, read_league
 
 LEAGUE = "player,rating,standard_error,games,scale\nAnn Lee,92,6,140,npl\nBo Diaz,71,9,60,npl\n"
 

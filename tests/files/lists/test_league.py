@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.lists.league import read_league
+from evenbreak.files.lists.season import read_league
 from evenbreak.league.players import ESTABLISHED
 
 WHOLE = """\

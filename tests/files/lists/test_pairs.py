@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
-from evenbreak.files.lists.fixtures import read_pairs
+from evenbreak.files.lists.season import read_pairs
 from evenbreak.ratings.roster import Roster
 
 CLUB = Roster(["Ann", "Bo Lee", "Cy", "cy", "Lee, Di"], [92, 71, 80, 60, 55])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.lists.fixtures import read_schedule
+from evenbreak.files.lists.season import read_schedule
 from evenbreak.ratings.roster import Roster
 
 CLUB = Roster(["Ann Lee", "Bo", "Zoë"], [92, 71, 80])

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.results.matches import RESULTS_FILE
+from evenbreak.files.results.columns import RESULTS_FILE
 from evenbreak.files.results.results_file import read_results
 
 

@@ -3,12 +3,8 @@
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.results.matches import (
-    NAMES,
-    RESULTS_FILE,
-    results_columns,
-    results_rows,
-)
+from evenbreak.files.results.columns import NAMES, RESULTS_FILE
+from evenbreak.files.results.matches import results_columns, results_rows
 from evenbreak.files.tables.names import PlayerNames
 
 

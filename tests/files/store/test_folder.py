@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.store.folder import check_folder, write_files
-from evenbreak.files.store.transaction import MADE_BY_US, WORK
+from evenbreak.files.store.folder import MADE_BY_US, WORK, check_folder, write_files
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}".encode() for name in NAMES}

@@ -12,8 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.store.folder import LOCK, check_folder, write_files
-from evenbreak.files.store.transaction import WORK
+from evenbreak.files.store.folder import LOCK, WORK, check_folder, write_files
 
 CALLS = (
     *("open", "write", "fsync", "close", "mkdir", "rmdir", "unlink", "replace", "link", "listdir"),

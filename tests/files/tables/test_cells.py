@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.tables.cells import Number, Whole
 from evenbreak.files.tables.problems import Problems
+from evenbreak.files.tables.schema import Number, Whole
 from evenbreak.files.tables.table import Texts, TextTable
 from rows import each_of
 

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.tables.cells import Day, read_date
+from evenbreak.files.tables.dates import Day, read_date
 from evenbreak.files.tables.table import read_table
 
 

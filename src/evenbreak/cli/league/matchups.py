@@ -228,7 +228,7 @@ def _pairs(
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.league.roster_matchups import all_pairs
-    from evenbreak.files.lists.fixtures import read_pairs
+    from evenbreak.files.lists.season import read_pairs
 
     if path is not None:
         file = read_pairs(path, roster)

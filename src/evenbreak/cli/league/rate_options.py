@@ -13,7 +13,7 @@ from evenbreak.ratings.scale import Scale
 if TYPE_CHECKING:
     from evenbreak.answers.league.roster_matchups import OfferedRaces
     from evenbreak.files.results.results_file import ResultsFile
-    from evenbreak.files.tables.cells import DateOrder
+    from evenbreak.files.tables.dates import DateOrder
     from evenbreak.ratings.beginning import Beginning
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
@@ -44,7 +44,7 @@ def read_day(text: str, order: DateOrder | None = None) -> str:
     """
     import numpy as np
 
-    from evenbreak.files.tables.cells import is_two_dates, read_date
+    from evenbreak.files.tables.dates import is_two_dates, read_date
 
     day = read_date(text.strip(), order)
     if day is None:

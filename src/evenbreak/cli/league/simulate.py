@@ -138,7 +138,7 @@ def command(
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.league.season import season_answer
     from evenbreak.answers.league.season_tables import season_tables
-    from evenbreak.files.lists.league import read_league
+    from evenbreak.files.lists.season import read_league
     from evenbreak.files.store.folder import check_folder
 
     refuse_contradictions(roster, jobs, cluster, played)

@@ -11,10 +11,9 @@ import numpy as np
 
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
-from evenbreak.files.tables.cells import Number, Parsed, Text, Whole
 from evenbreak.files.tables.names import Name, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import quoted, warning
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Parsed, Schema, Text, Whole
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.roster import NOT_STATED, Roster

@@ -11,10 +11,10 @@ import numpy as np
 from evenbreak.errors import DataError
 from evenbreak.files.csv_writer import csv_lines
 from evenbreak.files.lists.roster import LARGEST, ROSTER, WRITTEN, roster_of
-from evenbreak.files.tables.cells import Day, Number
+from evenbreak.files.tables.dates import Day
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.files.tables.problems import refusal
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Schema
 from evenbreak.ratings.beginning import Beginning
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.scale import Scale

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.files.lists.roster import ROSTER, WRITTEN, RosterFile, roster_of
 from evenbreak.files.lists.typed_list import read_players
-from evenbreak.files.tables.cells import Number, Text, Whole
 from evenbreak.files.tables.names import Name, same_name
 from evenbreak.files.tables.problems import quoted, refusal, warning
-from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.schema import Number, Schema, Text, Whole
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.words import say

@@ -176,7 +176,7 @@ def read_players(
         as `read_table` does.
 
     >>> import tempfile, pathlib
-    >>> from evenbreak.files.tables.cells import Text
+    >>> from evenbreak.files.tables.schema import Text
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "tonight.txt"
     ...     _ = path.write_text("Ann Lee, 612\nBo Diaz 540\n\nCy\n")

@@ -1,4 +1,4 @@
-"""Files of results as `Results`: one, or the seasons of a league in a row."""
+"""Files of results as `Results`: one, or the seasons of a league in a row, and names as meant."""
 
 from __future__ import annotations
 
@@ -15,23 +15,17 @@ import numpy as np
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.foreign.results import export_of
-from evenbreak.files.results.aliases import AliasesFile, read_aliases
-from evenbreak.files.results.columns_hint import columns_hint
+from evenbreak.files.results.columns import NAMES, RESULTS_FILE, columns_hint
 from evenbreak.files.results.doubts import (
     date_warnings,
     doubtful_score_warnings,
     without_bad_rows,
 )
-from evenbreak.files.results.matches import (
-    NAMES,
-    RESULTS_FILE,
-    one_layout,
-    results_columns,
-    results_rows,
-)
-from evenbreak.files.tables.cells import DateOrder
-from evenbreak.files.tables.names import PlayerNames, hidden_letter_warnings, same_name
+from evenbreak.files.results.matches import one_layout, results_columns, results_rows
+from evenbreak.files.tables.dates import DateOrder
+from evenbreak.files.tables.names import Name, PlayerNames, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.results import Results
@@ -108,7 +102,7 @@ def read_results(
     path
         the file.
     aliases
-        a file that says which names mean the same player (see `evenbreak.files.results.aliases`).
+        a file that says which names mean the same player (see `read_aliases`).
     columns
         for columns such as player_a the titles that they have in the file, if not known ones.
     dates
@@ -374,3 +368,92 @@ def _joined(seasons: Sequence[Results]) -> Results:
         a, b = place[season.player_a], place[season.player_b]
         renumbered.append(replace(season, players=players, player_a=a, player_b=b))
     return reduce(Results.joined, renumbered)
+
+
+_WRITE = say("a name, or delete the line")
+
+ALIASES = Schema(
+    "names",
+    name=Name(
+        "alias, written, as written, nickname, from",
+        "a name as it may appear in the results",
+        needed=True,
+        write=_WRITE,
+    ),
+    means=Name(
+        "player, real name, right name, stands for, to",
+        "the name of the player who is meant",
+        needed=True,
+        write=_WRITE,
+    ),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class AliasesFile:
+    """The contents of a file of aliases.
+
+    Parameters
+    ----------
+    means
+        from a name as it is written to the name that is meant, which is never itself an alias.
+    source
+        what the file is called in messages.
+    warnings
+        what to check although the file can be used, a line each.
+    """
+
+    means: dict[str, str]
+    source: str
+    warnings: tuple[str, ...]
+
+
+def read_aliases(path: str | Path) -> AliasesFile:
+    r"""Read which names mean the same player from a CSV file; '-' is standard input.
+
+    Names are cleaned as those of results are. A name that means itself changes nothing.
+
+    Raises
+    ------
+    DataError
+        with everything that is wrong in the file: missing columns, no rows, empty cells, a
+        name that means two players, an alias that means another alias.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "aliases.csv"
+    ...     _ = path.write_text("name,means\nBobby,Bob Smith\nBob  S.,Bob Smith\n")
+    ...     read_aliases(path).means
+    {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
+    """
+    table = ALIASES.read(path)
+    means: dict[str, str] = {}
+    line_of: dict[str, int] = {}
+    for name, meant, line in zip(table["name"], table["means"], table.lines.tolist(), strict=True):
+        if not name or not meant:
+            continue
+        if means.setdefault(name, meant) != meant:
+            table.problems.add(
+                line,
+                "{name} means {meant} here, but {earlier} in line {line}; keep one of the two",
+                name=quoted(name),
+                meant=quoted(meant),
+                earlier=quoted(means[name]),
+                line=line_of[name],
+            )
+        line_of.setdefault(name, line)
+    for name, meant in means.items():
+        if name != meant and means.get(meant, meant) != meant:
+            table.problems.add(
+                line_of[name],
+                "{name} means {meant}, which means {other} in line {line}; write the player's "
+                "real name in both lines, and keep only one of two names that mean each other",
+                name=quoted(name),
+                meant=quoted(meant),
+                other=quoted(means[meant]),
+                line=line_of[meant],
+            )
+    table.problems.raise_any()
+    means = {name: meant for name, meant in means.items() if name != meant}
+    hidden = hidden_letter_warnings(table, ["means"])
+    return AliasesFile(means, table.source, (*table.warnings, *hidden))

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.store.transaction import sync
+from evenbreak.files.store.folder import sync
 
 TOURNAMENT, TEAM_NIGHT = "event", "team_event"
 """The tables of what happened in a tournament, and on a team night."""

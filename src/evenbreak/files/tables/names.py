@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.csv_writer import undefused
-from evenbreak.files.tables.cells import Column
 from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.files.tables.schema import Column
 from evenbreak.files.tables.table import TextTable, Values
 from evenbreak.ratings.results_frame import folded, letters, usual_spellings
 from evenbreak.words import listed, say

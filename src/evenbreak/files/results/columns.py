@@ -1,19 +1,151 @@
-"""Which columns of a results file probably are the ones that a reader does not find.
+"""The columns of results files: what each may be called, and which they are by other titles.
 
-It is made only for a message: the option --columns to paste. Whoever pastes it trusts it, so
-columns are proposed only if their cells can be nothing else, row by row; otherwise none are.
+The latter is made only for a message: the option --columns to paste. Whoever pastes it trusts it,
+so columns are proposed only if their cells can be nothing else, row by row; otherwise none are.
 """
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Collection, Sequence
+from functools import partial
 from itertools import combinations, pairwise
 
-from evenbreak.files.results.matches import WALKOVERS
+from evenbreak.files.tables.dates import Day
+from evenbreak.files.tables.names import Name
+from evenbreak.files.tables.schema import Schema, Text, Whole, Word, YesNo
 from evenbreak.matches.formats import BETWEEN
-from evenbreak.ratings.results_frame import letters
+from evenbreak.ratings.results_frame import FORFEIT_WORDS, FORMAT_WORDS, letters
 from evenbreak.words import Parameter, say
+
+NAMES = ("player_a", "player_b")
+
+_SCORE_WITHOUT = (
+    "race_a race_b winner",
+    "race winner",
+    "racks",
+    "score",
+    "winner_score loser_score winner loser",
+    "winner_race loser_race winner loser",
+)
+_WINNER_AND_LOSER = ("winner loser",)
+_GAMES = Whole(needed=True, instead=_SCORE_WITHOUT, empty=None)
+_RACE = Whole(least=1, empty=None, write=say("1, 2, 3, ..., or leave both races empty"))
+_NFC = Text(form=partial(unicodedata.normalize, "NFC"))
+
+
+def _without_blanks(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+RESULTS = Schema(
+    "matches",
+    player_a=Name(
+        "player 1, player a name, home, home player, a",
+        "one of the two players; neither of them is assumed to have broken",
+        needed=True,
+        instead=_WINNER_AND_LOSER,
+    ),
+    player_b=Name(
+        "player 2, player b name, away, away player, b",
+        "the other",
+        needed=True,
+        instead=_WINNER_AND_LOSER,
+    ),
+    score_a=_GAMES.called(
+        "score 1, games a, games 1, home score, frames a, racks won a", "the games that a won"
+    ),
+    score_b=_GAMES.called(
+        "score 2, games b, games 2, away score, frames b, racks won b", "the games that b won"
+    ),
+    date=Day("day, match date, played, played on"),
+    race_a=_RACE.called(
+        "race 1, race to a, needs a, home race",
+        "the games that player a needed. The winner is then the player who reached the race, "
+        "whatever the scores",
+    ),
+    race_b=_RACE.called("race 2, race to b, needs b, away race", "the same of player b"),
+    winner=Text(
+        "won by, match winner, winning player, winner name",
+        "the winner of the match: `a`, `b`, or a name; checked against scores and races",
+    ),
+    first_break=Text(
+        "first breaker, breaks first, lag won by",
+        "the player who broke first: `a`, `b`, or a name",
+    ),
+    break_format=Word(
+        "who breaks, breaks next",
+        "who breaks the next rack",
+        values=FORMAT_WORDS,
+        choices=say("winner, loser, alternate, a or b"),
+    ),
+    racks=Text(
+        "rack winners, games in order",
+        "the winner of each rack, in order: `abba`; checked against the scores",
+        form=_without_blanks,
+    ),
+    event=_NFC.called("tournament, competition, league"),
+    team_a=_NFC.called(
+        "team 1, home team",
+        "the team of player a; ratings use it if it "
+        "[clearly helps](../explanation/ratings.md#what-the-file-knows)",
+    ),
+    team_b=_NFC.called("team 2, away team", "the team of player b"),
+    division=_NFC.called(
+        "class, flight", "the division or class in which the match was played; used like the team"
+    ),
+    level_a=_NFC.called(
+        "level 1, skill level a, skill level 1, class a, class 1, rating a",
+        "the class, skill level or rating by which the league handicapped player a that day: `B`, "
+        "`5` or `87`; `validate` says what a class is worth, and which "
+        "[chart](../how-to/can-i-trust-the-ratings.md#handicaps) the races come from",
+    ),
+    level_b=_NFC.called(
+        "level 2, skill level b, skill level 2, class b, class 2, rating b", "that of player b"
+    ),
+    forfeit=YesNo(
+        "walkover, forfeited, no show, w/o",
+        "forfeits are left out of the ratings, and counted",
+        values=FORFEIT_WORDS,
+    ),
+)
+"""The columns of a results file in the layout to which all others are brought."""
+
+LAYOUTS = Schema(
+    loser=Name(
+        "losing player, loser name, lost by",
+        "with `winner`, in place of the two players: player a is then the winner",
+    ),
+    score=Text(
+        "result, final score, match score", "both scores in one cell: `7-5`, `7:5` or `7/5`"
+    ),
+    winner_score=Text(
+        "winner games, winners score, games won by winner",
+        "with `winner` and `loser`, in place of the two scores",
+    ),
+    loser_score=Text("loser games, losers score, games won by loser", "the same of the loser"),
+    race=Text(
+        "race to, match race",
+        "in place of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
+        "different numbers",
+    ),
+    winner_race=Text("winner needs, winners race", "the same, with `winner` and `loser`"),
+    loser_race=Text("loser needs, losers race", "the same of the loser"),
+    winner_team=Text("winners team", "the team of the winner"),
+    loser_team=Text("losers team", "the team of the loser"),
+    winner_level=Text(
+        "winners level, winner class, winner rating",
+        "the class, skill level or rating of the winner",
+    ),
+    loser_level=Text("losers level, loser class, loser rating", "the same of the loser"),
+)
+"""The columns that are brought to that layout."""
+
+RESULTS_FILE = RESULTS | LAYOUTS
+
+WALKOVERS = ("walkover", "wo", "forfeit", "forfeited", "ff", "bye", "noshow", "dq", "default")
+"""What stands in place of the score of a match that was not played."""
 
 _SCORE = re.compile(rf"\d{{1,3}}\s*{BETWEEN}\s*\d{{1,3}}", re.ASCII)
 _CLOCK = re.compile(r"([01]?\d|2[0-3])[:.][0-5]\d", re.ASCII)
