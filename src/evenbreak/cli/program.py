@@ -45,7 +45,7 @@ SECTIONS = {
     },
     "Handicap systems": {
         "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),
-        "ladder": Entry("ladder.ladder", "How far off ratings get under a handicap system."),
+        "ladder": Entry("ladder", "How far off ratings get under a handicap system."),
         "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),
     },
     "Practise": {

@@ -17,6 +17,9 @@ from evenbreak.words import Parameter
 _READING = "Reading the file"
 _DAYS_AHEAD = 366
 
+RESULTS = Field(File("RESULTS.csv..."), argument=True, many=True)
+ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
+
 Day: TypeAlias = Annotated[str | None, Field(Text("DATE"), "A day.")]
 """A day as it is typed; `Results.day` reads it, in the order that --dates states."""
 
@@ -53,6 +56,7 @@ class Reading(Question):
             File("ALIASES.csv"),
             "Names that mean the same player: a file with the columns name and means.",
             section=_READING,
+            more="See [aliases](../files.md#aliases).",
         ),
     ] = None
     columns: Annotated[
@@ -62,6 +66,7 @@ class Reading(Question):
             "What the file calls its columns, such as player_a=Home,player_b=Away.",
             many=True,
             section=_READING,
+            more="See [other names of columns](../files.md#other-names-of-columns).",
         ),
     ] = ()
     skip_bad: Annotated[
@@ -72,6 +77,7 @@ class Reading(Question):
             "them.",
             usual="refuse the file",
             section=_READING,
+            more="See [rows that are left out](../files.md#rows-that-are-left-out).",
         ),
     ] = False
     dates: Annotated[
@@ -81,6 +87,7 @@ class Reading(Question):
             "The order in dates such as 9/3/2024: month first or day first.",
             usual="as other dates of the file show",
             section=_READING,
+            more="See [dates](../files.md#dates).",
         ),
     ] = None
 
@@ -134,4 +141,4 @@ class Reading(Question):
 class Results(Reading):
     """A question about results, in one file or several."""
 
-    results: Annotated[tuple[str, ...], Field(File("RESULTS.csv..."), argument=True, many=True)]
+    results: Annotated[tuple[str, ...], RESULTS]

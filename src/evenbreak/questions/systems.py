@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from evenbreak.fields.kinds import Named
-from evenbreak.fields.question import Field
+from evenbreak.fields.kinds import Named, Number
+from evenbreak.fields.question import Field, Question, Says
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.system import System
+from evenbreak.questions.common import ChartName
 
 SystemOf: TypeAlias = Annotated[
     System | None,
@@ -15,6 +17,21 @@ SystemOf: TypeAlias = Annotated[
         Named(system_of, "NAME", offers="systems", spelled=lambda system: str(system.name)),
         "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].",
         usual="npl",
+        more="Put a name with a blank in quotes, or write a hyphen: `step-2`. See "
+        "[Systems](../systems.md).",
     ),
 ]
 """A handicap system; `asked.system or system_of("npl")` is the one that is meant."""
+
+DAY_SD = Field(
+    Number(0.0, 1e9, "; give points, 0 or more", metavar="POINTS"),
+    "How much everyone's form varies from day to day (standard deviation).",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BySystem(Question):
+    """A question about a league that has a handicap system, and a chart that sets its races."""
+
+    chart: Annotated[ChartName, Says(usual="the system's own")] = None
+    system: SystemOf = None

@@ -84,7 +84,13 @@ def test_refitted_ratings_are_simulated_beside_the_ladders(compared):
 
 @pytest.mark.parametrize(
     "words",
-    [("--system", "npl"), ("--step", "2"), ("--from", "3"), ("--newcomer",), ("--drift", "0.1")],
+    [
+        ("--system", "npl"),
+        ("--step", "2"),
+        ("--start-error", "3"),
+        ("--newcomer",),
+        ("--drift", "0.1"),
+    ],
 )
 def test_what_a_comparison_cannot_take_is_refused(run, words):
     result = run("ladder", "--compare", *words)

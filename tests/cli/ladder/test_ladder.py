@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from evenbreak.cli.ladder.ladder import say_if_long
+from evenbreak.cli.ladder import say_if_long
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL
@@ -41,7 +41,7 @@ def test_the_standard_deviations_of_the_source(ladder, name):
 
 
 def test_all_keys_and_a_law_that_adds_up(ladder):
-    answer = ladder("--chart", "npl_10", "--from", "-30", "--within", "5")
+    answer = ladder("--chart", "npl_10", "--start-error", "-30", "--within", "5")
     assert set(answer) >= KEYS
     law = {row["error"]: row["probability"] for row in answer["distribution"]}
     assert sum(law.values()) == pytest.approx(1.0)
@@ -56,7 +56,9 @@ def test_all_keys_and_a_law_that_adds_up(ladder):
 
 def test_how_long_a_wrong_rating_takes(ladder):
     found = settling(Ladder("npl", chart("npl_10")), -20, 3, newcomer=True)
-    told = ladder("--chart", "npl_10", "--from", "-20", "--within", "3", "--newcomer")["settling"]
+    told = ladder("--chart", "npl_10", "--start-error", "-20", "--within", "3", "--newcomer")[
+        "settling"
+    ]
     assert (told["start"], told["within"], told["newcomer"]) == (-20, 3, True)
     assert told["mean"] == found.mean
     assert told["quantiles"]["0.9"] == found.matches.quantile(0.9)
@@ -139,7 +141,7 @@ def test_a_chart_for_another_scale_is_a_warning(ladder):
 
 
 @pytest.mark.slow_after(1)
-@pytest.mark.parametrize("words", [(), ("--autocorrelated", "--from", "-30")])
+@pytest.mark.parametrize("words", [(), ("--autocorrelated", "--start-error", "-30")])
 def test_the_picture(run, tmp_path, words):
     path = tmp_path / "ladder.png"
     result = run("ladder", "--chart", "npl_20", *words, "--plot", str(path))
@@ -162,8 +164,8 @@ def test_the_help_names_all_systems(run):
         (("--system", "chess"), 2, "'chess'"),
         (("--step", "0"), 2, "'0'"),
         (("--step", "2", "--system", "npl"), 2, "leave out --system"),
-        (("--from", "61"), 2, "from -60 to 60"),
-        (("--from", "half"), 2, "'half'"),
+        (("--start-error", "61"), 2, "from -60 to 60"),
+        (("--start-error", "half"), 2, "'half'"),
         (("--day-sd", "-1"), 2, "'-1'"),
         (("--day-sd", "1e9"), 2, "from 0 to 120"),
         (("--scale", "0.01"), 2, "--scale 0.01"),

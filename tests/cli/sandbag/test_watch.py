@@ -71,7 +71,7 @@ def test_varying_form_weakens_the_evidence(watch, run):
     assert float(varied["Vito Drago"]["e_any"]) < float(plain["Vito Drago"]["e_any"]) / 10.0
     refused = run("sandbag", "watch", *SEASON, "--day-sd", "500")
     assert refused.exit_code == 2
-    assert "--day-sd is 500.0; give a number from 0 to 120" in refused.stderr
+    assert "--day-sd is 500; give points from 0 to 120" in refused.stderr
 
 
 def test_a_roster_of_mixed_scales_is_refused_or_a_warning(run, tmp_path):

@@ -13,7 +13,9 @@ from evenbreak.cli.kit.options import Decorator
 from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import InputError
+from evenbreak.fields.question import Question
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Parameter
 
 
 def read_system(name: str) -> handicaps.System:
@@ -52,6 +54,25 @@ def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
     if system.scale.name != "npl" and scale != system.scale:
         refuse(f"the system {system.name} has a scale of its own; leave --scale out")
     return replace(system, scale=scale)
+
+
+MOST_SD = 4.0
+"""Doublings of the odds by which the form of players varies at most."""
+
+
+def refuse_too_varying(asked: Question, system: handicaps.System, *names: str) -> None:
+    """Refuse form that varies by more than a ladder of this scale can hold."""
+    most = MOST_SD * system.scale.points_per_doubling
+    for name in names:
+        if getattr(asked, name) > most:
+            asked.refuse(
+                "{part} is {points:g}; give points from 0 to {most:.0f}, which double the odds "
+                "{times:g} times",
+                part=Parameter(name),
+                points=getattr(asked, name),
+                most=most,
+                times=MOST_SD,
+            )
 
 
 def refuse_other_scale(

@@ -41,6 +41,10 @@ _MOST_SD = 4.0
 _MOST_SPREAD = 20.0
 
 
+class SameRaceError(AccuracyError):
+    """The chart has one race for all differences, so that nothing brings a wrong rating back."""
+
+
 @dataclass(frozen=True)
 class Ladder(ErrorWalk):
     """A player's rating error under a handicap system, as a chain with its long run.
@@ -288,7 +292,7 @@ def _usual_width(
 ) -> int:
     """Return the narrowest usual width with next to nothing at its ends."""
     if _same_everywhere(system, chart):
-        raise AccuracyError(
+        raise SameRaceError(
             f"chart {chart.name} has the same race at every difference, so nothing brings a wrong "
             "rating back; give a chart whose races differ"
         )

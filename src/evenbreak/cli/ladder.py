@@ -1,0 +1,222 @@
+"""`evenbreak ladder`: how far off the ratings of a league are in the long run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from evenbreak import files, handicaps
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.systems import (
+    chart_for,
+    on_scale,
+    refuse_other_scale,
+    refuse_too_varying,
+)
+from evenbreak.cli.kit.terminal import say
+from evenbreak.errors import AccuracyError, DataError
+from evenbreak.handicaps.ladders.ladder import SameRaceError
+from evenbreak.questions.ladders import LadderErrors
+from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    from evenbreak.answers.ladder.comparison import LadderComparison
+    from evenbreak.answers.ladder.ladder import LadderFindings, LadderQuestion
+
+
+MANY_MOVES = 20
+"""With more different moves than this, nights of several matches take long."""
+
+MOST_APART = 20.0
+"""Doublings of the odds that an opponent may be from the player: a game in a million."""
+
+SAY_OTHERWISE = "--compare is for NPL ratings; leave it out and give --scale for others"
+
+
+@command_of(LadderErrors, "ladder")
+def command(asked: LadderErrors) -> Answer:
+    """Show how far off ratings are in the long run."""
+    from evenbreak.answers.ladder.ladder import LadderFindings, ladder_answer, ladder_title
+
+    if asked.compare:
+        return _comparison(asked)
+    ladder, opponents, warnings = _ladder(asked)
+    findings = LadderFindings(ladder, _question(ladder, asked, opponents))
+    if asked.plot is not None:
+        _draw(findings, ladder_title(ladder), asked.plot)
+    return ladder_answer(findings, warnings)
+
+
+def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
+    """Return the ladder that is asked for, the word for its opponents, and warnings."""
+    step = asked.step
+    system = asked.system or handicaps.system_of("npl" if step is None else f"step {step}")
+    system = on_scale(system, asked.scale)
+    chart, warnings = chart_for(system, asked.chart)
+    opponents, name, doubts = _opponents(asked, system.scale)
+    refuse_too_varying(asked, system, "day_sd", "match_sd")
+    try:
+        ladder = handicaps.Ladder(
+            system,
+            chart,
+            opponents=opponents,
+            day_sd=asked.day_sd,
+            match_sd=asked.match_sd,
+            matches_a_night=asked.matches_a_night or 1,
+            drift=asked.drift,
+        )
+        say_if_long(ladder)
+        ladder.law()
+    except SameRaceError:
+        raise
+    except AccuracyError:
+        raise AccuracyError(_why_no_long_run(opponents)) from None
+    return ladder, name, [*warnings, *doubts]
+
+
+def say_if_long(ladder: handicaps.Ladder) -> None:
+    """Say beforehand that nights of several matches take long where moves differ much."""
+    moves = len(set(handicaps.match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
+    if ladder.matches_a_night > 1 and moves > MANY_MOVES:
+        say(
+            f"The system {ladder.system.name} has {moves} different moves, so nights of three "
+            "matches can take 20 seconds to work out, of six a minute, and of more far longer"
+        )
+
+
+def _question(ladder: handicaps.Ladder, asked: LadderErrors, opponents: str) -> LadderQuestion:
+    """Return what is asked of the ladder, or refuse what it cannot answer."""
+    from evenbreak.answers.ladder.ladder import LadderQuestion
+    from evenbreak.handicaps.ladders.comparison import NEAR
+
+    doubling = round(ladder.system.scale.points_per_doubling)
+    start = -doubling if asked.start_error is None else asked.start_error
+    within = round(NEAR * doubling) if asked.within is None else asked.within
+    if abs(start) > ladder.widest:
+        asked.refuse(
+            "{start_error} is {start}; give an error from -{widest} to {widest} points, where this "
+            "ladder ends",
+            start=start,
+            widest=ladder.widest,
+        )
+    if asked.newcomer and not ladder.system.newcomer_steps:
+        asked.refuse(
+            "in the system {name} newcomers move like everyone else; leave {newcomer} out, or use "
+            "{system} npl",
+            name=ladder.system.name,
+        )
+    return LadderQuestion(start, within, asked.newcomer, opponents, asked.via)
+
+
+def _draw(findings: LadderFindings, title: str, path: str) -> None:
+    from evenbreak.plots.ladders import ladder_figure
+
+    within, curve = findings.question.within, findings.settling
+    figure = ladder_figure(
+        findings.law, natural=findings.natural, within=within, curve=curve, title=title
+    )
+    write_plot(figure, path)
+
+
+# Systems, charts and step sizes side by side.
+
+
+def _comparison(asked: LadderErrors) -> Answer:
+    """Return systems and steps side by side."""
+    from evenbreak.answers.ladder.comparison import compare_ladders, ladder_comparison_answer
+
+    npl = handicaps.system_of("npl")
+    chart, warnings = chart_for(npl, asked.chart)
+    opponents, name, doubts = _opponents(asked, npl.scale, SAY_OTHERWISE)
+    try:
+        comparison = compare_ladders(chart, opponents, name)
+    except SameRaceError:
+        raise
+    except AccuracyError:
+        raise AccuracyError(_why_no_long_run(opponents)) from None
+    if asked.plot is not None:
+        _draw_systems(comparison, asked.plot)
+    return ladder_comparison_answer(comparison, [*warnings, *doubts])
+
+
+def _draw_systems(comparison: LadderComparison, path: str) -> None:
+    from evenbreak.answers.ladder.comparison import NEWCOMERS
+    from evenbreak.plots.ladders import SystemPoint, systems_figure
+
+    points = [
+        SystemPoint(row.system, 100.0 * row.sd_doublings, row.settling_mean, best)
+        for row, best in comparison.steps
+    ]
+    for row in comparison.systems:
+        if (row.system, row.chart) == ("npl", comparison.chart.name):
+            continue  # the league itself on this chart is the step of 1
+        name = {NEWCOMERS: "newcomers", "npl": row.chart}.get(row.system, row.system)
+        points.append(SystemPoint(name, 100.0 * row.sd_doublings, row.settling_mean, None))
+    write_plot(systems_figure(points, chart=comparison.chart.name), path)
+
+
+# Who a player on the ladder meets.
+
+
+def _opponents(
+    asked: LadderErrors, scale: Scale, remedy: str = SAY_WHICH
+) -> tuple[handicaps.Opponents, str, list[str]]:
+    """Return the opponents asked for, the word for them, and warnings about their list.
+
+    `remedy` says what to do about a list of another scale.
+    """
+    if asked.league is not None:
+        opponents, warnings = _of_league(asked, asked.league, scale, remedy)
+        return opponents, "league", warnings
+    if asked.autocorrelated:
+        return handicaps.AUTOCORRELATED, "autocorrelated", []
+    if asked.equal_skill:
+        return handicaps.EQUAL_SKILL, "equal skill", []
+    return handicaps.NATURAL, "natural", []
+
+
+def _of_league(
+    asked: LadderErrors, path: str, scale: Scale, remedy: str
+) -> tuple[handicaps.Opponents, list[str]]:
+    """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
+    import numpy as np
+
+    from evenbreak.answers.kit.scales import league_doubts
+
+    file = files.read_roster(path)
+    refuse_other_scale(file, scale, "the ladder", remedy, stated=asked.scale is not None)
+    ratings = file.roster.rating[~np.isnan(file.roster.rating)]
+    if not len(ratings):
+        raise DataError([f"{file.source}: no player has a rating; write one for each player"])
+    warnings = [*file.warnings, *league_doubts(scale, ratings, remedy)]
+    about = round(float(np.median(ratings))) if asked.skill is None else asked.skill
+    low, high = float(ratings.min()), float(ratings.max())
+    most = MOST_APART * scale.points_per_doubling
+    if max(about - low, high - about) > most:
+        values: dict[str, Any] = {"about": about, "low": low, "high": high, "most": most}
+        asked.refuse(
+            ("the median" if asked.skill is None else "{skill}")
+            + " is {about}, and the ratings of {source} are from {low:g} to {high:g}; no opponent "
+            "may be more than {most:.0f} points from the player, so give a {skill} nearer to all "
+            "of them",
+            source=file.source,
+            **values,
+        )
+    return handicaps.opponents_of(ratings, about=about), warnings
+
+
+def _why_no_long_run(opponents: handicaps.Opponents) -> str:
+    """Return why a ladder does not settle, and what to do about it on the command line."""
+    if opponents.farthest:
+        return (
+            "the rating does not stay near the skill: the league's players are so far from the "
+            "player's skill that the chart's races are nearly always won or lost; give a --skill "
+            "nearer to them, or the --scale of their ratings"
+        )
+    return (
+        "the rating does not stay near the skill: the steps are too long for the scale, form "
+        "varies too much, or skill drifts faster than the steps can follow; give a smaller "
+        "--step, another --system, or less --day-sd, --match-sd or --drift"
+    )

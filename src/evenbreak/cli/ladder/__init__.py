@@ -1,1 +1,0 @@
-"""`evenbreak ladder`: how far off ratings are in the long run."""

@@ -1,0 +1,172 @@
+"""`evenbreak sandbag`: what losing on purpose pays, and whether it can be seen."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak import files, handicaps, league
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.groups import Entry, LazyGroup
+from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.systems import (
+    chart_for,
+    on_scale,
+    refuse_levels,
+    refuse_other_scale,
+    refuse_too_varying,
+)
+from evenbreak.cli.kit.values import refuse
+from evenbreak.files.tables.names import KnownNames
+from evenbreak.questions.ladders import SandbagPay, SandbagWatch
+from evenbreak.ratings.scale import DEFAULT_SCALE, Scale
+
+COMMANDS = {
+    "pay": Entry("sandbag:pay", "Show what it pays to lose matches on purpose."),
+    "watch": Entry("sandbag:watch", "Check the results of a league for sandbagging."),
+}
+"""Each command, with its line of help."""
+
+DOUBLINGS = 4
+"""How far off a rating may be: to where the odds of a game are 16 to 1."""
+
+
+@click.command("sandbag", cls=LazyGroup, table=COMMANDS)
+def command() -> None:
+    """Show what losing on purpose pays, and whether it can be seen.
+
+    A sandbagger loses matches that count for little, so that their rating falls and they
+    are given games in the matches that count.
+    """
+
+
+@command_of(SandbagPay, "pay")
+def pay(asked: SandbagPay) -> Answer:
+    """Show what losing on purpose pays."""
+    from evenbreak.answers.sandbag.pay import (
+        PayQuestion,
+        sandbag_charts_answer,
+        sandbag_pay,
+        sandbag_pay_answer,
+    )
+
+    question = PayQuestion(
+        dumped=asked.dumped,
+        earnest=asked.earnest,
+        start=asked.start_error,
+        stake=asked.stake,
+        dumped_stake=asked.dumped_stake,
+        in_a_row=asked.in_a_row,
+        prize=asked.prize,
+    )
+    system = asked.system or handicaps.system_of("npl")
+    if asked.compare:
+        ladders = [_wide(system, chart) for chart in system.known_charts()]
+        return sandbag_charts_answer(
+            [sandbag_pay(ladder, question, cycles=False) for ladder in ladders], question
+        )
+    chart, warnings = chart_for(system, asked.chart)
+    findings = sandbag_pay(_wide(system, chart), question)
+    if asked.plot is not None:
+        from evenbreak.plots.league import pay_figure
+
+        write_plot(pay_figure(findings.pays), asked.plot)
+    return sandbag_pay_answer(findings, question, warnings)
+
+
+def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
+    """Return a wide ladder against opponents who are correctly rated."""
+    return handicaps.Ladder(
+        system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling)
+    )
+
+
+@command_of(SandbagWatch, "watch")
+def watch(asked: SandbagWatch) -> Answer:
+    """Check results for sandbagging."""
+    from evenbreak.answers.league.nights import (
+        events_marked,
+        events_to_try,
+        nights_of_files,
+        with_even_races,
+    )
+    from evenbreak.answers.sandbag.watch import (
+        day_sd_doubts,
+        sandbag_player_answer,
+        sandbag_watch_answer,
+        unrated_doubts,
+    )
+
+    first = files.read_roster(asked.roster)
+    season = files.read_results(asked.results, **asked.reading)
+    system = asked.system or handicaps.system_of("npl")
+    system, doubts = _moved(system, asked.scale, first, season)
+    ladder, warnings = watched_ladder(asked, system)
+    warnings += [*first.warnings, *season.warnings, *doubts]
+    if asked.honest == "established":
+        warnings += unrated_doubts(first.roster, season.results)
+    if not asked.day_sd:
+        warnings += day_sd_doubts(season.results, system.scale)
+    if asked.chart is None:
+        season, assumed = with_even_races(season)
+        warnings += assumed
+    marked = events_marked(season.results, asked.dumps_in) if asked.dumps_in else None
+    nights = nights_of_files(system, first, season, chart=ladder.chart if asked.chart else None)
+    watched = league.watch(
+        nights,
+        system,
+        ladder.law(),
+        alpha=asked.alpha,
+        honest=asked.honest,
+        marked=marked,
+        tried=None if asked.dumps_in else events_to_try(season.results),
+        day_sd=asked.day_sd,
+    )
+    if asked.player is not None:
+        names = KnownNames([player.player for player in watched])
+        place = names.place(asked.player)
+        if place is None:
+            hint = names.hint(asked.player)
+            refuse(f"--player: {asked.player!r} has no match in {season.source}{hint}")
+        watched = [watched[place]]
+    if asked.plot is not None:
+        from evenbreak.plots.league import watch_figure
+
+        write_plot(watch_figure(watched, alpha=asked.alpha), asked.plot)
+    if asked.player is not None:
+        return sandbag_player_answer(watched[0], nights, season.results, warnings=warnings)
+    return sandbag_watch_answer(watched, season.results, season.source, warnings=warnings)
+
+
+def watched_ladder(
+    asked: SandbagWatch, system: handicaps.System
+) -> tuple[handicaps.Ladder, list[str]]:
+    """Return the ladder whose rating errors the watch assumes, and warnings about its chart."""
+    chart, warnings = chart_for(system, asked.chart)
+    refuse_too_varying(asked, system, "day_sd")
+    return handicaps.Ladder(system, chart, day_sd=asked.day_sd), warnings
+
+
+def _moved(
+    system: handicaps.System,
+    scale: Scale | None,
+    first: files.RosterFile,
+    season: files.ResultsFile,
+) -> tuple[handicaps.System, list[str]]:
+    """Return the system on the scale of the list; refuse or doubt one that results contradict."""
+    from evenbreak.answers.kit.scales import contradiction, far_doubts
+
+    refuse_levels(first, f"the system {system.name} needs ratings in points; give a list of those")
+    own = system.scale.name != DEFAULT_SCALE
+    assumed = own and scale is None
+    points = system.scale if assumed else first.scale_by(scale, SAY_WHICH)
+    whose = f"the system {system.name}" if scale is None else "--scale"
+    remedy = "name the scale of the ratings, or correct the file"
+    refuse_other_scale(first, points, whose, remedy, stated=not assumed)
+    doubts = far_doubts(points, first.roster.rating)  # a slip does not make another scale
+    if not doubts and (against := contradiction(points, first.roster, season.results)):
+        if scale is None:
+            refuse(f"{first.source}: {against}; {SAY_WHICH}")
+        doubts = [against]
+    return on_scale(system, points), doubts

@@ -1,0 +1,349 @@
+"""Questions about how ratings move under a handicap system, and about losing on purpose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from evenbreak.fields.kinds import Choice, File, Flag, Number, Text, Whole
+from evenbreak.fields.question import Field, Says
+from evenbreak.questions.common import ByWay, ChartName, PlotFile, ScaleOf
+from evenbreak.questions.results import RESULTS, ROSTER, Reading
+from evenbreak.questions.systems import DAY_SD, BySystem
+
+LARGEST = 10_000
+"""The largest error that can be typed, in points; a ladder says where it ends itself."""
+
+MOST_A_NIGHT = 20
+
+MOST_DRIFT = 0.9
+"""A rating that moves a point a match cannot follow a skill that does so each time."""
+
+_OPPONENTS, _FORM, _SETTLING = "Opponents", "Form and skill", "How a new player settles"
+
+_MONEY = Number(0.0, 1e9, "; give a number from 0 to 1,000,000,000")
+_START_ERROR = Field(
+    Whole(-LARGEST, LARGEST),
+    "How far off the rating is at the start: rating minus skill, in points.",
+    metavar="ERROR",
+    old=("from",),
+)
+_COMPARE = Field(Flag(), "Compare the charts of the system.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LadderErrors(BySystem):
+    """Show how far off a league's ratings are in the long run, and how fair its matches.
+
+    A rating goes up with each match won and down with each match lost, and the chart turns the
+    difference of two ratings into a race. Opponents are as good as the player and correctly rated,
+    unless an option says otherwise.
+    """
+
+    examples = """\
+  evenbreak ladder --chart npl_10
+  evenbreak ladder --chart npl_8 --autocorrelated --start-error -30 --newcomer
+  evenbreak ladder --chart npl_10 --step 2 --plot step_2.png
+  evenbreak ladder --compare
+"""
+    step: Annotated[
+        int | None,
+        Field(
+            Whole(1, 100), "Instead of {system}: up K for a win, down K for a loss.", metavar="K"
+        ),
+    ] = None
+    scale: Annotated[
+        ScaleOf,
+        Says(
+            usual="the system's",
+            more="The ratings of `--league` [must fit it](../files.md#the-scale-of-a-list).",
+        ),
+    ] = None
+    start_error: Annotated[
+        int | None,
+        _START_ERROR,
+        Says(usual="one doubling of the odds too low", section=_SETTLING),
+    ] = None
+    within: Annotated[
+        int | None,
+        Field(
+            Whole(0, LARGEST),
+            "How near to the skill a rating counts as settled.",
+            usual="a sixth of a doubling of the odds",
+            metavar="POINTS",
+            section=_SETTLING,
+            more="That is 5 points in the National Pool League.",
+        ),
+    ] = None
+    newcomer: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "That player moves by the system's longer steps for newcomers at first.",
+            section=_SETTLING,
+        ),
+    ] = False
+    compare: Annotated[bool, _COMPARE, Says("Compare systems, charts and step sizes instead.")] = (
+        False
+    )
+    plot: Annotated[
+        PlotFile,
+        Says(
+            section="",
+            more="The distribution of the error and how players settle, or with `--compare` the "
+            "systems.",
+        ),
+    ] = None
+    autocorrelated: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Opponents are rated at the player's skill, with errors like the player's.",
+            section=_OPPONENTS,
+        ),
+    ] = False
+    equal_skill: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Opponents are as good as the player, with rating errors like the player's.",
+            section=_OPPONENTS,
+        ),
+    ] = False
+    league: Annotated[
+        str | None,
+        Field(
+            File("ROSTER.csv"),
+            "Opponents are drawn from a league, with rating errors like the player's.",
+            section=_OPPONENTS,
+            more="The rated players of [a roster](../files.md#roster).",
+        ),
+    ] = None
+    skill: Annotated[
+        int | None,
+        Field(
+            Whole(-LARGEST, LARGEST),
+            "With {league}: the player's own skill.",
+            usual="the league's median rating",
+            metavar="S",
+            section=_OPPONENTS,
+        ),
+    ] = None
+    day_sd: Annotated[float, DAY_SD, Says(section=_FORM)] = 0.0
+    matches_a_night: Annotated[
+        int | None,
+        Field(
+            Whole(1, MOST_A_NIGHT),
+            "With {day_sd}: how many matches are played with the form of one day.",
+            usual="1",
+            section=_FORM,
+        ),
+    ] = None
+    match_sd: Annotated[
+        float,
+        DAY_SD,
+        Says(
+            "How much everyone's form varies from match to match, in addition (standard "
+            "deviation).",
+            section=_FORM,
+        ),
+    ] = 0.0
+    drift: Annotated[
+        float,
+        Field(
+            Number(-MOST_DRIFT, MOST_DRIFT, f"; give a number from {-MOST_DRIFT} to {MOST_DRIFT}"),
+            "How much the player's skill rises with each match on average: by a whole point, with "
+            "this chance; below 0 it falls.",
+            metavar="POINTS",
+            section=_FORM,
+        ),
+    ] = 0.0
+    via: Annotated[
+        ByWay, Says("The way to the distribution of the error, given the chances in each match.")
+    ] = None
+
+    def check(self) -> None:
+        """Refuse what does not go together."""
+        for name in self.given:
+            if self.compare and name not in _COMPARED:
+                self.refuse("{compare} goes through several systems; leave {" + name + "} out")
+        if self.chart == self.league == "-":
+            self.refuse("- stands for standard input, which only one file can be; name the other")
+        if self.system is not None and self.step is not None:
+            self.refuse(
+                "{step} {k} is a system of its own; leave out {system} or {step}", k=self.step
+            )
+        if self.matches_a_night is not None and not self.day_sd:
+            self.refuse(
+                "{matches_a_night} is how long a day's form lasts; give {day_sd}, or leave it out"
+            )
+        meets = [f"{{{name}}}" for name in _MEETS if getattr(self, name)]
+        if len(meets) > 1:
+            listed = f"{', '.join(meets[:-1])} and {meets[-1]}"
+            self.refuse(f"{listed} cannot be combined; keep one")
+        if self.skill is not None and self.league is None:
+            self.refuse(
+                "{skill} is the player's own in a league; give {league} ROSTER.csv, or leave it out"
+            )
+
+
+_MEETS = ("autocorrelated", "equal_skill", "league")
+_COMPARED = ("compare", "chart", "plot", "skill", *_MEETS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SandbagPay(BySystem):
+    """Show what it pays to lose matches on purpose.
+
+    Opponents are as good as the player and correctly rated. The player loses up to D matches on
+    purpose, then plays E in earnest while the rating climbs back. Nothing is simulated.
+    """
+
+    examples = """\
+  evenbreak sandbag pay
+  evenbreak sandbag pay --chart npl_12 --stake 100 --dumped-stake 5 --plot pay.png
+  evenbreak sandbag pay --in-a-row 4 --prize 500 --stake 0
+  evenbreak sandbag pay --compare
+"""
+    dumped: Annotated[
+        int,
+        Field(
+            Whole(1, 100),
+            "The most matches that are lost on purpose.",
+            metavar="D",
+            more="The table has a row for each number up to it.",
+        ),
+    ] = 12
+    earnest: Annotated[
+        int, Field(Whole(1, 500), "How many matches are then played in earnest.", metavar="E")
+    ] = 20
+    stake: Annotated[
+        float, Field(_MONEY, "What winning a match in earnest is worth, more than losing it.")
+    ] = 10.0
+    dumped_stake: Annotated[
+        float, Field(_MONEY, "What winning one of the dumped matches would be worth.")
+    ] = 1.0
+    in_a_row: Annotated[
+        int,
+        Field(
+            Whole(1, 50),
+            "How many matches in a row win a tournament.",
+            metavar="K",
+            more="The players keep the ratings with which they enter it.",
+        ),
+    ] = 3
+    prize: Annotated[
+        float,
+        Field(
+            _MONEY,
+            "What the tournament pays.",
+            more="It is played before the matches in earnest and moves no ratings.",
+        ),
+    ] = 0.0
+    start_error: Annotated[int, _START_ERROR, Says(kind=Whole(-100, 100))] = 0
+    compare: Annotated[
+        bool, _COMPARE, Says(more="Each with the number of dumped matches that pays most.")
+    ] = False
+    plot: Annotated[
+        PlotFile, Says(section="", more="The chance of winning each match in earnest.")
+    ] = None
+
+    def check(self) -> None:
+        """Refuse one chart where all are compared."""
+        if self.compare and (self.chart is not None or self.plot is not None):
+            self.refuse("{compare} takes all charts of the system; leave {chart} and {plot} out")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SandbagWatch(BySystem, Reading):
+    """Check the results of a league for sandbagging.
+
+    RESULTS.csv is a file as for `report`; - reads standard input. The ratings of ROSTER.csv are
+    updated night by night. The evidence against a player grows with results that are likelier from
+    a sandbagger than from an honest player; at 1 / alpha the player is flagged. It is evidence, not
+    a verdict.
+    """
+
+    examples = """\
+  evenbreak sandbag watch season.csv --roster start.csv
+  evenbreak sandbag watch season.csv --roster start.csv --dumps-in "League night"
+  evenbreak sandbag watch season.csv --roster start.csv --player "Bo Diaz"
+"""
+    results: Annotated[str, RESULTS, Says(metavar="RESULTS.csv", many=False)]
+    roster: Annotated[
+        str,
+        ROSTER,
+        Says(
+            "The ratings before the first match of the results.", more="Every player must have one."
+        ),
+    ]
+    chart: Annotated[
+        ChartName,
+        Says(
+            "The chart that sets the races where the results do not state them.",
+            usual="",
+            more="Without it such a match is read as an even race to the winner's games, as "
+            "`validate` does, with a warning.",
+        ),
+    ] = None
+    scale: Annotated[
+        ScaleOf,
+        Says(
+            usual="what the list states, else what the ratings show",
+            more="If the results contradict that scale, the command refuses and shows both "
+            "readings.",
+        ),
+    ] = None
+    alpha: Annotated[
+        float,
+        Field(
+            Number(1e-9, 0.5, "; give a number from 1e-09 to 0.5", metavar="P"),
+            "The largest chance that an honest player is ever flagged.",
+        ),
+    ] = 0.01
+    honest: Annotated[
+        Literal["any", "established"],
+        Field(
+            Choice(("any", "established")),
+            "Who counts as honest: players of any skill, or players whose ratings are as accurate "
+            "as ratings are in the long run.",
+            more="`any`: players of any skill within 180 points of their ratings (on a scale where "
+            "30 double the odds), including those who steadily improve or decline. "
+            "`established` detects sandbaggers sooner, but flags honest players whose ratings are "
+            "far off. A warning says if a tenth or more of the players start without a rating of "
+            "their own.",
+        ),
+    ] = "any"
+    day_sd: Annotated[
+        float,
+        DAY_SD,
+        Says(
+            "How much the form of honest players varies from day to day (standard deviation).",
+            more="If their form really varies much, honest players are flagged too often with 0; a "
+            "warning then says so, with the value that fits the results.",
+        ),
+    ] = 0.0
+    dumps_in: Annotated[
+        tuple[str, ...],
+        Field(
+            Text("EVENT"),
+            "An event that counts for little: only its matches may be dumped.",
+            usual="each event of the file is tried",
+            many=True,
+            more="The 20 with the most matches if there are more.",
+        ),
+    ] = ()
+    player: Annotated[
+        str | None,
+        Field(
+            Text("NAME"),
+            "Show what each match of one player adds to the evidence.",
+            more="Case and blanks in the name do not matter.",
+        ),
+    ] = None
+    plot: Annotated[PlotFile, Says(section="", more="The evidence match by match.")] = None
+
+    def check(self) -> None:
+        """Refuse standard input for several files."""
+        if [self.results, self.roster, self.chart, self.aliases].count("-") > 1:
+            self.refuse("- stands for standard input, which only one file can be; name the others")
