@@ -7,10 +7,12 @@ inches.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from evenbreak.arrays import Floats
 from evenbreak.checks import floats
+
+if TYPE_CHECKING:  # it loads numpy
+    from evenbreak.arrays import Floats
 
 INCH = 0.0254
 """Metres in an inch."""

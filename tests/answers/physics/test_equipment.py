@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.answers.physics.equipment import break_cue_answer
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics.units import OUNCE
 
 

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
 from evenbreak.answers.physics.shot import shot_answer
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics import PoolTable, pocketed_shot, pockets, shot, strike_for_speed
 from evenbreak.physics.units import INCH
 from tiers import examples

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
-from evenbreak.answers.physics.hit import IMPERIAL
 from evenbreak.answers.physics.shot import shot_heading, shot_words
+from evenbreak.answers.physics.units import IMPERIAL
 from evenbreak.physics import PoolTable, pocketed_shot, pockets, shot, strike_for_speed
 from evenbreak.physics.units import INCH
 

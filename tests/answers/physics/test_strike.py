@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
 from evenbreak.answers.physics.strike import strike_answer, tip_words
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics import Ball, Cloth, Cue, Slide, strike
 from evenbreak.physics.units import INCH, OUNCE
 from rows import each_of

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.answers.physics.equipment import cloth_class, table_speed_answer
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics.units import INCH
 
 ROLL = 97.75 * INCH

@@ -5,7 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.answers.physics.aim import throw_answer, throw_words
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC, Hit
+from evenbreak.answers.physics.hit import Hit
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics import SlipFriction, collide
 
 MU = 4 / 72

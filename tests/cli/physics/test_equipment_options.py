@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of
 from evenbreak.physics import Ball, Cue
 from evenbreak.physics.units import OUNCE

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.physics.hit import IMPERIAL
+from evenbreak.answers.physics.units import IMPERIAL
 from evenbreak.cli.physics.hit_options import hit_of
 
 

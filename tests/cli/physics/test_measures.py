@@ -2,7 +2,7 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC
+from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.cli.physics.measures import Measure, metric_option
 
 

@@ -9,11 +9,10 @@ from evenbreak.answers.kit.parts import Quantities
 from evenbreak.files.csv_writer import csv_lines
 
 if TYPE_CHECKING:
-    from evenbreak.answers.kit.answer import Answer
-    from evenbreak.answers.kit.parts import Show, Table
+    from evenbreak.answers.kit.parts import Content, Show, Table
 
 
-def to_csv(answer: Answer) -> Iterator[str]:
+def to_csv(answer: Content) -> Iterator[str]:
     """Yield an answer's lines of CSV, each with its line end, so that none has to wait."""
     numbers = answer.for_files
     if isinstance(numbers, Quantities):

@@ -11,23 +11,22 @@ from evenbreak.answers.kit.remarks import Remark, Remarks
 from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.kit.answer import Answer
-    from evenbreak.answers.kit.parts import Part
+    from evenbreak.answers.kit.parts import Content, Part
 
 
-def to_html(answer: Answer) -> str:
+def to_html(answer: Content) -> str:
     """Return an answer as a section of HTML, every text in it escaped; it has no style."""
     return "\n".join(["<section>", *_lines(answer), "</section>"]) + "\n"
 
 
-def _lines(answer: Answer) -> Iterator[str]:
+def _lines(answer: Content) -> Iterator[str]:
     first, *more = answer.heading.split("\n")
     yield f"<h2>{_text(first)}</h2>"
     yield from (f"<p>{_text(line)}</p>" for line in more)
     yield from body_lines(answer)
 
 
-def body_lines(answer: Answer) -> Iterator[str]:
+def body_lines(answer: Content) -> Iterator[str]:
     """Yield the HTML of an answer without its heading."""
     for part in answer.parts:
         yield from part_lines(part)

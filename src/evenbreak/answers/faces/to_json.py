@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 from evenbreak.answers.kit.parts import Quantities, Table
 
 if TYPE_CHECKING:
-    from evenbreak.answers.kit.answer import Answer
-    from evenbreak.answers.kit.parts import Part
+    from evenbreak.answers.kit.parts import Content, Part
 
 
-def as_dict(answer: Answer) -> dict[str, Any]:
+def as_dict(answer: Content) -> dict[str, Any]:
     """Return what the JSON of an answer holds.
 
     Quantities stand by their names, a table by its name as a list of objects; what is not a
@@ -33,7 +32,7 @@ def as_dict(answer: Answer) -> dict[str, Any]:
     }
 
 
-def to_json(answer: Answer) -> str:
+def to_json(answer: Content) -> str:
     """Return an answer as JSON text."""
     import json
 

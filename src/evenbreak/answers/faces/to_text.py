@@ -9,8 +9,7 @@ from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
-    from evenbreak.answers.kit.answer import Answer
-    from evenbreak.answers.kit.parts import Part
+    from evenbreak.answers.kit.parts import Content, Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30
@@ -21,7 +20,7 @@ _GAP = 2
 """Blanks between two columns."""
 
 
-def to_text(answer: Answer, *, width: int = WIDTH, verbose: bool = False) -> str:
+def to_text(answer: Content, *, width: int = WIDTH, verbose: bool = False) -> str:
     """Return an answer as text.
 
     Parameters

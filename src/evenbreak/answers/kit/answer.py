@@ -1,49 +1,24 @@
-"""What a question is answered with: sentences, quantities, tables and warnings, and no face.
-
-An `Answer` is made once, in one module a question, and shown by the renderers of
-`evenbreak.answers.faces`: on a terminal, as CSV, as JSON, as HTML. None of them adds a word.
-"""
+"""The answer to a question, for every face: it shows itself on a terminal and in a notebook."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.faces.to_json import as_dict
 from evenbreak.answers.faces.to_text import to_text
-from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.parts import Content, Quantities, Table
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-SCHEMA_VERSION = 1
-"""Of an answer's JSON; it changes when a key changes its meaning."""
+class Answer(Content):
+    """The answer to one question: its content, and how it is shown.
 
-
-@dataclass(frozen=True)
-class Answer:
-    """The answer to one question, for every face.
-
-    Parameters
-    ----------
-    heading
-        what was asked, and of whom or what, in a line or two.
-    parts
-        what a person reads, in that order. The first is a paragraph: the answer in words.
-    details
-        what only those read who ask for it: statistics, with their words explained.
-    warnings
-        what may be wrong with what was given, a sentence each.
-    data
-        what JSON holds besides the quantities and tables of `parts` and `details`.
-    csv
-        the one of its tables or quantities that goes into a file or a pipe; without it the
-        first of `parts`.
-    schema_version
-        of its JSON.
+    An `Answer` is made once, in one module a question, and shown by the renderers of
+    `evenbreak.answers.faces`: on a terminal, as CSV, as JSON, as HTML. None of them adds a word.
+    Its parameters are those of `Content`.
 
     >>> from evenbreak.answers.kit.columns import quantity_of
     >>> win = quantity_of("p_win_a", 0.875, a="A")
@@ -58,27 +33,8 @@ class Answer:
     0.875
     """
 
-    heading: str
-    parts: Sequence[Part]
-    details: Sequence[Part] = ()
-    warnings: Sequence[str] = ()
-    data: Mapping[str, Any] = field(default_factory=dict)
-    csv: Quantities | Table | None = None
-    schema_version: int = SCHEMA_VERSION
-
     def __repr__(self) -> str:
         return f"<Answer: {self.heading.partition(chr(10))[0]}>"
-
-    @property
-    def sentences(self) -> list[str]:
-        """The paragraphs, those of the details left out."""
-        return [part for part in self.parts if isinstance(part, str)]
-
-    @property
-    def for_files(self) -> Quantities | Table | None:
-        """What goes into a file or a pipe."""
-        numbers = (part for part in (*self.parts, *self.details) if not isinstance(part, str))
-        return self.csv if self.csv is not None else next(numbers, None)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what its JSON holds: plain numbers, words, lists and dicts."""

@@ -1,9 +1,9 @@
-"""What an answer is made of: paragraphs, quantities and tables, with names, units and digits."""
+"""What an answer is made of: paragraphs, quantities and tables, and all of them together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
@@ -188,3 +188,50 @@ class Quantities:
 
 Part: TypeAlias = str | Quantities | Table
 """A paragraph, or numbers."""
+
+
+SCHEMA_VERSION = 1
+"""Of an answer's JSON; it changes when a key changes its meaning."""
+
+
+@dataclass(frozen=True)
+class Content:
+    """What a question is answered with: sentences, quantities, tables and warnings, and no face.
+
+    Parameters
+    ----------
+    heading
+        what was asked, and of whom or what, in a line or two.
+    parts
+        what a person reads, in that order. The first is a paragraph: the answer in words.
+    details
+        what only those read who ask for it: statistics, with their words explained.
+    warnings
+        what may be wrong with what was given, a sentence each.
+    data
+        what JSON holds besides the quantities and tables of `parts` and `details`.
+    csv
+        the one of its tables or quantities that goes into a file or a pipe; without it the
+        first of `parts`.
+    schema_version
+        of its JSON.
+    """
+
+    heading: str
+    parts: Sequence[Part]
+    details: Sequence[Part] = ()
+    warnings: Sequence[str] = ()
+    data: Mapping[str, Any] = field(default_factory=dict)
+    csv: Quantities | Table | None = None
+    schema_version: int = SCHEMA_VERSION
+
+    @property
+    def sentences(self) -> list[str]:
+        """The paragraphs, those of the details left out."""
+        return [part for part in self.parts if isinstance(part, str)]
+
+    @property
+    def for_files(self) -> Quantities | Table | None:
+        """What goes into a file or a pipe."""
+        numbers = (part for part in (*self.parts, *self.details) if not isinstance(part, str))
+        return self.csv if self.csv is not None else next(numbers, None)

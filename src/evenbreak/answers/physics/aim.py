@@ -6,7 +6,8 @@ from typing import Any
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
-from evenbreak.answers.physics.hit import SQUIRT, Hit, Unit, Units, degrees
+from evenbreak.answers.physics.hit import SQUIRT, Hit, degrees
+from evenbreak.answers.physics.units import Unit, Units
 from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensitivity
 
 
@@ -27,7 +28,7 @@ def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
     InputError
         if the object ball cannot be cut that thin.
 
-    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> hit = Hit(-14.5, 0.0, 0.0, 0.06, "limited")
     >>> answer = aim_answer(hit, 0.9144, IMPERIAL)
     >>> print(answer.sentences[0])
@@ -82,7 +83,7 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
 def throw_answer(hit: Hit, units: Units) -> Answer:
     """Return the throw of a hit.
 
-    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> answer = throw_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
     >>> print(answer.sentences[0])
     Throw takes 1.59 degrees off the cut: the object ball goes thick unless you aim thinner.

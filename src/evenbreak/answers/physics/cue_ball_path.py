@@ -5,7 +5,8 @@ import math
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
-from evenbreak.answers.physics.hit import Hit, Units, degrees
+from evenbreak.answers.physics.hit import Hit, degrees
+from evenbreak.answers.physics.units import Units
 from evenbreak.physics.collision import Collision
 from evenbreak.physics.deflection import (
     EnergyShares,
@@ -26,7 +27,7 @@ _AT_REST = 1e-12
 def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
     """Return the deflection of the cue ball: the angle by which its path turns.
 
-    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> answer = cue_ball_path_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
     >>> print(answer.sentences[0])
     Once it rolls, the cue ball goes 35.73 degrees to the left; without friction between the

@@ -6,7 +6,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities
 from evenbreak.answers.kit.wording import decimals
-from evenbreak.answers.physics.hit import IMPERIAL, Unit, Units
+from evenbreak.answers.physics.units import IMPERIAL, Unit, Units
 from evenbreak.physics.rolling import TABLE_SPEEDS, lag_speed, table_speed
 from evenbreak.physics.strike import best_stick_ratio, break_energy_share
 
@@ -65,7 +65,7 @@ _LEAST, _MOST = 40.0, 250.0
 def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer:
     """Return the speed of a table, from seconds and the metres that the ball's centre rolls.
 
-    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> table_speed_answer(7.0, 2.48285, IMPERIAL).sentences
     ['The table speed is 97: normal.']
     """

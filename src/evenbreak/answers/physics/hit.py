@@ -1,116 +1,15 @@
-"""The units in which lengths, speeds and weights are typed and shown: inches or centimetres."""
+"""A hit of the cue ball on an object ball, in words and quantities."""
 
 import math
 from typing import Any, NamedTuple
 
-from evenbreak.answers.kit.columns import quantities_of, quantity_of
+from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantity
 from evenbreak.answers.kit.wording import decimals
+from evenbreak.answers.physics.units import Unit
 from evenbreak.physics.collision import Collision, collide
 from evenbreak.physics.friction import SlipFriction
 from evenbreak.physics.throw import gearing_side
-from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
-
-
-class Unit(NamedTuple):
-    """A unit of length, speed or mass.
-
-    Parameters
-    ----------
-    size
-        one of it in SI units: metres, metres per second or kilograms.
-    key
-        the ending of the names of quantities in this unit.
-    words
-        its name in the plural.
-    """
-
-    size: float
-    key: str
-    words: str
-
-    def text(self, value: float, places: int = 1) -> str:
-        """Return a value, given in SI units, in this unit.
-
-        >>> IMPERIAL.length.text(1.0)
-        '39.4 inches'
-        """
-        return f"{decimals(places)(value / self.size)} {self.words}"
-
-    def typed(self, value: float) -> str:
-        """Return a value, given in SI units, as it was typed in this unit.
-
-        >>> IMPERIAL.length.typed(0.9144)
-        '36 inches'
-        """
-        return f"{value / self.size:.6g} {self.words}"
-
-    def quantity(self, key: str, value: float | None) -> Quantity:
-        """Return a value, given in SI units, as a quantity in this unit.
-
-        >>> quantity = METRIC.speed.quantity("ball_speed", 1.5)
-        >>> quantity.name, quantity.value, quantity.words
-        ('ball_speed_m_s', 1.5, 'speed of the ball, metres per second')
-        """
-        number = None if value is None else float(value) / self.size
-        return quantity_of(key, number, unit=self.key, units=self.words)
-
-
-class Units(NamedTuple):
-    """The units of a command: of lengths, speeds and masses."""
-
-    length: Unit
-    speed: Unit
-    mass: Unit
-
-
-IMPERIAL = Units(
-    Unit(INCH, "in", "inches"),
-    Unit(INCH, "in_s", "inches per second"),
-    Unit(OUNCE, "oz", "ounces"),
-)
-"""Inches, inches per second and ounces."""
-
-METRIC = Units(
-    Unit(CENTIMETRE, "cm", "centimetres"),
-    Unit(1.0, "m_s", "metres per second"),
-    Unit(GRAM, "g", "grams"),
-)
-"""Centimetres, metres per second and grams."""
-
-_TYPICAL = {
-    "stick": ((10.0, 30.0), (280.0, 850.0)),
-    "ball": ((3.0, 10.0), (85.0, 285.0)),
-    "forearm": ((10.0, 320.0), (280.0, 9000.0)),
-    "speed": ((0.0, 600.0), (0.0, 15.0)),
-    "stick_speed": ((0.0, 600.0), (0.0, 15.0)),
-}
-"""The typical values of an option, from the least to the most, in imperial and metric units."""
-
-
-def unit_doubts(units: Units, **typed: float | None) -> list[str]:
-    """Return a warning for each option whose value looks as if it is in other units.
-
-    >>> unit_doubts(IMPERIAL, stick=19.0, ball=None, stick_speed=60.0)
-    []
-    >>> unit_doubts(IMPERIAL, ball=170.0)
-    ['--ball 170 ounces is unusual (3 to 10 is typical); for grams add --metric']
-    """
-    doubts = []
-    metric = units is METRIC
-    for name, value in typed.items():
-        low, high = _TYPICAL[name][metric]
-        if value is None or low <= value <= high:
-            continue
-        kind = "speed" if name.endswith("speed") else "mass"
-        other = getattr(IMPERIAL if metric else METRIC, kind).words
-        remedy = f"for {other} {'leave out' if metric else 'add'} --metric"
-        doubts.append(
-            f"--{name.replace('_', '-')} {value:g} {getattr(units, kind).words} is unusual "
-            f"({low:g} to {high:g} is typical); {remedy}"
-        )
-    return doubts
-
 
 degrees = decimals(2)
 """How an angle in degrees is shown."""

@@ -9,13 +9,13 @@ from evenbreak.answers.kit.parts import Quantities, Quantity, Table
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.answers.physics.hit import (
     SQUIRT,
-    Units,
     cut_words,
     friction_values,
     friction_words,
     spin_words,
 )
 from evenbreak.answers.physics.strike import tip_words
+from evenbreak.answers.physics.units import Units
 from evenbreak.physics.aimed import AimedShot
 from evenbreak.physics.deflection import deflection
 from evenbreak.physics.leg import Leg, Phase, Pocket
@@ -35,7 +35,7 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
         at which an aimed shot is aimed.
 
     >>> import math
-    >>> from evenbreak.answers.physics.hit import METRIC
+    >>> from evenbreak.answers.physics.units import METRIC
     >>> from evenbreak.physics import shot, strike_for_speed
     >>> found = shot(strike_for_speed(1.1), math.radians(30.0), 0.5)
     >>> print(shot_answer(found, METRIC).sentences[0])

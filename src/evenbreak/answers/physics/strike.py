@@ -7,7 +7,8 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Quantities, Quantity
 from evenbreak.answers.kit.wording import decimals
-from evenbreak.answers.physics.hit import Units, spin_words
+from evenbreak.answers.physics.hit import spin_words
+from evenbreak.answers.physics.units import Units
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import miscue_offset, tip_friction_of
 from evenbreak.physics.objects import Cloth
@@ -48,7 +49,7 @@ def strike_answer(
     speed_known
         whether the speed of the cue is known; if not, there are only ratios.
 
-    >>> from evenbreak.answers.physics.hit import IMPERIAL
+    >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> from evenbreak.physics import strike
     >>> answer = strike_answer(strike(1.524, -0.3), IMPERIAL, cloth=Cloth())
     >>> print(answer.sentences[0])

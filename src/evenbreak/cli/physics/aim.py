@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
@@ -36,7 +36,7 @@ def command(distance: float, units: Units, **hit: Any) -> Answer:
     Hard shots are thrown less than soft ones: give --speed to allow for that.
     """
     from evenbreak.answers.physics.aim import aim_answer
-    from evenbreak.answers.physics.hit import unit_doubts
+    from evenbreak.answers.physics.units import unit_doubts
 
     asked = hit_of(units, **hit)
     try:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.equipment_options import ball_of, ball_option
 from evenbreak.cli.physics.measures import WEIGHT, Measure, metric_option
@@ -36,7 +36,7 @@ def command(forearm: float, ball: float | None, stick: float | None, units: Unit
     together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.
     """
     from evenbreak.answers.physics.equipment import break_cue_answer
-    from evenbreak.answers.physics.hit import unit_doubts
+    from evenbreak.answers.physics.units import unit_doubts
 
     weight = units.mass
     answer = break_cue_answer(

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
 from evenbreak.cli.physics.measures import metric_option
@@ -31,7 +31,7 @@ def command(units: Units, **hit: Any) -> Answer:
     --friction change only the angles that allow for friction between the balls.
     """
     from evenbreak.answers.physics.cue_ball_path import cue_ball_path_answer
-    from evenbreak.answers.physics.hit import unit_doubts
+    from evenbreak.answers.physics.units import unit_doubts
 
     answer = cue_ball_path_answer(hit_of(units, **hit), units)
     return replace(answer, warnings=unit_doubts(units, speed=hit["speed"]))

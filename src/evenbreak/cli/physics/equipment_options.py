@@ -7,7 +7,7 @@ import math
 import click
 
 from evenbreak import physics
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.options import Command, with_options
 from evenbreak.cli.physics.measures import WEIGHT, Measure
 

@@ -12,7 +12,8 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.measures import CUT, FRICTION, OFFSET, SPEED, SPIN
 
 if TYPE_CHECKING:
-    from evenbreak.answers.physics.hit import Hit, Units
+    from evenbreak.answers.physics.hit import Hit
+    from evenbreak.answers.physics.units import Units
     from evenbreak.physics import SlipFriction
 
 

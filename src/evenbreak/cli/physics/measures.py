@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.values import Number
 
 
@@ -50,7 +50,7 @@ FRICTION = Friction()
 
 
 def _units(ctx: click.Context, param: click.Parameter, value: bool) -> Units:  # noqa: ARG001
-    from evenbreak.answers.physics.hit import IMPERIAL, METRIC
+    from evenbreak.answers.physics.units import IMPERIAL, METRIC
 
     return METRIC if value else IMPERIAL
 

@@ -10,7 +10,7 @@ import click
 
 from evenbreak import physics, plots
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.plot import plot_option, write_plot
 from evenbreak.cli.kit.values import numbers, refuse
@@ -84,8 +84,8 @@ def command(units: Units, plot: str | None, **how: Any) -> Answer:
     middle of the table), or give --cue-ball, --object-ball and --pocket, and the shot is
     aimed there. A ball is followed up to its first cushion.
     """
-    from evenbreak.answers.physics.hit import unit_doubts
     from evenbreak.answers.physics.shot import shot_answer
+    from evenbreak.answers.physics.units import unit_doubts
 
     places = ("cut", "distance", "cue_ball", "object_ball", "pocket", "table_length")
     layout = layout_of(units, **{name: how[name] for name in places})

@@ -3,7 +3,7 @@
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.measures import LENGTH, Measure, metric_option

@@ -6,7 +6,7 @@ from dataclasses import replace
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.physics.equipment_options import ball_of, cue_of, equipment_options
@@ -51,8 +51,8 @@ def command(
 
     Offsets are in ball radii: a hit 0.4 above the centre gives natural roll at once.
     """
-    from evenbreak.answers.physics.hit import unit_doubts
     from evenbreak.answers.physics.strike import strike_answer
+    from evenbreak.answers.physics.units import unit_doubts
     from evenbreak.physics import Cloth, strike
 
     if distance is not None and stick_speed is None:

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.physics.hit import Units
+from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.faces import faces
 from evenbreak.cli.physics.hit_options import hit_of, hit_options
 from evenbreak.cli.physics.measures import metric_option
@@ -32,7 +32,7 @@ def command(units: Units, **hit: Any) -> Answer:
     --mu at any speed.
     """
     from evenbreak.answers.physics.aim import throw_answer
-    from evenbreak.answers.physics.hit import unit_doubts
+    from evenbreak.answers.physics.units import unit_doubts
 
     answer = throw_answer(hit_of(units, **hit), units)
     return replace(answer, warnings=unit_doubts(units, speed=hit["speed"]))

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.physics.hit import IMPERIAL, METRIC, unit_doubts
+from evenbreak.answers.physics.units import IMPERIAL, METRIC, unit_doubts
 
 
 def test_a_quantity_is_named_by_its_unit():
