@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.source_text.answers import figures
+from evenbreak.source_text.reproduce import figures
 
 
 @functools.cache

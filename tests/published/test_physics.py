@@ -9,7 +9,7 @@ import pytest
 
 from evenbreak.physics import collide, gearing_side, gearing_tip, roll_side
 from evenbreak.source_text.answers import PHYSICS, compute, physics_findings
-from evenbreak.source_text.physics.page import place_of
+from evenbreak.source_text.pages import place_of
 from evenbreak.source_text.published import PublishedNumber, physics_errata, physics_numbers
 from places import SHARED
 

@@ -14,13 +14,13 @@ import pytest
 from evenbreak.handicaps import chart
 from evenbreak.handicaps.charts.off_rule import off_rule
 from evenbreak.source_text.answers import SECTION_5, compute, section_5_findings
-from evenbreak.source_text.findings import verdict_of
+from evenbreak.source_text.pages import slips_of
 from evenbreak.source_text.published import (
     PublishedNumber,
     errata,
     published_numbers,
+    verdict_of,
 )
-from evenbreak.source_text.section5.page import slips_of
 from places import SHARED
 
 SEED = SHARED / "seed" / "section5_numbers.csv"

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from drawings import figure
 from evenbreak.plots.picture import image_bytes
-from evenbreak.source_text.answers import figures
+from evenbreak.source_text.reproduce import figures
 from places import SHARED
 from rows import each_of
 
@@ -25,7 +25,7 @@ CHOSEN = [name for name in PLOTS if name < "figure_4_7" or name == "figure_4_8"]
 
 def caption(name):
     """Return what the page says of a figure of sections 1 to 4."""
-    page = files("evenbreak.source_text.physics").joinpath("page.md").read_text("utf-8")
+    page = files("evenbreak.source_text").joinpath("templates/physics.md").read_text("utf-8")
     number = name.removeprefix("figure_").replace("_", ".")
     return page.partition("{{figure " + number + " ")[2].partition("}}")[0]
 

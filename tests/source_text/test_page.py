@@ -3,8 +3,7 @@ from importlib.resources import files
 
 import pytest
 
-from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.page import (
+from evenbreak.source_text.pages import (
     compared,
     contents,
     errata_table,
@@ -13,7 +12,7 @@ from evenbreak.source_text.page import (
     slip_blocks,
     verdicts_table,
 )
-from evenbreak.source_text.published import Erratum, PublishedNumber
+from evenbreak.source_text.published import Erratum, Finding, PublishedNumber
 
 NUMBER = PublishedNumber("P1", "q", "", Decimal("0.90"), Decimal("0.01"), "agrees", "")
 SLIP = Erratum("P4.15", "slip", "28.125 degrees", "28.126", "last digit", "By hand.")
@@ -67,7 +66,7 @@ def test_slips_remarks_and_losses_have_their_own_words():
 
 @pytest.mark.parametrize("section", ["section5", "physics"])
 def test_every_section_is_in_the_contents(section):
-    page = files(f"evenbreak.source_text.{section}").joinpath("page.md").read_text("utf-8")
+    page = files("evenbreak.source_text").joinpath(f"templates/{section}.md").read_text("utf-8")
     assert page.count("[contents]") == 1
     links = contents(page).splitlines()
     assert len(links) == len(set(links)) == page.count("\n## ")

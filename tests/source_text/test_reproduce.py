@@ -4,10 +4,9 @@ import io
 import pytest
 
 from evenbreak.plots.picture import image_bytes
-from evenbreak.source_text.answers import figures
 from evenbreak.source_text.cells import csv_bytes
-from evenbreak.source_text.graph_to_limit.tables import game_tables
-from evenbreak.source_text.reproduce import all_findings, physics_tables, section_5_tables
+from evenbreak.source_text.graph_to_limit import game_tables
+from evenbreak.source_text.reproduce import all_findings, figures, physics_tables, section_5_tables
 from places import ROOT
 
 REPORTS = ROOT / "reports"

@@ -29,7 +29,7 @@ def command(out: str) -> Answer:
 
     from evenbreak.answers.written import reproduction_answer
     from evenbreak.files.store.folder import check_folder, write_files
-    from evenbreak.source_text.findings import differing
+    from evenbreak.source_text.published import differing
     from evenbreak.source_text.reproduce import all_findings, reproduction
 
     check_folder(out)

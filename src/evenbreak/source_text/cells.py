@@ -100,9 +100,6 @@ def _plain(value: Decimal) -> Decimal:
     return value.quantize(Decimal(1)) if value.as_tuple().exponent > 0 else value  # type: ignore[operator]
 
 
-# Markdown tables of computed numbers, with the printed number where it differs.
-
-
 def markdown_table(header: Sequence[str], rows: Iterable[Sequence[Any]], *, left: int = 1) -> str:
     """Return a table in Markdown, the first `left` columns flush left, the others right.
 

@@ -1,14 +1,20 @@
-"""What the source text prints: its numbers and its errata.
+"""What the source text prints, its numbers and errata, and how it compares with what is computed.
 
-The rows come with the package, for comparison with what it computes.
+The numbers come with the package. Each has inputs, such as `winner breaks p1=.9` or `alpha=30deg
+V_0=36in/s`, from which it is computed anew.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import NamedTuple
+from fractions import Fraction
+from typing import Any, NamedTuple, TypeAlias
 
-from evenbreak.source_text.cells import packaged_rows
+from evenbreak.physics.units import DEGREE, INCH, OUNCE
+from evenbreak.source_text.cells import difference_cell, number_cell, packaged_rows
 
 
 class PublishedNumber(NamedTuple):
@@ -126,3 +132,224 @@ def _numbers(path: str) -> list[PublishedNumber]:
         )
         for problem, quantity, inputs, printed, tolerance, *rest in packaged_rows(path)
     ]
+
+
+_NUMBER = re.compile(r"(-?\d*\.?\d+(?:/\d+)?)(deg|in|in/s|oz|s)?")
+_UNITS = {"deg": DEGREE, "in": INCH, "in/s": INCH, "oz": OUNCE}
+
+
+@dataclass
+class Inputs:
+    """The inputs of a quantity, by name.
+
+    Parameters
+    ----------
+    numbers
+        exact, in the units in which they are written; `;` and `:` stand between several of one
+        name, and "" is the name of those that follow none.
+    units
+        the factor that turns such a number into SI units or radians, where it is not 1.
+    texts
+        the values that are not numbers.
+    words
+        the words without a value.
+    """
+
+    numbers: dict[str, tuple[Fraction, ...]] = field(default_factory=dict)
+    units: dict[str, float] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+    words: list[str] = field(default_factory=list)
+
+    def all(self, name: str = "") -> tuple[Fraction, ...]:
+        """Return the numbers of a name, without rounding."""
+        return self.numbers[name]
+
+    def one(self, name: str = "") -> Fraction:
+        """Return the one number of a name, without rounding."""
+        (value,) = self.numbers[name]
+        return value
+
+    def __getitem__(self, name: str) -> Any:
+        """Return the one number of a name as a float in SI units or radians, or its text."""
+        if name in self.texts:
+            return self.texts[name]
+        return float(self.one(name)) * self.units.get(name, 1.0)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the same, or a default if there is no such name."""
+        return self[name] if name in self.numbers or name in self.texts else default
+
+
+Answers: TypeAlias = Mapping[tuple[str, str], Callable[[Inputs], Any]]
+"""How to compute each quantity that the text prints, by problem and quantity."""
+
+
+def parse_inputs(text: str) -> Inputs:
+    """Return the numbers, texts and words of inputs.
+
+    >>> found = parse_inputs("half ball b/R=1/2 V_0=2in/s balls=pool 1:5")
+    >>> found["b/R"], found["V_0"], found["balls"], found.words
+    (0.5, 0.0508, 'pool', ['half', 'ball'])
+    >>> parse_inputs("1:5 p=0.3").all(), parse_inputs("mean run 24").one("run")
+    ((Fraction(1, 1), Fraction(5, 1)), Fraction(24, 1))
+    """
+    found = Inputs()
+    name = ""
+    for word in text.split():
+        before, equals, after = word.partition("=")
+        if equals:
+            name, word = before, after
+        parts = [_NUMBER.fullmatch(part) for part in re.split("[;:]", word)]
+        if None not in parts:
+            numbers = [part for part in parts if part]
+            exact = (Fraction(number[1]) for number in numbers)
+            found.numbers[name] = (*found.numbers.get(name, ()), *exact)
+            if unit := _UNITS.get(numbers[0][2] or ""):
+                found.units[name] = unit
+        elif equals:
+            found.texts[name] = word.replace("_", " ")
+        else:
+            name = word
+            found.words.append(word)
+    return found
+
+
+class Finding(NamedTuple):
+    """A printed number, what is computed in its place, and the verdict.
+
+    Parameters
+    ----------
+    published
+        the number in the package data.
+    computed
+        what the library computes, or has where the text takes a number from elsewhere; None if
+        it has no such number.
+    verdict
+        'agrees', 'formula', 'given', 'erratum' or 'derived' as for `PublishedNumber`; or
+        'differs', which should never happen.
+    """
+
+    published: PublishedNumber
+    computed: float | None
+    verdict: str
+
+
+def find(rows: Iterable[PublishedNumber], answers: Answers) -> Iterator[Finding]:
+    """Yield each number with what is computed in its place."""
+    for row in rows:
+        computed = None
+        if row.verdict != "given" or (row.problem, row.quantity) in answers:
+            answer = answers[row.problem, row.quantity](parse_inputs(row.inputs))
+            computed = float(answer)
+        yield Finding(row, computed, verdict_of(row, computed))
+
+
+def verdict_of(published: PublishedNumber, computed: float | None) -> str:
+    """Return the verdict on a printed number, given the computed one.
+
+    Within `deciding_tolerance` the verdict of the package data stands, except that a supposed
+    erratum agrees. Outside it the verdict is 'differs', unless the number is an erratum.
+    """
+    if published.printed is None:
+        return "derived"
+    if computed is None:
+        return "given" if published.verdict == "given" else "differs"
+    near = abs(computed - float(published.printed)) <= float(deciding_tolerance(published))
+    if published.verdict == "erratum":
+        return "agrees" if near else "erratum"
+    return published.verdict if near else "differs"
+
+
+def deciding_tolerance(published: PublishedNumber) -> Decimal:
+    """Return how far apart a printed and a computed number may be and still agree.
+
+    That is the tolerance of the number. A known erratum agrees only within half of its last
+    printed place, as rounding would leave it.
+
+    >>> known = PublishedNumber("P5.17", "", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
+    >>> deciding_tolerance(known), deciding_tolerance(known._replace(verdict="agrees"))
+    (Decimal('0.0005'), Decimal('0.0006'))
+    """
+    if published.verdict != "erratum" or published.printed is None:
+        return published.tolerance
+    return Decimal((0, (5,), int(published.printed.as_tuple().exponent) - 1))
+
+
+def differing(found: Iterable[Finding]) -> Iterator[str]:
+    """Yield a line for each number that does not have the expected verdict."""
+    for row, computed, verdict in found:
+        if verdict != row.verdict:
+            number = "nothing" if computed is None else f"{computed:.10g}"
+            yield (
+                f"{row.problem}: {row.quantity} ({row.inputs}): printed {row.printed}, "
+                f"computed {number}: {verdict}, not {row.verdict}"
+            )
+
+
+def physics_row_of(finding: Finding) -> dict[str, Any]:
+    """Return a number of sections 1 to 4 as a row, with what its value is.
+
+    >>> number = PublishedNumber("P2.2", "q", "", Decimal(2), Decimal(0), "formula", "", "formula")
+    >>> list(physics_row_of(Finding(number, 2.0, "formula")).items())[3:5]
+    [('value', Decimal('2')), ('value_is', 'formula')]
+    """
+    cells: dict[str, Any] = {}
+    for name, cell in row_of(finding).items():
+        if name == "printed":
+            cells |= {"value": cell, "value_is": finding.published.value_is}
+        else:
+            cells[name] = cell
+    return cells
+
+
+def row_of(finding: Finding) -> dict[str, Any]:
+    """Return a number as a row of a table."""
+    row, computed = finding.published, finding.computed
+    difference = None
+    if computed is not None and row.printed is not None:
+        difference = difference_cell(computed, row.printed)
+    return {
+        "problem": row.problem,
+        "quantity": row.quantity,
+        "inputs": row.inputs,
+        "printed": row.printed,
+        "computed": None if computed is None else number_cell(computed),
+        "difference": difference,
+        "tolerance": number_cell(deciding_tolerance(row)),
+        "verdict": finding.verdict,
+        "note": row.note,
+    }
+
+
+class Row(NamedTuple):
+    """One part of an answer.
+
+    Parameters
+    ----------
+    quantity, inputs
+        the quantity, and the inputs for which it is computed.
+    computed
+        a number, or a formula or an enumeration as text.
+    note
+        a comment, or ''.
+    """
+
+    quantity: str
+    inputs: str
+    computed: Any
+    note: str = ""
+
+
+Derived: TypeAlias = Mapping[str, Callable[[], Iterable[Row]]]
+"""The rows of each problem, as functions that make them."""
+
+
+def formulas(problem: str) -> list[Row]:
+    """Return the formulas that answer a problem, and its matrices entry by entry.
+
+    An entry is the chance of the arrow from one state to another, q = 1 - p.
+
+    >>> formulas("P5.9")[1]
+    Row(quantity='formula: mean', inputs='', computed='N p', note='')
+    """
+    return [Row(*row) for home, *row in packaged_rows("section5/formulas.csv") if home == problem]

@@ -3,14 +3,14 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.source_text.physics.figure_tables import figure_tables
+from evenbreak.source_text.reproduce import physics_tables
 
 SIN, COS = 0.5, math.sqrt(0.75)
 
 
 @pytest.fixture(scope="module")
 def tables():
-    return figure_tables()
+    return physics_tables()
 
 
 def test_lags(tables):

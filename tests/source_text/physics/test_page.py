@@ -2,10 +2,10 @@ import re
 
 import pytest
 
-from evenbreak.source_text.answers import figures, physics_findings
-from evenbreak.source_text.physics.page import place_of
+from evenbreak.source_text.answers import physics_findings
+from evenbreak.source_text.pages import place_of
 from evenbreak.source_text.published import physics_errata
-from evenbreak.source_text.reproduce import physics_tables
+from evenbreak.source_text.reproduce import figures, physics_tables
 
 FIGURES = [name for name in figures() if name < "figure_5"]
 

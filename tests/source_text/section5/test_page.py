@@ -2,10 +2,9 @@ import re
 
 import pytest
 
-from evenbreak.source_text.answers import figures
+from evenbreak.source_text.pages import slips_of
 from evenbreak.source_text.published import errata
-from evenbreak.source_text.reproduce import section_5_tables
-from evenbreak.source_text.section5.page import slips_of
+from evenbreak.source_text.reproduce import figures, section_5_tables
 
 FIGURES = [name for name in figures() if name.startswith(("figure_5", "figure_p5"))]
 

@@ -1,13 +1,31 @@
 """The curves pass through the exact values, and show what the text says of its figures."""
 
+from __future__ import annotations
+
+from decimal import Decimal
 from fractions import Fraction
 from math import comb
 from typing import Any
 
+import networkx as nx
 import numpy as np
 import pytest
+from matplotlib.patches import Circle
 
 from drawings import at, contours, curves, figure, line_at, marked
+from evenbreak.game import Game, graph_of
+from evenbreak.games import (
+    Ahead,
+    Drill,
+    OneBall,
+    OneBallLookAhead,
+    Rack,
+    Series,
+    loser_breaks,
+    winner_breaks,
+)
+from evenbreak.matches import win_probability
+from evenbreak.source_text.section5.plots import diagram_graphs, drawn, figure_tables
 
 
 def race(p: Fraction, m: int, n: int) -> Fraction:
@@ -170,3 +188,139 @@ def test_ahead_matches_are_the_gamblers_ruin() -> None:
         assert at(curve, 0.5) == pytest.approx((6 - m) / 6)
     texts = [text.get_text() for text in figure("figure_5_11").axes[0].texts]
     assert texts == ["1:5", "2:4", "3:3", "4:2", "5:1"]
+
+
+@pytest.fixture(scope="module")
+def tables():
+    return figure_tables()
+
+
+def numbers_at(rows, **inputs):
+    """Return the one row with these inputs, without them."""
+    (row,) = [row for row in rows if all(float(row[k]) == v for k, v in inputs.items())]
+    return {name: cell for name, cell in row.items() if name not in inputs}
+
+
+def test_curves_of_races(tables):
+    rows = tables["figure_5_1"]
+    assert (len(rows), len(rows[0])) == (101, 21)
+    even = numbers_at(rows, p=0.5)
+    assert {even[f"w_{n}_{n}"] for n in range(1, 11)} == {Decimal("0.500000")}
+    assert even["w_2_1"] == Decimal("0.250000")
+    assert even["w_4_2"] == Decimal("0.187500")
+
+
+def test_surfaces(tables):
+    shots = numbers_at(tables["figure_5_3"], p1=0.4, p2=0.8)
+    assert list(map(str, shots.values())) == ["0.454545", "0.460000"]
+    breaks = numbers_at(tables["figure_5_6"], p1=0.9, p2=0.5)
+    assert list(map(str, breaks.values())) == ["0.833333", "0.642857", "0.700000", "0.190476"]
+    assert len(tables["figure_5_3"]) == len(tables["figure_5_6"]) == 19 * 19
+
+
+def test_distributions_sum_to_one(tables):
+    levels = np.array([list(row.values())[1:] for row in tables["figure_5_8"]], float)
+    assert levels.sum(axis=1) == pytest.approx(1.0, abs=1e-5)
+    errors = np.array([list(row.values())[1:] for row in tables["figure_5_9"]], float)
+    assert errors.sum(axis=0) == pytest.approx(1.0, abs=1e-4)
+    assert (errors == errors[::-1]).all()
+
+
+def test_leads(tables):
+    row = numbers_at(tables["figure_5_11"], p=0.6)
+    for m in range(1, 6):
+        exact = win_probability(Ahead(m, 6 - m, Rack(0.6)))
+        assert float(row[f"w_{m}_{6 - m}"]) == pytest.approx(exact, abs=5e-7)
+
+
+# Each diagram is its game: the same arcs, and symbols that mean the game's probabilities.
+
+
+GRAPHS = diagram_graphs()
+SHOTS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
+"""Of a drill of six levels, n = 6, and of as many shots."""
+CHANCE = {"p": SHOTS[0]} | {f"p_{shot}": chance for shot, chance in enumerate(SHOTS, 1)}
+CHANCE |= {"p_{n-2}": SHOTS[3], "p_{n-1}": SHOTS[4], "p_n": SHOTS[5]}
+VALUE = CHANCE | {name.replace("p", "q"): 1 - chance for name, chance in CHANCE.items()}
+VALUE |= {r"\frac{1}{2}q_2": VALUE["q_2"] / 2}
+
+
+def values(graph: nx.DiGraph[Any], names: dict[str, Any] | None = None) -> dict[Any, float]:
+    """Return the value of each arc's symbol, states renamed."""
+    names = {state: state for state in graph} | (names or {})
+    return {
+        (names[source], names[target]): VALUE[arc["label"].strip("$")]
+        for source, target, arc in graph.edges(data=True)
+    }
+
+
+def probabilities(game: Game) -> dict[Any, float]:
+    return {
+        (source, target): arc["probability"]
+        for source, target, arc in graph_of(game).edges(data=True)
+    }
+
+
+def test_the_endless_game_is_the_look_ahead_as_far_as_it_goes() -> None:
+    game = probabilities(OneBallLookAhead(SHOTS[:4]))
+    drawn = values(GRAPHS["figure_5_2"])
+    assert drawn.pop(("S4", "later")) == pytest.approx(game.pop(("S4", "W")) + game["S4", "L"])
+    del game["S4", "L"]
+    assert drawn == pytest.approx(game)
+
+
+def test_two_shots_and_the_folded_game_are_those_of_the_library() -> None:
+    assert values(GRAPHS["figure_5_4"]) == pytest.approx(probabilities(OneBallLookAhead(SHOTS[:2])))
+    assert values(GRAPHS["figure_5_5"]) == pytest.approx(probabilities(OneBall(*SHOTS[:2])))
+
+
+@pytest.mark.parametrize(("name", "breaks"), [("WB", winner_breaks), ("LB", loser_breaks)])
+def test_break_formats_are_those_of_the_library(name: str, breaks: Any) -> None:
+    graph = GRAPHS["figure_p5_24"]
+    half = graph.subgraph([state for state in graph if state.endswith(name)])
+    players = {f"S{player} {name}": player for player in (1, 2)}
+    game = probabilities(Series(Rack(*SHOTS[:2]), breaks=breaks))
+    assert values(half, players) == pytest.approx(game)
+
+
+def test_the_drill_is_that_of_six_levels_where_the_dots_are_one() -> None:
+    levels = {"1": 1, "2": 2, "3": 3, "between": 4, "n-1": 5, "n": 6}
+    assert values(GRAPHS["figure_5_7"], levels) == pytest.approx(probabilities(Drill(SHOTS)))
+
+
+def test_the_ahead_match_is_4_to_4_where_the_dots_are_one_state_on_either_side() -> None:
+    names = ["L", "S-n+1", "behind", "S-1", "S0", "S1", "ahead", "Sm-1", "W"]
+    leads = {
+        name: (max(lead, 0), max(-lead, 0)) for name, lead in zip(names, range(-4, 5), strict=True)
+    }
+    game = probabilities(Ahead(4, 4, Rack(SHOTS[0])))
+    assert values(GRAPHS["figure_5_10"], leads) == pytest.approx(game)
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_ends_are_won_or_lost_and_only_states_have_circles(name: str) -> None:
+    graph = GRAPHS[name]
+    kinds = nx.get_node_attributes(graph, "kind")
+    states = [state for state, kind in kinds.items() if kind != "words"]
+    ends = [state for state, kind in kinds.items() if kind == "terminal"]
+    winners = nx.get_node_attributes(graph, "winner")
+    assert all(winners[state] == {"W": 1, "L": 2}[state[0]] for state in ends)
+    assert all(graph.out_degree(state) == 0 for state in ends)
+    axes = drawn(graph).axes[0]
+    circles = [patch for patch in axes.patches if isinstance(patch, Circle)]
+    assert len(circles) == len(states) + len(ends)
+
+
+def test_every_diagram_but_the_break_formats_has_one_start() -> None:
+    starts = {
+        name: [state for state, kind in graph.nodes(data="kind") if kind == "start"]
+        for name, graph in GRAPHS.items()
+    }
+    assert starts == {
+        "figure_5_2": ["S1"],
+        "figure_5_4": ["S1"],
+        "figure_5_5": ["S1"],
+        "figure_5_7": ["1"],
+        "figure_5_10": ["S0"],
+        "figure_p5_24": [],
+    }

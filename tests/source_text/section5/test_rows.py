@@ -14,7 +14,7 @@ from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.game import Game
 from evenbreak.games import Ahead, OneBall, Rack, Series
 from evenbreak.games.breaks import BREAK_FORMATS
-from evenbreak.source_text.section5.rows import Row, formulas
+from evenbreak.source_text.published import Row, formulas
 
 P1, P2 = 0.4, 0.8
 VALUES = {"p1": P1, "p2": P2, "q1": 1 - P1, "q2": 1 - P2, "p": 0.3, "q": 0.7, "sqrt": math.sqrt}
@@ -50,7 +50,7 @@ def matrix_of_game(game: Game, states: list[Any]) -> Any:
     return chain.matrix.toarray()[np.ix_(order, order)]
 
 
-PAGE = files("evenbreak.source_text.section5").joinpath("page.md").read_text("utf-8")
+PAGE = files("evenbreak.source_text").joinpath("templates/section5.md").read_text("utf-8")
 MATRICES = re.findall(r"\{\{matrix (.*)\}\}", PAGE)
 
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.physics.collision import axis_tilt, collide
-from evenbreak.physics.throw import throw_factor
+from evenbreak.physics import axis_tilt, collide, throw_factor
 from evenbreak.plots.picture import new_axes, note
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from itertools import chain
 from typing import Any
 
 from evenbreak.source_text.cells import Rows, Tables, beside, markdown_table, rounded, short
-from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.section5.innings import INNINGS
-from evenbreak.source_text.section5.long_run import CHARTS, LEVELS
+from evenbreak.source_text.published import Finding
+from evenbreak.source_text.section5.chains import CHARTS, LEVELS
+from evenbreak.source_text.section5.games import INNINGS
 from evenbreak.source_text.section5.samples import pascals_triangle
 
 _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half the time"}

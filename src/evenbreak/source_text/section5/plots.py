@@ -1,16 +1,23 @@
-"""The plots of section 5: Figs. 5.1, 5.3, 5.6, 5.8, 5.9 and 5.11, all computed anew."""
+"""The figures of section 5, all computed anew: plots, the numbers behind them, and diagrams."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.plots.contours import contour_axes
+from evenbreak.chains import limits_over
+from evenbreak.games import BREAK_FORMATS, Ahead, Drill, Rack
+from evenbreak.handicaps import Ladder, chart
+from evenbreak.matches import race_win_probability, win_probability
+from evenbreak.plots import draw
+from evenbreak.plots.contours import contour_axes, share_panels
 from evenbreak.plots.picture import LINES, label_beside, label_on, new_axes, note, unit_axis
-from evenbreak.source_text.cells import packaged_rows
+from evenbreak.practice import long_run_share, one_ball_win
+from evenbreak.source_text.cells import Records, Tables, packaged_rows, record
+from evenbreak.source_text.section5.chains import CHARTS, FORMATS, HANDICAPS, drill, ladder
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -33,9 +40,9 @@ def races() -> Figure:
     unit_axis(axes, "x", "y")
     axes.legend(loc="upper left", frameon=False)
     for m, n, p in ((1, 1, 0.2), (10, 10, 0.6)):
-        label_beside(axes, p, _race(p, m, n), f"{m}:{n}", "left")
+        label_beside(axes, p, race_win_probability(p, m, n), f"{m}:{n}", "left")
     for m, n, p in ((2, 1, 0.94), (20, 10, 0.55)):
-        label_beside(axes, p, _race(p, m, n), f"{m}:{n}", "right")
+        label_beside(axes, p, race_win_probability(p, m, n), f"{m}:{n}", "right")
     _crossing(axes)
     return figure
 
@@ -50,41 +57,26 @@ def _crossing(axes: Axes) -> None:
     inset.set(xlim=(0.6, 0.7), ylim=(0.34, 0.52), xticks=(0.62, 0.65, 0.68), yticks=(0.4, 0.5))
     inset.tick_params(direction="in", top=True, right=True, labelsize=8)
     axes.indicate_inset_zoom(inset, edgecolor="0.4")
-    label_beside(inset, 0.685, _race(0.685, 2, 1), "2:1", "below")
-    label_beside(inset, 0.675, _race(0.675, 4, 2), "4:2", "left")
-    p = brentq(lambda p: _race(p, 2, 1) - _race(p, 4, 2), 0.6, 0.7)
+    label_beside(inset, 0.685, race_win_probability(0.685, 2, 1), "2:1", "below")
+    label_beside(inset, 0.675, race_win_probability(0.675, 4, 2), "4:2", "left")
+    p = brentq(lambda p: race_win_probability(p, 2, 1) - race_win_probability(p, 4, 2), 0.6, 0.7)
+    point = p, race_win_probability(p, 2, 1)
     for panel, size in ((axes, 3.0), (inset, 4.5)):
-        panel.plot([p], [_race(p, 2, 1)], "ko", markersize=size, zorder=4)
-    note(inset, f"$p$ = {p:.3f}", (p, _race(p, 2, 1)), (8, -11), fontsize=10, va="center")
-
-
-def _race(p: Any, m: int, n: int) -> Any:
-    from evenbreak.matches import race_win_probability
-
-    return race_win_probability(p, m, n)
+        panel.plot(*point, "ko", markersize=size, zorder=4)
+    note(inset, f"$p$ = {p:.3f}", point, (8, -11), fontsize=10, va="center")
 
 
 def _race_curves(axes: Axes, p: NDArray[np.float64], lengths: Iterable[int]) -> None:
-    even, uneven = LINES[0], LINES[1]
     for n in lengths:
-        first = n == 1
-        axes.plot(
-            p, _race(p, n, n), **even._asdict(), lw=1, label="n:n, n = 1 … 10" if first else None
-        )
-        axes.plot(
-            p,
-            _race(p, 2 * n, n),
-            **uneven._asdict(),
-            lw=1.2,
-            label="2n:n, n = 1 … 10" if first else None,
-        )
+        for times, line, width in ((1, LINES[0], 1.0), (2, LINES[1], 1.2)):
+            name = f"{'2' * (times == 2)}n:n, n = 1 … 10" if n == 1 else None
+            chance = race_win_probability(p, times * n, n)
+            axes.plot(p, chance, **line._asdict(), lw=width, label=name)
 
 
 def one_ball() -> Figure:
     """Fig. 5.3: the one-ball game, by the infinite and by the two-shot look-ahead."""
     from matplotlib.figure import Figure
-
-    from evenbreak.practice.shots import one_ball_win
 
     figure = Figure(figsize=(9.0, 4.7), layout="constrained")
     panels = figure.subplots(1, 2)
@@ -102,8 +94,6 @@ def one_ball() -> Figure:
 
 def break_formats() -> Figure:
     """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
-    from evenbreak.plots.contours import share_panels
-
     figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
     names = ("Winner breaks", "Loser breaks", "Alternate breaks")
     titles = [f"{name}: player 1's share $W$" for name in names]
@@ -114,9 +104,6 @@ def break_formats() -> Figure:
 
 def progressive_drill() -> Figure:
     """Fig. 5.8: where the progressive nine-ball drill spends its attempts, level by level."""
-    from evenbreak.chains import limits_over
-    from evenbreak.games import Drill
-
     levels = range(1, 10)
     limit = limits_over(Drill.progressive, p=_P)
     figure, axes = new_axes(
@@ -132,9 +119,6 @@ def progressive_drill() -> Figure:
 
 def rating_ladders() -> Figure:
     """Fig. 5.9: how far ratings stray on the NPL ladder, for four charts."""
-    from evenbreak.handicaps.charts.chart import chart
-    from evenbreak.handicaps.ladders.ladder import Ladder
-
     figure, axes = new_axes(
         "rating error, points", "$v$ = probability of the error", size=(7.2, 5.0)
     )
@@ -156,9 +140,6 @@ def rating_ladders() -> Figure:
 
 def ahead_matches() -> Figure:
     """Fig. 5.11: n-ahead matches whose two handicaps add up to six games."""
-    from evenbreak.games import Ahead, Rack
-    from evenbreak.matches import win_probability
-
     figure, axes = new_axes(_GAME, _MATCH, size=(6.4, 6.2))
     for m, line in zip(range(1, 6), LINES, strict=False):
         n = 6 - m
@@ -169,11 +150,6 @@ def ahead_matches() -> Figure:
         label_on(axes, _P[here], chance[here], f"{m}:{n}")
     unit_axis(axes, "x", "y")
     return figure
-
-
-# The game diagrams of section 5: Figs. 5.2, 5.4, 5.5, 5.7, 5.10 and that of problem P5.24.
-#
-# Each is a graph with symbols on its arcs: p for a success, q = 1 - p for a failure.
 
 
 def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
@@ -205,6 +181,82 @@ def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
 
 def drawn(graph: nx.DiGraph[Any]) -> Figure:
     """Return the drawing of a graph whose nodes have places."""
-    from evenbreak.plots.diagram import draw
-
     return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
+
+
+_HUNDREDTHS = [k / 100 for k in range(101)]
+
+
+_INSIDE = [k / 20 for k in range(1, 20)]
+"""The grid of the contour plots; at a corner the limit may depend on the direction of approach."""
+
+
+def figure_tables() -> Tables:
+    """Return the numbers behind each plot of section 5, by the name of the figure."""
+    tables = {
+        "figure_5_1": _curves(
+            {
+                f"w_{k * n}_{n}": race_win_probability(_HUNDREDTHS, k * n, n)
+                for k in (1, 2)
+                for n in range(1, _LONGEST + 1)
+            }
+        ),
+        "figure_5_3": _surfaces(
+            {
+                "w_infinite": one_ball_win,
+                "w_two_shots": lambda p1, p2: one_ball_win(p1, p2, look_ahead="two shots"),
+            }
+        ),
+        "figure_5_6": _surfaces(
+            {
+                **{f"w_{name}_breaks": _share(name) for name in FORMATS},
+                "winner_less_loser": lambda p1, p2: (
+                    _share("winner")(p1, p2) - _share("loser")(p1, p2)
+                ),
+            }
+        ),
+        "figure_5_8": _levels(),
+        "figure_5_9": _ladders(),
+        "figure_5_11": _curves(
+            {f"w_{m}_{n}": win_probability(Ahead(m, n, Rack(_HUNDREDTHS))) for m, n in HANDICAPS}
+        ),
+    }
+    return {name: list(rows) for name, rows in tables.items()}
+
+
+def _curves(columns: Mapping[str, Any]) -> Records:
+    for k, p in enumerate(_HUNDREDTHS):
+        yield record({"p": p}, {name: values[k] for name, values in columns.items()})
+
+
+def _surfaces(functions: Mapping[str, Callable[[Any, Any], Any]]) -> Records:
+    for p1 in _INSIDE:
+        for p2 in _INSIDE:
+            values = {name: function(p1, p2) for name, function in functions.items()}
+            yield record({"p1": p1, "p2": p2}, values)
+
+
+def _levels() -> Records:
+    for p in _HUNDREDTHS:
+        shares = enumerate(drill(p).distribution.probability, 1)
+        yield record({"p": p}, {f"d_{level}": share for level, share in shares})
+
+
+def _ladders() -> Records:
+    laws = {
+        f"{kind}_{number}": ladder(number, autocorrelated=kind == "autocorrelated")
+        for kind in ("natural", "autocorrelated")
+        for number in CHARTS
+    }
+    errors = next(iter(laws.values())).values
+    for k, error in enumerate(errors):
+        yield record(
+            {"rating_error": error}, {name: law.probability[k] for name, law in laws.items()}
+        )
+
+
+_LONGEST = 10
+
+
+def _share(name: str) -> Callable[[Any, Any], Any]:
+    return lambda p1, p2: long_run_share(p1, p2, BREAK_FORMATS[name])

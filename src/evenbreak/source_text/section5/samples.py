@@ -6,11 +6,16 @@ import math
 from collections.abc import Iterator
 from itertools import combinations, pairwise, product
 
-from evenbreak.source_text.inputs import Answers, Inputs
-from evenbreak.source_text.section5.rows import Derived, Row, formulas
-from evenbreak.stats.binomial import coverage_within
-from evenbreak.stats.confidence import mean_interval, sd_of_mean, was_it_luck
-from evenbreak.stats.summary import Distribution, Moments, merge
+from evenbreak.source_text.published import Answers, Derived, Inputs, Row, formulas
+from evenbreak.stats import (
+    Distribution,
+    Moments,
+    coverage_within,
+    mean_interval,
+    merge,
+    sd_of_mean,
+    was_it_luck,
+)
 
 _FIRST, _SECOND = (0, 1, 1, 4, 5), (0, 1, 1, 8, 9)
 _SLIPS = (1, 2, 3, 4)
@@ -51,39 +56,6 @@ def _pair_means(inputs: Inputs) -> Distribution:
 
 def _cautious_units(inputs: Inputs) -> float:
     return was_it_luck(_scores(inputs), _NEW, confidence=0.8).cautious.units
-
-
-ANSWERS: Answers = {
-    ("P5.1", "mean"): lambda i: _values(i).mean,
-    ("P5.1", "median"): lambda i: _values(i).median,
-    ("P5.1", "mode"): lambda i: _values(i).mode,
-    ("P5.1", "variance (population)"): lambda i: _values(i).variance,
-    ("P5.1", "standard deviation (population)"): lambda i: _values(i).sd,
-    ("P5.2", "merged number"): lambda _: _both().n,
-    ("P5.2", "merged mean"): lambda _: _both().mean,
-    ("P5.2", "merged variance"): lambda _: _both().variance,
-    ("P5.3", "ways to choose"): lambda i: len(
-        list(combinations(range(int(i.one("n"))), int(i.one("m"))))
-    ),
-    ("P5.18", "population mean"): lambda i: _population(i).mean,
-    ("P5.18", "population sd"): lambda i: _population(i).sd,
-    ("P5.18", "number of 2-element products"): lambda i: len(i.all()) ** 2,
-    ("P5.18", "mean of two"): lambda i: _population(i).mean,
-    ("P5.18", "mean of 2-element means"): lambda i: _pair_means(i).mean,
-    ("P5.18", "sd of 2-element means"): lambda i: sd_of_mean(_population(i).sd, 2),
-    ("P5.19", "mean"): lambda i: was_it_luck(_scores(i), _NEW).mean,
-    ("P5.19", "sd (population)"): lambda i: mean_interval(_scores(i), method="normal").sd,
-    ("P5.19", "sd of the mean"): lambda i: mean_interval(_scores(i), method="normal").sd_of_mean,
-    ("P5.19", "80% interval low"): lambda i: mean_interval(_scores(i), 0.8, method="normal").low,
-    ("P5.19", "80% interval high"): _high,
-    ("P5.19", "a 53 less the mean"): lambda i: _NEW - was_it_luck(_scores(i), _NEW).mean,
-    ("P5.19", "a 53 less the interval's high end"): lambda i: _NEW - _high(i),
-    ("P5.19", "standard units of a 53"): lambda i: was_it_luck(_scores(i), _NEW).normal.units,
-    ("P5.19", "standard units of a 53 over 49.2"): lambda i: _units_over(i, 49.2),
-    ("P5.19", "P(abs(z) < 1.51)"): lambda _: coverage_within(1.51),
-    ("P5.19", "chance of a score so far out"): lambda i: 1.0 - coverage_within(_cautious_units(i)),
-    ("P5.19", "confidence, 1 less that chance"): lambda i: coverage_within(_cautious_units(i)),
-}
 
 
 def _p5_1() -> Iterator[Row]:
@@ -170,6 +142,39 @@ def _listed(values: tuple[int, ...]) -> str:
     return " ".join(map(str, values))
 
 
+ANSWERS: Answers = {
+    ("P5.1", "mean"): lambda i: _values(i).mean,
+    ("P5.1", "median"): lambda i: _values(i).median,
+    ("P5.1", "mode"): lambda i: _values(i).mode,
+    ("P5.1", "variance (population)"): lambda i: _values(i).variance,
+    ("P5.1", "standard deviation (population)"): lambda i: _values(i).sd,
+    ("P5.2", "merged number"): lambda _: _both().n,
+    ("P5.2", "merged mean"): lambda _: _both().mean,
+    ("P5.2", "merged variance"): lambda _: _both().variance,
+    ("P5.3", "ways to choose"): lambda i: len(
+        list(combinations(range(int(i.one("n"))), int(i.one("m"))))
+    ),
+    ("P5.18", "population mean"): lambda i: _population(i).mean,
+    ("P5.18", "population sd"): lambda i: _population(i).sd,
+    ("P5.18", "number of 2-element products"): lambda i: len(i.all()) ** 2,
+    ("P5.18", "mean of two"): lambda i: _population(i).mean,
+    ("P5.18", "mean of 2-element means"): lambda i: _pair_means(i).mean,
+    ("P5.18", "sd of 2-element means"): lambda i: sd_of_mean(_population(i).sd, 2),
+    ("P5.19", "mean"): lambda i: was_it_luck(_scores(i), _NEW).mean,
+    ("P5.19", "sd (population)"): lambda i: mean_interval(_scores(i), method="normal").sd,
+    ("P5.19", "sd of the mean"): lambda i: mean_interval(_scores(i), method="normal").sd_of_mean,
+    ("P5.19", "80% interval low"): lambda i: mean_interval(_scores(i), 0.8, method="normal").low,
+    ("P5.19", "80% interval high"): _high,
+    ("P5.19", "a 53 less the mean"): lambda i: _NEW - was_it_luck(_scores(i), _NEW).mean,
+    ("P5.19", "a 53 less the interval's high end"): lambda i: _NEW - _high(i),
+    ("P5.19", "standard units of a 53"): lambda i: was_it_luck(_scores(i), _NEW).normal.units,
+    ("P5.19", "standard units of a 53 over 49.2"): lambda i: _units_over(i, 49.2),
+    ("P5.19", "P(abs(z) < 1.51)"): lambda _: coverage_within(1.51),
+    ("P5.19", "chance of a score so far out"): lambda i: 1.0 - coverage_within(_cautious_units(i)),
+    ("P5.19", "confidence, 1 less that chance"): lambda i: coverage_within(_cautious_units(i)),
+}
+"""How each quantity of these problems is computed."""
+
 DERIVED: Derived = {
     "P5.1": _p5_1,
     "P5.2": _p5_2,
@@ -177,3 +182,4 @@ DERIVED: Derived = {
     "P5.18": _p5_18,
     "P5.19": _p5_19,
 }
+"""What these problems have beyond the numbers that the text prints."""

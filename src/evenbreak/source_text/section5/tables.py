@@ -1,30 +1,23 @@
-"""The tables of section 5."""
+"""The tables of section 5: Tables 5.1 to 5.6, and one for each of problems P5.1 to P5.27."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from evenbreak.games.ahead import Ahead
-from evenbreak.games.breaks import BREAK_FORMATS
-from evenbreak.games.drill import Drill
-from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.chart import chart
+from evenbreak.games import Drill
+from evenbreak.handicaps import chart
 from evenbreak.handicaps.charts.off_rule import nearest_rows, off_rule
-from evenbreak.matches.win import race_win_probability, win_probability
-from evenbreak.practice.breaks import long_run_share
-from evenbreak.practice.drills import drill_statistics
-from evenbreak.practice.shots import one_ball_win
-from evenbreak.source_text.cells import Records, Rows, Tables, number_cell, record
-from evenbreak.source_text.findings import Finding
-from evenbreak.source_text.inputs import parse_inputs
-from evenbreak.source_text.section5.break_formats import FORMATS
-from evenbreak.source_text.section5.games_won import match_probability
-from evenbreak.source_text.section5.long_run import CHARTS, DRILL_P, HANDICAPS, drill, ladder
-from evenbreak.stats.binomial import score_probability
+from evenbreak.practice import drill_statistics
+from evenbreak.source_text.answers import DERIVED
+from evenbreak.source_text.cells import Rows, Tables, number_cell
+from evenbreak.source_text.published import Finding, Row, parse_inputs, row_of
+from evenbreak.source_text.section5.chains import CHARTS, DRILL_P
+from evenbreak.source_text.section5.games import match_probability
+from evenbreak.stats import score_probability
 
 _SIZE = 10
 
@@ -153,78 +146,51 @@ def _column(name: str) -> str:
     return re.sub(r"\W+", "_", name.replace("/", " over ").lower())
 
 
-# The numbers behind the plots of section 5.
+PROBLEMS = tuple(f"P5.{number}" for number in range(1, 28))
+
+_PROBLEM_OF = {
+    "Table 5.1": "P5.10",
+    "Table 5.2": "P5.11",
+    "Table 5.3": "P5.16",
+    "Table 5.4": "P5.24",
+    "Table 5.5": "P5.26",
+}
+"""The problem that a table answers or follows."""
 
 
-_LONGEST = 10
-_HUNDREDTHS = [k / 100 for k in range(101)]
-_INSIDE = [k / 20 for k in range(1, 20)]
-"""The grid of the contour plots; at a corner the limit may depend on the direction of approach."""
+def file_of(problem: str) -> str:
+    """Return the name of a problem's file, without its ending.
+
+    >>> file_of("P5.7")
+    'problem_5_07'
+    """
+    return f"problem_5_{int(problem.removeprefix('P5.')):02}"
 
 
-def figure_tables() -> Tables:
-    """Return the numbers behind each plot of section 5, by the name of the figure."""
-    tables = {
-        "figure_5_1": _curves(
-            {
-                f"w_{k * n}_{n}": race_win_probability(_HUNDREDTHS, k * n, n)
-                for k in (1, 2)
-                for n in range(1, _LONGEST + 1)
-            }
-        ),
-        "figure_5_3": _surfaces(
-            {
-                "w_infinite": one_ball_win,
-                "w_two_shots": lambda p1, p2: one_ball_win(p1, p2, look_ahead="two shots"),
-            }
-        ),
-        "figure_5_6": _surfaces(
-            {
-                **{f"w_{name}_breaks": _share(name) for name in FORMATS},
-                "winner_less_loser": lambda p1, p2: (
-                    _share("winner")(p1, p2) - _share("loser")(p1, p2)
-                ),
-            }
-        ),
-        "figure_5_8": _levels(),
-        "figure_5_9": _ladders(),
-        "figure_5_11": _curves(
-            {f"w_{m}_{n}": win_probability(Ahead(m, n, Rack(_HUNDREDTHS))) for m, n in HANDICAPS}
-        ),
+def problem_tables(found: Iterable[Finding]) -> Tables:
+    """Return the answer of each problem by file name: printed numbers, then the rest."""
+    printed: dict[str, list[dict[str, Any]]] = {}
+    for finding in found:
+        home = finding.published.problem
+        printed.setdefault(_PROBLEM_OF.get(home, home), []).append(row_of(finding))
+    return {
+        file_of(problem): [
+            *printed.get(problem, ()),
+            *(_derived(problem, row) for row in DERIVED.get(problem, tuple)()),
+        ]
+        for problem in PROBLEMS
     }
-    return {name: list(rows) for name, rows in tables.items()}
 
 
-def _share(name: str) -> Callable[[Any, Any], Any]:
-    return lambda p1, p2: long_run_share(p1, p2, BREAK_FORMATS[name])
-
-
-def _curves(columns: Mapping[str, Any]) -> Records:
-    for k, p in enumerate(_HUNDREDTHS):
-        yield record({"p": p}, {name: values[k] for name, values in columns.items()})
-
-
-def _surfaces(functions: Mapping[str, Callable[[Any, Any], Any]]) -> Records:
-    for p1 in _INSIDE:
-        for p2 in _INSIDE:
-            values = {name: function(p1, p2) for name, function in functions.items()}
-            yield record({"p1": p1, "p2": p2}, values)
-
-
-def _levels() -> Records:
-    for p in _HUNDREDTHS:
-        shares = enumerate(drill(p).distribution.probability, 1)
-        yield record({"p": p}, {f"d_{level}": share for level, share in shares})
-
-
-def _ladders() -> Records:
-    laws = {
-        f"{kind}_{number}": ladder(number, autocorrelated=kind == "autocorrelated")
-        for kind in ("natural", "autocorrelated")
-        for number in CHARTS
+def _derived(problem: str, row: Row) -> dict[str, Any]:
+    return {
+        "problem": problem,
+        "quantity": row.quantity,
+        "inputs": row.inputs,
+        "printed": None,
+        "computed": row.computed if isinstance(row.computed, str) else number_cell(row.computed),
+        "difference": None,
+        "tolerance": None,
+        "verdict": "derived",
+        "note": row.note,
     }
-    errors = next(iter(laws.values())).values
-    for k, error in enumerate(errors):
-        yield record(
-            {"rating_error": error}, {name: law.probability[k] for name, law in laws.items()}
-        )

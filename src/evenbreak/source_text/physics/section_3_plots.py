@@ -1,15 +1,19 @@
-"""The plots of section 3: where the tip meets the ball, and the speed it gives."""
+"""The plots of section 3, where the tip meets the ball and the speed it gives, with their numbers.
+
+The copy of the text that was read has lost the legends of its plots, and with them the values of
+most curves. Those in capitals are our choice, here and in `section_4_plots`.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak.physics.offset import (
+from evenbreak.physics import (
     NATURAL_ROLL_OFFSET,
     ContactPoint,
     ball_speed_ratio,
@@ -20,10 +24,29 @@ from evenbreak.physics.offset import (
     small_circle_point,
 )
 from evenbreak.plots.picture import LINES, new_axes, note
+from evenbreak.source_text.cells import Records, Tables, record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+SIDES_AFTER_TIP = tuple(quarter / 4 for quarter in range(-5, 6))
+"""Fig. 3.1a: the sidespins J_z just after the tip."""
+
+SIDES_IN_ROLL = tuple(half / 2 for half in range(-7, 8))
+"""Fig. 3.1b: the sidespins J_z in natural roll."""
+
+MINIMAL_SIDE = 2.0
+"""Fig. 3.2: the sidespin J_z in natural roll of the line drawn."""
+
+MASS_RATIOS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 4))
+"""Figs. 3.3 and 3.4: mass of the ball over mass of the stick; the text works with the last two."""
+
+LARGEST_OFFSET = 0.7
+"""Figs. 3.3 and 3.4: the largest offset b/R, where even a tip of friction 1 slips."""
+
+_OFFSETS = [k / 100 for k in range(-round(100 * LARGEST_OFFSET), round(100 * LARGEST_OFFSET) + 1)]
 
 
 _QUARTERS = {0.0: "", 0.25: "¼", 0.5: "½", 0.75: "¾"}
@@ -131,9 +154,6 @@ def _ratio_curves(axes: Axes, ratio_of: Callable[[Any, Any], Any]) -> None:
         axes.plot(offset, speed, **line._asdict(), lw=1.5, label=f"$m$ = {ratio}")
 
 
-# A ball seen from behind: y/R to the left, z/R above the cloth.
-
-
 def ball_view(axes: Axes, title: str) -> None:
     """Draw the outline of the ball and the cloth, y growing to the left as the player sees it.
 
@@ -205,41 +225,57 @@ def name_point(
     note(axes, name, (point.y, point.z), beside, fontsize=9.5, ha=ha, va="center", bbox=box)
 
 
-# The values for which the figures of sections 1 to 4 are drawn.
-#
-# The copy of the text that was read has lost the legends of its plots, and with them the values
-# of most curves. The values here are our choice; only the half-ball cut is the text's.
+def _same_sidespin() -> Records:
+    """Yield the two ends of each straight line of Fig. 3.1, on the outline of the ball."""
+    for side in SIDES_AFTER_TIP:
+        y = -offset_for(side)
+        half = math.sqrt(1.0 - y * y)
+        yield _line("a", side, ContactPoint(y, 1.0 - half), ContactPoint(y, 1.0 + half))
+    for side in SIDES_IN_ROLL:
+        yield _line("b", side, ContactPoint(0.0, 0.0), roll_chord(small_circle_point(side)))
 
 
-SIDES_AFTER_TIP = tuple(quarter / 4 for quarter in range(-5, 6))
-"""Fig. 3.1a: the sidespins J_z just after the tip."""
+def _line(panel: str, side: float, low: ContactPoint, high: ContactPoint) -> Mapping[str, Any]:
+    ends = {"y_from": low.y, "z_from": low.z, "y_to": high.y, "z_to": high.z}
+    return record({"panel": panel, "sidespin": side}, ends)
 
-SIDES_IN_ROLL = tuple(half / 2 for half in range(-7, 8))
-"""Fig. 3.1b: the sidespins J_z in natural roll."""
 
-MINIMAL_SIDE = 2.0
-"""Fig. 3.2: the sidespin J_z in natural roll of the line drawn."""
+def _small_circle() -> Records:
+    """Yield the points of the small circle, and how far they are from the centre of the ball."""
+    for side in (quarter / 4 for quarter in range(-40, 41)):
+        y, z = small_circle_point(side)
+        yield record({"sidespin": side}, {"y": y, "z": z, "offset": math.hypot(y, z - 1.0)})
 
-MASS_RATIOS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 4))
-"""Figs. 3.3 and 3.4: mass of the ball over mass of the stick; the text works with the last two."""
 
-LARGEST_OFFSET = 0.7
-"""Figs. 3.3 and 3.4: the largest offset b/R, where even a tip of friction 1 slips."""
+def _by_offset(ratio_of: Any) -> Records:
+    for offset in _OFFSETS:
+        ratios = {
+            f"m_{str(ratio).replace('/', '_')}": ratio_of(offset, float(ratio))
+            for ratio in MASS_RATIOS
+        }
+        yield record({"offset": offset}, ratios)
 
-HALF_BALL = math.pi / 6.0
-"""Figs. 4.4 and 4.5: the half-ball cut, as in the text."""
 
-TOPSPINS = (0.0, 0.1, 0.25, 0.5, 1.0)
-"""Fig. 4.4: the topspins or draws `|J_y|`; stun and natural roll are named in the text."""
+def _best_lags() -> Records:
+    for ratio in map(float, MASS_RATIOS):
+        offset = best_lag_offset(ratio)
+        speed = roll_speed_ratio(offset, ratio)
+        yield record({"m": ratio}, {"offset": offset, "roll_speed_ratio": speed})
 
-LARGEST_SPIN = 2.0
-"""Figs. 4.4 and 4.5: both spins run from minus this value to plus this value."""
 
-LEVELS = tuple(2.0**power for power in range(-4, 7))
-"""Fig. 4.5: the sensitivities of the contours; each is twice the one before."""
+def figure_tables() -> Tables:
+    """Return the numbers behind each plot of section 3, by the name of the figure.
 
-INSET = 0.1
-"""Fig. 4.5: how far the inset reaches from the point where nothing slips."""
+    Lengths are in ball radii, y to the left and z above the cloth; `m` is the mass of the ball
+    over that of the stick.
 
-TIP_LINE_CUT = math.pi / 6.0
-"""Fig. 4.8: the cut angle, chosen as that of a half-ball hit."""
+    >>> [str(cell) for cell in figure_tables()["figure_3_4_best"][2].values()]
+    ['0.3333333333', '0.238278', '1.199078']
+    """
+    return {
+        "figure_3_1": list(_same_sidespin()),
+        "figure_3_2": list(_small_circle()),
+        "figure_3_3": list(_by_offset(ball_speed_ratio)),
+        "figure_3_4": list(_by_offset(roll_speed_ratio)),
+        "figure_3_4_best": list(_best_lags()),
+    }

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from evenbreak.source_text.answers import compute
-from evenbreak.source_text.physics.tip import ANSWERS
+from evenbreak.source_text.physics.section_3 import ANSWERS
 
 
 def test_section_3_and_nothing_else_is_answered_here():

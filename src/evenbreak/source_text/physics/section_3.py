@@ -7,35 +7,35 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.physics.friction import miscue_offset
-from evenbreak.physics.objects import Ball, Cloth
-from evenbreak.physics.offset import (
+from evenbreak.physics import (
     NATURAL_ROLL_OFFSET,
+    Ball,
+    CentreHit,
+    Cloth,
     ContactPoint,
+    Slide,
     ball_speed_ratio,
     best_lag_offset,
+    best_stick_ratio,
+    break_energy_share,
+    centre_hit,
     effective_contact,
+    energy_share,
+    kinetic_energy,
     largest_roll_side,
+    miscue_offset,
     offset_for,
     roll_side,
+    roll_speed,
     roll_speed_ratio,
     small_circle_point,
     spin_of_offset,
     strike_side,
-)
-from evenbreak.physics.rolling import kinetic_energy
-from evenbreak.physics.slide import Slide, roll_speed
-from evenbreak.physics.strike import (
-    CentreHit,
-    best_stick_ratio,
-    break_energy_share,
-    centre_hit,
-    energy_share,
     stroke_energy,
     stroke_speed,
 )
 from evenbreak.physics.units import OUNCE
-from evenbreak.source_text.inputs import Answers, Inputs
+from evenbreak.source_text.published import Answers, Inputs
 
 _P1 = ContactPoint(-math.sqrt(0.5), 1.0)
 _P2 = ContactPoint(-0.5, 0.5)

@@ -1,113 +1,200 @@
-"""The numbers behind the plots of sections 3 and 4."""
+"""The plots of section 4 and their numbers: throw, its sensitivity, the cue ball's deflection."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from evenbreak.physics.deflection import (
+from evenbreak.physics import (
+    ContactPoint,
     deflection,
     deflection_slope,
+    gearing_side,
+    gearing_tip,
     largest_deflection_cut,
     right_angle_cut,
+    small_circle_point,
     split_roll_cut,
+    throw_factor,
+    throw_sensitivity,
     unit_slope_cut,
 )
-from evenbreak.physics.offset import (
-    ContactPoint,
-    ball_speed_ratio,
-    best_lag_offset,
-    gearing_tip,
-    offset_for,
-    roll_speed_ratio,
-    small_circle_point,
-)
-from evenbreak.physics.throw import gearing_side, throw_factor, throw_sensitivity
 from evenbreak.plots.picture import LINES, label_on, new_axes, note
 from evenbreak.source_text.cells import Records, Tables, record
-from evenbreak.source_text.physics.tip_figures import (
-    HALF_BALL,
-    LARGEST_OFFSET,
-    MASS_RATIOS,
-    SIDES_AFTER_TIP,
-    SIDES_IN_ROLL,
-    TIP_LINE_CUT,
-    TOPSPINS,
+from evenbreak.source_text.physics.section_3_plots import (
+    ball_view,
+    draw_line,
+    draw_small_circle,
+    name_point,
     roll_chord,
+    roll_height,
 )
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
+
+HALF_BALL = math.pi / 6.0
+"""Figs. 4.4 and 4.5: the half-ball cut, as in the text."""
+
+TOPSPINS = (0.0, 0.1, 0.25, 0.5, 1.0)
+"""Fig. 4.4: the topspins or draws `|J_y|`; stun and natural roll are named in the text."""
+
+LARGEST_SPIN = 2.0
+"""Figs. 4.4 and 4.5: both spins run from minus this value to plus this value."""
+
+LEVELS = tuple(2.0**power for power in range(-4, 7))
+"""Fig. 4.5: the sensitivities of the contours; each is twice the one before."""
+
+INSET = 0.1
+"""Fig. 4.5: how far the inset reaches from the point where nothing slips."""
+
+TIP_LINE_CUT = math.pi / 6.0
+"""Fig. 4.8: the cut angle, chosen as that of a half-ball hit."""
 
 _SPINS = [k / 10 for k in range(-20, 21)]
-_OFFSETS = [k / 100 for k in range(-round(100 * LARGEST_OFFSET), round(100 * LARGEST_OFFSET) + 1)]
+
+_CUT = np.linspace(0.0, 0.5 * np.pi, 361)
+
+_ENDS = np.array([-1.0, 1.0])
+
+_NAMES = {0.0: ", stun", 1.0: ", natural roll"}
 
 
-def figure_tables() -> Tables:
-    """Return the numbers behind each plot of sections 3 and 4, by the name of the figure.
+_SIDE = r"sidespin $J_{0z}$ = $R\omega_{0z}/V_0$"
+_TOPSPIN = r"topspin $J_{0y}$ = $R\omega_{0y}/V_0$"
+_POINTS = 121
+"""Grid points from the centre of the contour plot to its edge."""
+_LARGEST_DRAWN = 8.0
+"""Contours above this would crowd the whole plot; the inset shows them."""
+_SMALLEST_ENLARGED = 2.0
+_NEAR = 1e-9
+"""How close to its step the curve of a stun shot is drawn."""
 
-    Lengths are in ball radii, y to the left and z above the cloth; angles are in degrees; `m`
-    is the mass of the ball over that of the stick.
 
-    >>> [str(cell) for cell in figure_tables()["figure_3_4_best"][2].values()]
-    ['0.3333333333', '0.238278', '1.199078']
+def throw_factors() -> Figure:
+    """Fig. 4.4: the throw factor by sidespin, for stun and for increasing topspin or draw."""
+    figure, axes = new_axes(
+        _SIDE,
+        r"throw factor $\cos\gamma$",
+        title=r"Half-ball cut, $\alpha$ = π/6; values of $|J_{0y}|$ chosen",
+        size=(7.2, 5.2),
+    )
+    step = gearing_side(HALF_BALL)
+    side = np.linspace(-LARGEST_SPIN, LARGEST_SPIN, 401)
+    # At the step itself a stun shot slips nowhere; the curve jumps from side to side of it.
+    side = np.unique(np.concatenate([side[np.abs(side - step) > 1e-6], step + _NEAR * _ENDS]))
+    for topspin, line in zip(TOPSPINS, LINES, strict=False):
+        axes.plot(
+            side,
+            throw_factor(HALF_BALL, topspin, side),
+            **line._asdict(),
+            lw=1.5,
+            label=f"{topspin:g}" + _NAMES.get(topspin, ""),
+        )
+    axes.plot([step], [0.0], "ko", ms=4, zorder=4)
+    note(axes, r"$J_{0z}$ = $-\sin\alpha$", (step, 0.0), (12, -14), fontsize=10)
+    axes.axhline(0.0, color="0.7", lw=0.7, zorder=0)
+    axes.set(xlim=(-LARGEST_SPIN, LARGEST_SPIN), ylim=(-1.08, 1.08))
+    axes.legend(title="$|J_{0y}|$", loc="lower right", frameon=False, handlelength=3.5)
+    return figure
+
+
+def sensitivity() -> Figure:
+    """Fig. 4.5: how fast the throw factor changes with the spin; contours a factor 2 apart."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9.3, 5.1), layout="constrained")
+    axes, inset = figure.subplots(1, 2, width_ratios=(5, 4.2))
+    figure.suptitle(
+        r"Sensitivity $F(J_0)$ of $\cos\gamma$, half-ball cut $\alpha$ = π/6; "
+        "levels and spins chosen"
+    )
+    step = gearing_side(HALF_BALL)
+    whole = [level for level in LEVELS if level <= _LARGEST_DRAWN]
+    _contours(axes, (-LARGEST_SPIN, LARGEST_SPIN), LARGEST_SPIN, whole)
+    near = [level for level in LEVELS if level >= _SMALLEST_ENLARGED]
+    _contours(inset, (step - INSET, step + INSET), INSET, near)
+    ticks = INSET * np.array([-0.5, 0.0, 0.5])
+    inset.set(xticks=step + ticks, yticks=ticks)
+    axes.indicate_inset_zoom(inset, edgecolor="0.5")
+    return figure
+
+
+def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[float]) -> None:
+    """Draw contours around the point where nothing slips, where the grid is finest."""
+    step = gearing_side(HALF_BALL)
+    left, right = across
+    side = step + np.concatenate([-_spread(step - left)[::-1], _spread(right - step)])
+    topspin = np.concatenate([-_spread(up)[::-1], _spread(up)])
+    found = throw_sensitivity(HALF_BALL, topspin[:, None], side)
+    # Between grid points logarithms are closer to linear than the values themselves.
+    lines = axes.contour(
+        side, topspin, np.log2(found), levels=np.log2(levels), colors="black", linewidths=0.9
+    )
+    lines.set_linestyle("-")
+    axes.set(xlim=across, ylim=(-up, up), aspect="equal", xlabel=_SIDE, ylabel=_TOPSPIN)
+    axes.tick_params(direction="in", top=True, right=True)
+    # The smallest contour of the whole plot has no room for its level; the inset names it.
+    named = [level for level in levels if level != _LARGEST_DRAWN or up == INSET]
+    places = [_place(level, up, right) for level in named]
+    axes.clabel(lines, fmt=_power, fontsize=8.5, manual=places)
+
+
+def _place(level: float, up: float, right: float) -> tuple[float, float]:
+    """Return where to write a level: straight above the point where nothing slips, or beside it.
+
+    The lower the level, the nearer to the horizontal, so that the names keep apart.
+
+    The sensitivity falls as 1/r along every ray from there, so each contour is the next one at
+    twice the size.
     """
-    tables = {
-        "figure_3_1": _same_sidespin(),
-        "figure_3_2": _small_circle(),
-        "figure_3_3": _by_offset(ball_speed_ratio),
-        "figure_3_4": _by_offset(roll_speed_ratio),
-        "figure_3_4_best": _best_lags(),
-        "figure_4_4": _throw_factors(),
-        "figure_4_5": _sensitivities(),
-        "figure_4_7": _deflections(),
-        "figure_4_7_points": _points(),
-        "figure_4_8": _tip_line(),
-    }
-    return {name: list(rows) for name, rows in tables.items()}
+    step = gearing_side(HALF_BALL)
+    for degrees in (90.0, 50.0, 36.0, 22.0, 12.0, 9.0):
+        way = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        far = throw_sensitivity(HALF_BALL, way[1], step + way[0]) / level
+        if far * way[1] < 0.9 * up and far * way[0] < 0.9 * (right - step):
+            break
+    return step + far * way[0], far * way[1]
 
 
-def _same_sidespin() -> Records:
-    """Yield the two ends of each straight line of Fig. 3.1, on the outline of the ball."""
-    for side in SIDES_AFTER_TIP:
-        y = -offset_for(side)
-        half = math.sqrt(1.0 - y * y)
-        yield _line("a", side, ContactPoint(y, 1.0 - half), ContactPoint(y, 1.0 + half))
-    for side in SIDES_IN_ROLL:
-        yield _line("b", side, ContactPoint(0.0, 0.0), roll_chord(small_circle_point(side)))
+def _spread(end: float) -> NDArray[np.float64]:
+    """Return points from near 0 to an end, closest together near 0."""
+    return end * np.sinh(np.linspace(0.04, 5.0, _POINTS)) / math.sinh(5.0)
 
 
-def _line(panel: str, side: float, low: ContactPoint, high: ContactPoint) -> Mapping[str, Any]:
-    ends = {"y_from": low.y, "z_from": low.z, "y_to": high.y, "z_to": high.z}
-    return record({"panel": panel, "sidespin": side}, ends)
+def _power(power: float) -> str:
+    """Return a power of 2 as a whole number or a fraction: 4, 1/4."""
+    return f"{2.0**power:.0f}" if power >= 0.0 else f"1/{2.0**-power:.0f}"
 
 
-def _small_circle() -> Records:
-    """Yield the points of the small circle, and how far they are from the centre of the ball."""
-    for side in (quarter / 4 for quarter in range(-40, 41)):
-        y, z = small_circle_point(side)
-        yield record({"sidespin": side}, {"y": y, "z": z, "offset": math.hypot(y, z - 1.0)})
-
-
-def _by_offset(ratio_of: Any) -> Records:
-    for offset in _OFFSETS:
-        ratios = {
-            f"m_{str(ratio).replace('/', '_')}": ratio_of(offset, float(ratio))
-            for ratio in MASS_RATIOS
-        }
-        yield record({"offset": offset}, ratios)
-
-
-def _best_lags() -> Records:
-    for ratio in map(float, MASS_RATIOS):
-        offset = best_lag_offset(ratio)
-        speed = roll_speed_ratio(offset, ratio)
-        yield record({"m": ratio}, {"offset": offset, "roll_speed_ratio": speed})
+def gearing_tips() -> Figure:
+    """Fig. 4.8: the contact points that cancel throw once the ball rolls lie on a line."""
+    figure, axes = new_axes("", "", size=(6.1, 6.1))
+    degrees = math.degrees(TIP_LINE_CUT)
+    ball_view(axes, rf"No throw in natural roll: cut to the right by {degrees:g}° (chosen)")
+    at_once = gearing_tip(TIP_LINE_CUT)
+    nearest = small_circle_point(gearing_side(TIP_LINE_CUT))
+    draw_small_circle(axes)
+    roll_height(axes)
+    line = gearing_tip(TIP_LINE_CUT, np.array([1e-9, roll_chord(nearest).z]))
+    draw_line(axes, line.y, line.z, lw=1.6)
+    name_point(axes, at_once, r"$(-2/5\;y_{cp},\ 7/5\;R)$", (8, 13), "left")
+    name_point(axes, nearest, "nearest to the centre", (-10, 9), "right")
+    object_ball = ContactPoint(-math.sin(TIP_LINE_CUT), 1.0)
+    name_point(
+        axes,
+        object_ball,
+        "touches the object ball,\n$y_{cp} = -R\\,\\sin\\alpha$",
+        (0, 20),
+        "center",
+    )
+    name_point(axes, ContactPoint(0.0, 1.0), "centre", (6, -10), "left")
+    return figure
 
 
 def _throw_factors() -> Records:
@@ -165,12 +252,6 @@ def _tip_line() -> Records:
         yield record({"point": name}, {"y": y, "z": z})
     touched = {"y": -math.sin(TIP_LINE_CUT), "z": 1.0}
     yield record({"point": "touches the object ball"}, touched)
-
-
-# Fig. 4.7: where the cue ball goes by the cut angle, with the points that the text names.
-
-
-_CUT = np.linspace(0.0, 0.5 * np.pi, 361)
 
 
 class MarkedPoint(NamedTuple):
@@ -306,3 +387,17 @@ def _key(axes: Axes) -> None:
 def _slope(point: MarkedPoint) -> str:
     """Return a slope with three decimals, a true minus sign, and no sign of zero."""
     return f"{round(point.slope, 3) + 0.0:.3f}".replace("-", "\N{MINUS SIGN}")
+
+
+def figure_tables() -> Tables:
+    """Return the numbers behind each plot of section 4, by the name of the figure.
+
+    Lengths are in ball radii, y to the left and z above the cloth; angles are in degrees.
+    """
+    return {
+        "figure_4_4": list(_throw_factors()),
+        "figure_4_5": list(_sensitivities()),
+        "figure_4_7": list(_deflections()),
+        "figure_4_7_points": list(_points()),
+        "figure_4_8": list(_tip_line()),
+    }

@@ -1,10 +1,17 @@
 """The roads of the games, against what the text and closed forms say of them."""
 
+import re
 from decimal import Decimal
 
 import pytest
 
-from evenbreak.source_text.graph_to_limit.tables import GAMES, game_tables, places, small
+from evenbreak.source_text.graph_to_limit import (
+    GAMES,
+    game_tables,
+    graph_to_limit_page,
+    places,
+    small,
+)
 
 
 @pytest.fixture(scope="module")
@@ -47,3 +54,18 @@ def test_what_the_text_says(tables):
 def test_numbers_have_no_rounding_noise():
     assert str(places(-1e-17)) == "0"
     assert small(2e-13) == "below 1e-12"
+
+
+@pytest.fixture(scope="module")
+def page():
+    return graph_to_limit_page(game_tables())
+
+
+def test_every_place_is_filled_and_every_game_shown(page):
+    assert "{{" not in page
+    assert [asked.words for asked in GAMES.values() if page.count(asked.words) < 2] == []
+
+
+def test_links_lead_to_its_tables(page):
+    links = set(re.findall(r"\]\((\w+)\.csv\)", page))
+    assert links == set(game_tables())

@@ -5,9 +5,41 @@ from fractions import Fraction
 import pytest
 
 from derived import derived
-from evenbreak.source_text.section5 import games_won, innings
+from evenbreak.source_text.section5 import games
 from evenbreak.stats import GamesWon, InningsScore, RunLength
 from rows import each_of
+
+
+def test_the_orders_of_a_score_sum_to_its_chance():
+    found = derived(games, "P5.4")
+    orders = [chance for (quantity, _), chance in found.items() if quantity.startswith("order")]
+    assert len(orders) == 4
+    assert sum(orders) == Fraction(32, 81)
+
+
+@pytest.mark.parametrize(("m", "n"), [(1, 1), (3, 2), (9, 5)])
+def test_a_match_is_won_at_all_the_scores_at_which_it_can_be(m, n):
+    p = Fraction(2, 3)
+    chances = (math.comb(m - 1 + k, k) * p**m * (1 - p) ** k for k in range(n))
+    assert games.match_probability(p, m, n) == sum(chances)
+
+
+def test_spans_shrink_with_the_length_of_the_race():
+    found = derived(games, "P5.7")
+    name = "width of the span where the longer match is lost more seldom"
+    widths = [width for (quantity, _), width in found.items() if quantity == name]
+    assert len(widths) == 9
+    assert widths == sorted(widths, reverse=True)
+    assert widths[-1] > 0
+
+
+def test_the_range_of_games_won_covers_what_it_should():
+    found = derived(games, "P5.10")
+    for coverage in (0.95, 0.5):
+        inputs = f"N=120 p=.52 coverage={coverage}"
+        exact = found["probability of the range, exact, the shortest", inputs]
+        assert coverage <= exact < coverage + 0.1
+
 
 LAWS = {
     "p": Fraction(7, 10),
@@ -41,15 +73,14 @@ GAMES = GamesWon(12, 0.7)
     ],
 )
 def test_formulas_are_those_of_the_library(problem, quantity, inputs, value):
-    module = games_won if problem == "P5.9" else innings
-    text = derived(module, problem)[f"formula: {quantity}", inputs]
+    text = derived(games, problem)[f"formula: {quantity}", inputs]
     formula = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text).replace("^", "**")
     functions = {"C": math.comb, "sqrt": math.sqrt, "ceiling": math.ceil}
     assert eval(formula, {**LAWS, **functions}) == pytest.approx(value, rel=1e-12)  # noqa: S307
 
 
 def test_the_totals_of_two_dice_are_one_of_36():
-    chances = derived(innings, "P5.16")
+    chances = derived(games, "P5.16")
     totals = {
         int(inputs.removeprefix("total=")): chance
         for (quantity, inputs), chance in chances.items()
@@ -59,7 +90,7 @@ def test_the_totals_of_two_dice_are_one_of_36():
 
 
 def test_a_wager_over_or_under_is_fair_at_the_median():
-    found = derived(innings, "P5.17")
+    found = derived(games, "P5.17")
     below = found["P(score <= the median)", "p=.96 innings=5"]
     assert 0.5 <= below < 0.51
     assert found["P(score <= the mean)", "p=.96 innings=5"] > below

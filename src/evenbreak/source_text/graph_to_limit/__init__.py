@@ -1,1 +1,0 @@
-"""The games of the source text from their graphs to their limits, by every way."""
