@@ -146,6 +146,7 @@ def test_a_large_class_carries_a_proved_bound(monkeypatch, much):
     assert f"bound={proved.bound:.3g}" in repr(proved)
 
 
+@pytest.mark.slow_after(40)
 @pytest.mark.parametrize("plain", [True, False])
 @pytest.mark.parametrize("seed", range(60))
 def test_arcs_down_to_the_smallest_floats_are_answered_right_or_refused(monkeypatch, seed, plain):

@@ -142,6 +142,7 @@ def test_wide_ladders(n: int) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_law_that_no_float_can_hold() -> None:
     chain = walk(1921, 5.0)
     found = spectrum(chain)

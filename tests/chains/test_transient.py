@@ -93,6 +93,7 @@ def exact_solves(chain, b):
     return oracle.solve(matrix, right), oracle.solve(transposed, right)
 
 
+@pytest.mark.slow_after(48)
 @each_method
 @pytest.mark.parametrize("decades", [0.5, 12])
 @pytest.mark.parametrize("seed", range(8))
@@ -203,6 +204,7 @@ def test_more_visits_than_any_float_are_refused():
         chain.transient.visits(np.array([0.0, 1.0]))
 
 
+@pytest.mark.slow
 def test_twenty_thousand_classes_in_a_row_cost_no_loop_over_classes():
     """Three states to a class, in shuffled order; the exact answer is a geometric law."""
     k = 20_000

@@ -201,6 +201,7 @@ cli.main()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
 def test_an_interrupt_ends_a_long_call_into_c_at_once():
     """Python itself would raise nothing before LAPACK returns, many seconds later."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 
 from evenbreak.handicaps import Chart, ChartRow, apply_results, chart, system_of
 from evenbreak.league.one_season import PlayedSeason, season_matches
@@ -67,6 +68,7 @@ def wins_of(played: PlayedSeason) -> np.ndarray[Any, Any]:
     return np.asarray(played.results.score_a == played.results.race_a)
 
 
+@pytest.mark.slow
 def test_matches_are_won_as_often_as_the_exact_chance_says() -> None:
     """Pairs that meet once, misrated: 5,000 matches a cell; 4.5 standard errors."""
     many = 5_000

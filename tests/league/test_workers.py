@@ -217,6 +217,7 @@ def test_a_cluster_works_and_stays_open(client):
     assert client.status == "running"
 
 
+@pytest.mark.slow
 def test_what_is_shared_may_be_large(client, recwarn):
     sent = bytes(30_000_000)  # of which dask would warn
     assert list(in_order(operator.getitem, sent, range(20), executor=client)) == [0] * 20

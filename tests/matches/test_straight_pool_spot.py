@@ -37,6 +37,7 @@ def test_equal_players_spot_little_for_the_first_inning():
     assert even.p_win_1 == pytest.approx(0.5, abs=0.01)
 
 
+@pytest.mark.slow
 def test_points_that_take_too_long_are_not_asked_for():
     # 4096 points of a player who runs 1/3 would take more innings than are counted with.
     even = even_points(2000, 0.2, 0.25)

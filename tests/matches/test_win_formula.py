@@ -45,6 +45,7 @@ def test_a_formula_has_the_value_of_the_kernel(match, player):
     assert found == pytest.approx(win_probability(match, player=player), rel=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("breaks", [winner_breaks, alternate_breaks])
 @pytest.mark.parametrize("player", [1, 2])
 def test_a_formula_may_depend_on_the_break(breaks, player):

@@ -61,6 +61,7 @@ def test_throw_into_the_cushion_needs_outside_english():
     assert smooth.shot.object_leg.pocket == "foot-right"
 
 
+@pytest.mark.slow
 def test_a_mouth_that_is_too_flat_is_played_at_in_its_middle():
     found = at((90, 40), (70, 44), "side-left")
     assert found.shot.object_leg.ending == "cushion"

@@ -231,6 +231,7 @@ def test_a_long_chain_of_whitewashes_converges():
     assert (np.diff(ratings.rating) < 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season():
     with SEASON.open(encoding="utf-8", newline="") as lines:

@@ -21,6 +21,7 @@ def late(n: int) -> set[str]:
     return {"F", f"L{2 * k - 2}.1", f"L{2 * k - 3}.1"}
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize(
     "bracket",
     [

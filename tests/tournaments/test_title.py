@@ -209,6 +209,7 @@ SMALL = [
 ]
 
 
+@pytest.mark.slow_after(8)
 @pytest.mark.parametrize("bracket", SMALL, ids=lambda b: f"{b.format} {len(b.players)}")
 def test_all_courses(bracket) -> None:
     strengths = list(range(len(bracket.players), 0, -1))

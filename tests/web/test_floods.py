@@ -129,6 +129,7 @@ def test_more_descriptors_are_asked_for() -> None:
     assert int(subprocess.check_output(words)) == min(hard, 4096)
 
 
+@pytest.mark.slow
 def test_that_no_more_can_connect_is_said_once_a_minute(caplog: pytest.LogCaptureFixture) -> None:
     times = iter([0.0] * 2 + [30.0] * 500 + [61.0] * 2)
     handle = in_few_lines(lambda: next(times))

@@ -109,6 +109,7 @@ def test_no_refusal_names_the_folder(hall: Hall, monkeypatch: pytest.MonkeyPatch
         assert str(path.parent) not in hall.guest.open(page).text, page
 
 
+@pytest.mark.slow
 def test_no_problem_of_the_league_names_the_folder(hall: Hall) -> None:
     path: Path = hall.site.path
     path.with_name(f"{path.stem}.league.csv").write_text("neither,nor\n1,2\n", encoding="utf-8")

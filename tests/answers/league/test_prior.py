@@ -27,6 +27,7 @@ def test_teams_are_given_in_points():
     assert f"{best['above']:.1f}" in " ".join(level_words(ratings, None))
 
 
+@pytest.mark.slow
 def test_the_error_of_an_estimate_is_given_with_it():
     results, *_ = league(np.random.default_rng(5), below=1.0)
     choice = best_prior(results)

@@ -55,6 +55,7 @@ def test_what_is_assumed_of_skills_is_said():
     assert "1 of 4 players" in asked(season, 2, 2, exact=1).sentences[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("players", "many"), [(4, 10), (200, 20)])
 def test_nobody_is_named_where_all_are_alike(players, many):
     """Of 200 some ten are two standard errors off one half; that is luck."""

@@ -121,6 +121,7 @@ def test_ratings_after_the_season_are_as_wrong_as_those_of_single_seasons(simula
     assert np.abs(quantile - last[["error_p05", "error_p50", "error_p95"]].to_numpy()).max() <= 1
 
 
+@pytest.mark.slow
 def test_nights_are_as_fair_as_those_of_single_seasons(simulated, witnesses):
     every = fairness_frame(*simulated).iloc[0]
     matches = witnesses["played"].sum() / 2

@@ -60,6 +60,7 @@ def by_the_book():
     return validate(season, prior_sd=0.5), season
 
 
+@pytest.mark.slow
 def test_only_the_largest_start_is_unfair_in_a_league_that_plays_by_its_chart(by_the_book):
     fair, scale = remarks(*by_the_book)
     assert fair.startswith("A start of 5 games gives too little")

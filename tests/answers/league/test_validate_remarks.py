@@ -42,6 +42,7 @@ def test_a_file_that_lists_winners_first_is_recognised(play_season):
     assert said(plain, "first column") is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "home"), [(0.3, "home player"), (-0.3, "visitor")])
 def test_an_advantage_of_the_first_column_may_be_that_of_home(play_season, side, home):
     assert home in said(validate(play_season(1, side=side), prior_sd=0.5), "first column")

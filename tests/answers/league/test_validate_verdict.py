@@ -42,6 +42,7 @@ def test_a_prior_that_is_too_wide_or_too_narrow_is_refused(play_season):
     assert "larger --prior" in narrow
 
 
+@pytest.mark.slow
 def test_players_who_are_too_alike_are_not_told_apart(play_season):
     rng = np.random.default_rng(4)
     results = play_season(4, matches=120)

@@ -43,6 +43,7 @@ def test_the_best_cue_in_grams_and_still_in_ounces():
 weights = st.floats(0.01, 1e5)
 
 
+@pytest.mark.slow
 @given(st.floats(0, 1e6), weights, weights)
 def test_no_cue_breaks_better_than_the_best(arm, ball, stick):
     found = best(arm, stick, ball=ball)

@@ -44,6 +44,7 @@ def test_what_the_work_raises_is_said_with_the_address(small):
         list(in_order(operator.truediv, 1, [1, 0], executor=client))
 
 
+@pytest.mark.slow
 def test_refusals_of_our_own_come_through(small):
     with pytest.raises(InputError, match="jobs"), cluster_at(small.scheduler_address) as client:
         list(in_order(pow, 2, [1], executor=client, jobs=0))

@@ -134,6 +134,7 @@ def league_sd(ratings, nights, seed):
     return sqrt(variance), error / (2 * sqrt(variance))
 
 
+@pytest.mark.slow
 def test_a_simulated_closed_league_is_in_step_or_not():
     many = 4000
     right, error = league_sd(np.zeros(many, dtype=int), 2000, seed=5)

@@ -37,6 +37,7 @@ def turn(arrow: Any, centre: Any) -> float:
     return cross(arrow[0] - centre, arrow[1] - centre)
 
 
+@pytest.mark.slow
 def test_friction_turns_two_balls_the_same_way() -> None:
     total, normal, along = (vectors("figure_1_1", f"$F{end}$") for end in ("", "_N", "_T"))
     assert np.array(total) == pytest.approx(np.array(normal) + np.array(along))
