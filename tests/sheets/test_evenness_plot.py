@@ -2,11 +2,13 @@ import pytest
 
 from evenbreak.answers.league.pairs import SurePair, chart_bands
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.handicaps import Gap
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of
 from evenbreak.sheets.race_blocks import HEIGHT, WIDTH, evenness_plot
 
 NPL = scale_of("npl")
+EVEN = Gap(0.0)
 
 
 def pair(difference, m, n):
@@ -15,9 +17,9 @@ def pair(difference, m, n):
 
 
 def test_pairs_lie_on_the_curve_of_their_race_and_all_is_in_the_box():
-    bands = chart_bands(OfferedRaces(race_to=7), NPL, 60.0)
+    bands = chart_bands(OfferedRaces(race_to=7), EVEN, 60.0)
     pairs = [pair((band.first + band.after) / 2, band.stronger, band.weaker) for band in bands]
-    plot = evenness_plot(bands, pairs, NPL)
+    plot = evenness_plot(bands, pairs, EVEN)
     curves = [[tuple(map(float, p.split(","))) for p in c.split()] for c in plot.curves]
     for curve, dot in zip(curves, plot.dots, strict=True):
         assert curve[len(curve) // 2] == pytest.approx(dot, abs=0.01)
@@ -28,13 +30,13 @@ def test_pairs_lie_on_the_curve_of_their_race_and_all_is_in_the_box():
 
 
 def test_half_is_marked_in_the_middle():
-    plot = evenness_plot([], [pair(10.0, 7, 6)], NPL)
+    plot = evenness_plot([], [pair(10.0, 7, 6)], EVEN)
     (half,) = (tick.at for tick in plot.y if tick.label == "0.5")
     assert half == pytest.approx((plot.top + plot.bottom) / 2)
 
 
 def test_equal_players_alone_can_be_drawn():
-    bands = chart_bands(OfferedRaces(race_to=7), NPL, 0.0)
-    plot = evenness_plot(bands, [pair(0.0, 7, 7)], NPL)
+    bands = chart_bands(OfferedRaces(race_to=7), EVEN, 0.0)
+    plot = evenness_plot(bands, [pair(0.0, 7, 7)], EVEN)
     assert plot.dots == [(plot.left, (plot.top + plot.bottom) / 2)]
-    assert evenness_plot([], [pair(0.0, 7, 7)], NPL).dots[0][0] == plot.left
+    assert evenness_plot([], [pair(0.0, 7, 7)], EVEN).dots[0][0] == plot.left

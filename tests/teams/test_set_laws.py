@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games import Race, Rack
-from evenbreak.handicaps import Fairest, chart, win_given_ratings
+from evenbreak.handicaps import Fairest, Gap, chart
 from evenbreak.matches import final_scores, live_odds
 from evenbreak.ratings import SCALES, Roster
 from evenbreak.teams import Points, law_in_play, set_laws
@@ -48,7 +48,7 @@ def test_uncertain_ratings_are_averaged_over() -> None:
 
 def _chart_chance(points: float, error: float) -> float:
     m, n = chart("npl_10").race(points)
-    return win_given_ratings(points, error, m, n, scale="npl")
+    return Gap(points, error, scale="npl").win(m, n)
 
 
 def test_a_pair_plays_like_the_mean_of_its_two_players() -> None:

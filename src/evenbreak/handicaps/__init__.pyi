@@ -21,9 +21,7 @@ from .charts.fair import fair_races as fair_races
 from .charts.fair_scale import FairScale as FairScale
 from .charts.fair_scale import LeagueChart as LeagueChart
 from .charts.fair_scale import league_chart as league_chart
-from .charts.given_ratings import fair_races_given_ratings as fair_races_given_ratings
-from .charts.given_ratings import length_given_ratings as length_given_ratings
-from .charts.given_ratings import win_given_ratings as win_given_ratings
+from .charts.gap import Gap as Gap
 from .charts.level_audit import LevelAudit as LevelAudit
 from .charts.level_audit import LevelCell as LevelCell
 from .charts.level_audit import LevelScale as LevelScale

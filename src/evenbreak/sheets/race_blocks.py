@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from evenbreak.answers.kit.scales import decimals_of
 from evenbreak.answers.league.pairs import Band, SurePair
 from evenbreak.answers.league.sheet import NO_RACE
-from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import Scale
 
 # Ratings with their bars, on an axis from 0 to 100 per cent, for pages and for paper.
@@ -167,17 +167,10 @@ class Plot(NamedTuple):
     bottom: int = _BOTTOM
 
 
-def evenness_plot(
-    bands: Sequence[Band],
-    pairs: Sequence[SurePair],
-    scale: Scale,
-    error: float = 0.0,
-    form: float = 0.0,
-) -> Plot:
+def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], typical: Gap) -> Plot:
     """Return P(the stronger wins) against the rating difference: the chart, and each pair.
 
-    `error` is the standard error of a difference over which the chart's chances are averaged, and
-    `form` how much the log-odds of a game vary from match to match.
+    The chart's chances are those of a pair that is known as well as the `typical` one.
     """
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
@@ -193,8 +186,7 @@ def evenness_plot(
     curves, names = [], []
     for band in bands:
         places = [band.first + (band.after - band.first) * k / _STEPS for k in range(_STEPS + 1)]
-        race = band.stronger, band.weaker
-        curve = win_given_ratings(places, error, *race, scale=scale, form=form)
+        curve = typical.at(places).win(band.stronger, band.weaker)
         points = zip(places, curve.tolist(), strict=True)
         curves.append(" ".join(f"{x(d):g},{y(p):g}" for d, p in points))
         if x(band.after) - x(band.first) >= _NAME:

@@ -73,8 +73,7 @@ def sheet_html(sheet: Sheet) -> bytes:
     races = Section("races", "The races", drawn("races", blocks, cards, how_to_read(shown.paired)))
     ratings = [Section("ratings", "Ratings", drawn("ratings", listed, bars.ticks()))]
     if shown.sure:
-        form = shown.ratings.match_form
-        plot = evenness_plot(shown.bands, shown.sure, scale, shown.typical_error, form)
+        plot = evenness_plot(shown.bands, shown.sure, shown.typical)
         first, *_ = how_even(shown.paired)
         chart = drawn("chart", plot, (WIDTH, HEIGHT), shown.bands, decimals_of(scale), first)
         ratings.append(Section("chart", "How even the races are", chart))

@@ -20,7 +20,7 @@ from scipy.stats.qmc import MultivariateNormalQMC
 from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.given_ratings import averaging_rule
+from evenbreak.handicaps.charts.gap import averaging_rule
 from evenbreak.handicaps.charts.race_of_pair import Race
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of

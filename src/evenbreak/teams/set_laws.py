@@ -14,7 +14,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.given_ratings import averaging_rule
+from evenbreak.handicaps.charts.gap import averaging_rule
 from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
 from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.roster import Roster

@@ -2,11 +2,12 @@ import pytest
 
 from evenbreak.answers.league.pairs import chart_bands
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.handicaps import Gap
 from evenbreak.handicaps.charts.fair import fair_races
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of
 
-NPL = scale_of("npl")
+EVEN = Gap(0.0)
 
 
 @pytest.mark.parametrize("scale", ["npl", "fargo", "2"])
@@ -14,7 +15,7 @@ NPL = scale_of("npl")
 def test_each_band_has_the_fairest_race_of_every_difference_in_it(scale, offered):
     scale = scale_of(scale)
     furthest = 3.0 * scale.points_per_doubling
-    bands = chart_bands(offered, scale, furthest)
+    bands = chart_bands(offered, Gap(0.0, scale=scale), furthest)
     assert bands[0].first == 0.0
     assert bands[-1].after >= furthest
     unit = {"npl": 0.1, "fargo": 1.0}.get(scale.name, 0.01)
@@ -32,10 +33,10 @@ def test_each_band_has_the_fairest_race_of_every_difference_in_it(scale, offered
 
 def test_a_pair_at_the_very_edge_is_in_the_band_of_its_race():
     offered = OfferedRaces(games=(9, 9))
-    edge = chart_bands(offered, NPL, 90.0)[1].first
-    assert chart_bands(offered, NPL, edge)[-1].first == edge
+    edge = chart_bands(offered, EVEN, 90.0)[1].first
+    assert chart_bands(offered, EVEN, edge)[-1].first == edge
 
 
 def test_there_is_no_chart_where_lengths_differ_or_of_too_many_lines():
-    assert chart_bands(OfferedRaces(games=(7, 13)), NPL, 90.0) == []
-    assert chart_bands(OfferedRaces(race_to=200), NPL, 90.0) == []
+    assert chart_bands(OfferedRaces(games=(7, 13)), EVEN, 90.0) == []
+    assert chart_bands(OfferedRaces(race_to=200), EVEN, 90.0) == []

@@ -2,7 +2,7 @@ import pytest
 
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.errors import InputError
-from evenbreak.ratings.scale import scale_of
+from evenbreak.handicaps import Gap
 
 
 @pytest.mark.parametrize("wrong", [{}, {"games": (5, 9), "race_to": 7}])
@@ -13,11 +13,11 @@ def test_races_are_limited_one_way_or_the_other(wrong):
 
 @pytest.mark.parametrize("error", [0.0, 25.0])
 def test_the_fairest_race_is_within_the_limits(error):
-    gaps = [0.0, 18.0, 48.0]
-    m, n = OfferedRaces(race_to=7).fairest(gaps, error, scale_of("npl"))
+    gaps = Gap([0.0, 18.0, 48.0], error)
+    m, n = OfferedRaces(race_to=7).fairest(gaps)
     assert (m == 7).all()
     assert (n <= 7).all()
-    m, n = OfferedRaces((5, 9)).fairest(gaps, error, scale_of("npl"))
+    m, n = OfferedRaces((5, 9)).fairest(gaps)
     assert ((m + n - 1 >= 5) & (m + n - 1 <= 9)).all()
 
 

@@ -14,7 +14,7 @@ from evenbreak.answers.league.roster_matchups import (
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results
-from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from places import DATA, SHARED
@@ -42,13 +42,13 @@ def test_every_pair_has_the_fairest_race_and_the_stronger_comes_first(ratings, o
         )
         both = math.hypot(error[row.player_a], error[row.player_b])
         assert row.difference_error == pytest.approx(both, abs=1e-5)
-        chance = win_given_ratings(row.difference, both, row.race_a, row.race_b, scale="fargo")
+        chance = Gap(row.difference, both, scale="fargo").win(row.race_a, row.race_b)
         assert row.p_win_a == pytest.approx(chance, abs=1e-7)
         races = [(m, n) for m in range(1, 14) for n in range(1, 14)]
         within = [(7, n) for n in range(1, 8)]
         if offered.games is not None:
             within = [(m, n) for m, n in races if 7 <= m + n - 1 <= 13]
-        chances = win_given_ratings(row.difference, both, *np.transpose(within), scale="fargo")
+        chances = Gap(row.difference, both, scale="fargo").win(*np.transpose(within))
         assert abs(row.p_win_a - 0.5) == pytest.approx(np.abs(chances - 0.5).min(), abs=1e-7)
 
 

@@ -14,7 +14,7 @@ from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.fair import fair_races
-from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.handicaps.charts.level_chart import level_chart
 from evenbreak.matches.pace import own_pace
 from evenbreak.matches.races import race_odds
@@ -61,7 +61,7 @@ def test_errors_add_up_and_are_averaged_over():
     ).frame
     assert frame["difference_error"].tolist() == pytest.approx([15.0, 9.0])
     for row in frame.itertuples():
-        averaged = win_given_ratings(row.difference, row.difference_error, row.race_a, row.race_b)
+        averaged = Gap(row.difference, row.difference_error).win(row.race_a, row.race_b)
         assert row.p_win_a == pytest.approx(averaged, abs=1e-12)
         plug_in = race_odds(row.race_a, row.race_b, NPL.win_probability(row.difference)).p_win_1
         assert row.p_win_a_plug_in == pytest.approx(plug_in, rel=1e-12)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
 from evenbreak.handicaps import audit_levels
-from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import Turnover
 from places import DATA
 
@@ -67,8 +67,8 @@ def test_chances_are_averaged_over_the_errors(run, roster):
     path = roster("player,rating,standard_error,games\nAnn,92,9,140\nBo,71,12,60\n")
     (row,) = answer(run, path, "--race-to", "7")["pairs"]
     assert row["difference_error"] == 15.0
-    assert row["p_win_a"] == win_given_ratings(21.0, 15.0, row["race_a"], row["race_b"])
-    assert row["p_win_a_plug_in"] == win_given_ratings(21.0, 0.0, row["race_a"], row["race_b"])
+    assert row["p_win_a"] == Gap(21.0, 15.0).win(row["race_a"], row["race_b"])
+    assert row["p_win_a_plug_in"] == Gap(21.0).win(row["race_a"], row["race_b"])
 
 
 def test_new_players_start_with_a_stated_prior(run, roster):

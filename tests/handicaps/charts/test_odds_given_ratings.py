@@ -3,11 +3,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.games import Ahead, Race, Rack, winner_breaks
-from evenbreak.handicaps.charts.given_ratings import (
-    length_given_ratings,
-    odds_given_ratings,
-    win_given_ratings,
-)
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import match_odds
 from evenbreak.ratings.scale import SCALES
 
@@ -16,9 +12,9 @@ EVEN = Rack(0.5)
 
 @pytest.mark.parametrize(("m", "n"), [(7, 5), (1, 1), (9, 4)])
 def test_a_race_has_the_chances_and_lengths_of_other_commands(m, n):
-    odds = odds_given_ratings(Race(m, n, EVEN), 15, 25)
-    assert odds.p_win_1 == pytest.approx(win_given_ratings(15, 25, m, n), abs=1e-12)
-    length = length_given_ratings(15, 25, m, n)
+    odds = Gap(15, 25).odds(Race(m, n, EVEN))
+    assert odds.p_win_1 == pytest.approx(Gap(15, 25).win(m, n), abs=1e-12)
+    length = Gap(15, 25).length(m, n)
     assert (odds.mean_games, odds.sd_games) == pytest.approx((length.mean, length.sd))
     assert (odds.games_p50, odds.games_p90) == (length.quantile(0.5), length.quantile(0.9))
 
@@ -35,11 +31,11 @@ MATCHES = [
 @pytest.mark.parametrize("match", MATCHES)
 def test_any_match_is_averaged_over_the_possible_differences(match):
     scale = SCALES["npl"]
-    odds = odds_given_ratings(match, 15, 25, scale=scale)
+    odds = Gap(15, 25, scale=scale).odds(match)
     rng = np.random.default_rng(1)
     chances, means = [], []
     for difference in rng.normal(15, 25, 400).tolist():
-        one = odds_given_ratings(match, difference, 0.0, scale=scale)
+        one = Gap(difference, scale=scale).odds(match)
         chances.append(one.p_win_1)
         means.append(one.mean_games)
     for found, drawn in ((odds.p_win_1, chances), (odds.mean_games, means)):
@@ -50,9 +46,9 @@ def test_any_match_is_averaged_over_the_possible_differences(match):
 
 @pytest.mark.parametrize("match", MATCHES)
 def test_ratings_that_are_sure_give_the_odds_of_the_match(match):
-    sure = odds_given_ratings(match, 0.0, 0.0)
+    sure = Gap(0.0).odds(match)
     assert sure == match_odds(match)
-    nearly = odds_given_ratings(match, 0.0, 1e-6)
+    nearly = Gap(0.0, 1e-6).odds(match)
     assert nearly.p_win_1 == pytest.approx(sure.p_win_1, abs=1e-6)
 
 
@@ -60,12 +56,12 @@ def test_ratings_that_are_sure_give_the_odds_of_the_match(match):
     ("match", "difference", "error", "named"),
     [
         (Race(5, 4, EVEN), "much", 10.0, "difference"),
-        (Race(5, 4, EVEN), 10.0, -1.0, "standard_error"),
-        (Race(5, 4, EVEN), 10.0, [1.0, 2.0], "standard_error"),
+        (Race(5, 4, EVEN), 10.0, -1.0, "error is -1"),
+        (Race(5, 4, EVEN), 10.0, [1.0, 2.0], "a single number"),
         ("5:4", 10.0, 10.0, "match"),
         (Race(5, 4, Rack(0.6, 0.5), breaks=winner_breaks), 10.0, 10.0, "break"),
     ],
 )
 def test_what_cannot_be_averaged_is_refused(match, difference, error, named):
     with pytest.raises(InputError, match=named):
-        odds_given_ratings(match, difference, error)
+        Gap(difference, error).odds(match)

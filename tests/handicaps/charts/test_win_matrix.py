@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import win_given_ratings, win_matrix
+from evenbreak.handicaps import Gap, win_matrix
 from evenbreak.ratings import Results, fit
 
 
@@ -21,7 +21,7 @@ def test_each_chance_is_that_of_the_pair(ratings, race):
         at = ratings.players.index(one), ratings.players.index(two)
         difference = float(ratings.rating[at[0]] - ratings.rating[at[1]])
         error = ratings.difference_error(one, two)
-        expected = win_given_ratings(difference, error, *race, scale=ratings.scale)
+        expected = Gap(difference, error, scale=ratings.scale).win(*race)
         assert matrix.loc[one, two] == pytest.approx(expected, rel=1e-9)
 
 

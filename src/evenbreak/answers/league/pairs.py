@@ -12,7 +12,7 @@ from evenbreak.answers.kit.scales import decimals_of
 from evenbreak.answers.kit.wording import race
 from evenbreak.answers.league.roster_matchups import OfferedRaces, roster_matchups
 from evenbreak.files.csv_writer import DECIMALS
-from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS, win_given_ratings
+from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS, Gap
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.roster import Roster
@@ -137,13 +137,7 @@ class Band(NamedTuple):
     p_after: float
 
 
-def chart_bands(
-    offered: OfferedRaces,
-    scale: Scale,
-    furthest: float,
-    error: float = 0.0,
-    form: float = 0.0,
-) -> list[Band]:
+def chart_bands(offered: OfferedRaces, typical: Gap, furthest: float) -> list[Band]:
     """Return the chart of races by rating difference that the fairest races come to.
 
     Parameters
@@ -151,14 +145,10 @@ def chart_bands(
     offered
         the races to choose from. Where they may differ in length, the race nearest to
         even jumps back and forth between lengths as ratings part, and no chart is made.
-    scale
-        what a rating difference means.
+    typical
+        how sure a difference is, and what it means; its own difference does not matter.
     furthest
         the difference, in points, up to which the chart goes.
-    error
-        the standard error of a difference, over which chances are averaged.
-    form
-        how much the log-odds of a game vary from match to match, over which they are too.
 
     Returns
     -------
@@ -166,8 +156,7 @@ def chart_bands(
         differences are whole multiples of the last decimal in which ratings are shown;
         empty where there is no chart, or one of more than 40 lines.
 
-    >>> from evenbreak.ratings import SCALES
-    >>> for band in chart_bands(OfferedRaces(race_to=7), SCALES["npl"], 20.0):
+    >>> for band in chart_bands(OfferedRaces(race_to=7), Gap(0.0, scale="npl"), 20.0):
     ...     print(band.first, band.stronger, band.weaker, round(band.p_first, 3))
     0.0 7 7 0.5
     3.5 7 6 0.443
@@ -175,24 +164,23 @@ def chart_bands(
     """
     if offered.games is not None and offered.games[0] != offered.games[1]:
         return []
-    decimals = decimals_of(scale)
+    decimals = decimals_of(typical.scale)
     unit = 10.0**-decimals
     # One step beyond, so that the furthest pair is in a band even where one begins with it.
     last = math.ceil(furthest / unit) + 1
 
     # From one band to the next the stronger gives one game more, or the weaker gets one.
-    _, (most, least) = offered.fairest([0.0, last * unit], error, scale, form)
+    _, (most, least) = offered.fairest(typical.at([0.0, last * unit]))
     if most - least >= MOST_BANDS:
         return []
     difference = np.arange(last + 1) * unit
-    stronger, weaker = offered.fairest(difference, error, scale, form)
+    stronger, weaker = offered.fairest(typical.at(difference))
     starts = np.flatnonzero(np.diff(stronger) | np.diff(weaker)) + 1
     bands = []
     for first, after in pairwise([0, *starts[starts < last].tolist(), last]):
         m, n = int(stronger[first]), int(weaker[first])
         ends = np.round(difference[[first, after]], decimals)
-        both = difference[[first, after]]
-        chances = win_given_ratings(both, error, m, n, scale=scale, form=form)
+        chances = typical.at(difference[[first, after]]).win(m, n)
         (low, high), (p_low, p_high) = ends.tolist(), chances.tolist()
         bands.append(Band(low, high, m, n, p_low, p_high))
     return bands

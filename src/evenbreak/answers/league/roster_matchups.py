@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.arrays import Floats, Ints
@@ -16,12 +16,7 @@ from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.given_ratings import (
-    MOST_DOUBLINGS,
-    fair_races_given_ratings,
-    length_given_ratings,
-    win_given_ratings,
-)
+from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS, Gap
 from evenbreak.handicaps.charts.level_audit import LevelScale
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.matches.evening import Length
@@ -61,17 +56,9 @@ class OfferedRaces:
                 f"games is {self.games!r} and race_to is {self.race_to!r}; give exactly one of them"
             )
 
-    def fairest(
-        self, gap: ArrayLike, error: ArrayLike, scale: Scale, form: float = 0.0
-    ) -> tuple[Ints, Ints]:
-        """Return (m, n), the races nearest to even for these rating differences.
-
-        Chances are averaged over how far each difference may be off, `error` being its
-        standard error; 0 takes the ratings as right. They are averaged over form of the day too.
-        """
-        return fair_races_given_ratings(
-            gap, error, games=self.games, race_to=self.race_to, scale=scale, form=form
-        )
+    def fairest(self, gap: Gap) -> tuple[Ints, Ints]:
+        """Return (m, n), the races nearest to even for each pair."""
+        return gap.fair_races(games=self.games, race_to=self.race_to)
 
     @property
     def in_words(self) -> str:
@@ -167,25 +154,16 @@ class Races:
     minutes: tuple[Floats, Floats] | None
 
     @classmethod
-    def of(
-        cls,
-        gap: Floats,
-        error: Floats,
-        m: Ints,
-        n: Ints,
-        scale: Scale,
-        pace: Pace | None = None,
-        form: float = 0.0,
-    ) -> Races:
-        """Return the races m:n of pairs with these differences and standard errors."""
-        way: dict[str, Any] = {"scale": scale, "form": form}
-        mean, p90 = np.zeros(len(gap)), np.zeros(len(gap), dtype=np.int64)
-        minutes = np.zeros((2, len(gap)))
-        lengths: list[Length] = [Length([], [])] * len(gap)
+    def of(cls, gap: Gap, m: Ints, n: Ints, pace: Pace | None = None) -> Races:
+        """Return the races m:n of pairs."""
+        mean, p90 = np.zeros(len(m)), np.zeros(len(m), dtype=np.int64)
+        minutes = np.zeros((2, len(m)))
+        lengths: list[Length] = [Length([], [])] * len(m)
         for race in np.unique(np.column_stack([m, n]), axis=0).tolist():
             of_race = np.flatnonzero((m == race[0]) & (n == race[1]))
-            length = length_given_ratings(gap[of_race], error[of_race], *race, **way)
-            mean[of_race], p90[of_race] = length.mean, length.quantile(0.9)
+            length = gap[of_race].length(*race)
+            ninety: Any = length.quantile(0.9)
+            mean[of_race], p90[of_race] = length.mean, ninety
             if pace is not None:
                 timed = match_minutes(length.games, length.probability, pace)
                 minutes[:, of_race] = timed.mean, timed.quantile(0.9)
@@ -194,8 +172,8 @@ class Races:
         return cls(
             m,
             n,
-            win_given_ratings(gap, error, m, n, **way),
-            win_given_ratings(gap, 0.0, m, n, **way),
+            gap.win(m, n),
+            gap.taken_as_right.win(m, n),
             mean,
             p90,
             lengths,
@@ -286,22 +264,21 @@ def roster_matchups(
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]
     strength = roster.rating if levels is None else levels.strength(roster.rating)
-    gap = strength[a] - strength[b]
-    known = np.nan_to_num(roster.standard_error)
-    error = np.hypot(known[a], known[b])
+    errors = np.nan_to_num(roster.standard_error)
+    gap = Gap(strength[a] - strength[b], np.hypot(errors[a], errors[b]), scale, form)
     stated = ~np.isnan(roster.standard_error)
     columns: dict[str, Any] = {
-        "difference": gap,
-        "difference_error": np.where(stated[a] | stated[b], error, np.nan),
-        "p_game_a": win_given_ratings(gap, error, 1, 1, scale=scale),
-        "p_game_a_plug_in": scale.win_probability(gap),
+        "difference": gap.difference,
+        "difference_error": np.where(stated[a] | stated[b], gap.error, np.nan),
+        "p_game_a": gap.p_game,
+        "p_game_a_plug_in": scale.win_probability(gap.difference),
     }
     by_chart = best = None
     if chart is not None:
-        by_chart = Races.of(gap, error, *_by_chart(chart, roster.rating, a, b), scale, pace, form)
+        by_chart = Races.of(gap, *_by_chart(chart, roster.rating, a, b), pace)
         columns |= _columns("chart_", by_chart)
     if offered is not None:
-        best = Races.of(gap, error, *offered.fairest(gap, error, scale, form), scale, pace, form)
+        best = Races.of(gap, *offered.fairest(gap), pace)
         columns |= _columns("", best)
     everyone = {
         "player_a": [roster.players[k] for k in pairs[:, 0].tolist()],

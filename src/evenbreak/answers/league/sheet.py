@@ -17,6 +17,7 @@ from evenbreak.answers.kit.wording import race
 from evenbreak.answers.league.pairs import Band, SurePair, chart_bands, matchups_frame, sure_pairs
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results
@@ -110,13 +111,13 @@ class Sheet:
         if not self.sure:
             return []
         furthest = max(pair.difference for pair in self.sure)
-        of = self.ratings
-        return chart_bands(self.offered, of.scale, furthest, self.typical_error, of.match_form)
+        return chart_bands(self.offered, self.typical, furthest)
 
     @property
-    def typical_error(self) -> float:
-        """The standard error of the difference of half of the pairs, or less; 0 without pairs."""
-        return self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
+    def typical(self) -> Gap:
+        """The gap of an even pair that is known as well as half of the pairs, or better."""
+        error = self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
+        return Gap(0.0, error, self.ratings.scale, self.ratings.match_form)
 
     @cached_property
     def summary(self) -> pd.DataFrame:

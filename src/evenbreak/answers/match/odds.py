@@ -111,11 +111,7 @@ def fraction_words(p: Fraction) -> str:
 def _odds(players: TwoPlayers, match: Match) -> MatchOdds:
     if players.scale is None or not (players.error or players.form):
         return match_odds(match, form=players.form)
-    from evenbreak.handicaps.charts.given_ratings import odds_given_ratings
-
-    return odds_given_ratings(
-        match, players.difference, players.error, scale=players.scale, form=players.form
-    )
+    return players.gap.odds(match)
 
 
 def _way(via: Way | None, odds: MatchOdds, match: Match) -> list[Part]:
@@ -139,9 +135,8 @@ def _p_game(players: TwoPlayers) -> float | None:
     """Return P(A wins a game), averaged as the odds are, None where it depends on who breaks."""
     if not players.error or players.scale is None:
         return players.p_game_a
-    from evenbreak.handicaps.charts.given_ratings import win_given_ratings
-
-    return win_given_ratings(players.difference, players.error, 1, 1, scale=players.scale)
+    p_game: float = players.gap.p_game
+    return p_game
 
 
 def _in_words(odds: MatchOdds, match: Match, players: TwoPlayers) -> str:

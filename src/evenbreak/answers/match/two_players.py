@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.kit.scales import decimals_of, scale_words, two_ratings_doubts
 from evenbreak.games.breaks import BREAK_FORMATS, BreakFormat
 from evenbreak.games.rack import Rack
 from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.charts.gap import Gap
 
 FORMATS = {
     "winner": BREAK_FORMATS["winner"],
@@ -89,6 +92,16 @@ class TwoPlayers:
     def error(self) -> float:
         """The standard error of the difference of the ratings, 0 where they are taken as right."""
         return math.hypot(*self.errors) if self.errors else 0.0
+
+    @property
+    def gap(self) -> Gap:
+        """By how much A is rated above B; without ratings, the log-odds of a game."""
+        from evenbreak.handicaps.charts.gap import Gap
+
+        if self.scale is not None:
+            return Gap(self.difference, self.error, self.scale, self.form)
+        p = self.rack.p1
+        return Gap(math.log(p) - math.log1p(-p), 0.0, Scale("log-odds", math.log(2.0)), self.form)
 
     @property
     def named(self) -> dict[str, Any]:

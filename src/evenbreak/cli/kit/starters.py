@@ -36,7 +36,7 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
     """Return the roster with new players filled in."""
     import numpy as np
 
-    from evenbreak.handicaps.charts.given_ratings import MOST_DOUBLINGS
+    from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS
 
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:

@@ -1,6 +1,5 @@
 """`evenbreak fair`: the races that come nearest to a target chance."""
 
-import math
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
@@ -9,7 +8,6 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.players import players_of, refuse_uncertain
 from evenbreak.cli.kit.values import refuse
 from evenbreak.questions.match import Fair
-from evenbreak.ratings.scale import Scale
 
 
 @command_of(Fair, "fair")
@@ -28,11 +26,9 @@ def command(asked: Fair) -> Answer:
     if asked.via is not None:
         refuse_uncertain(players)
     if players.error or players.form:
-        from evenbreak.handicaps.charts.given_ratings import nearest_races_given_ratings
-
-        races = nearest_races_given_ratings(
-            _difference(players), players.error, scale=_scale(players), form=players.form, **limits
-        )
+        if players.scale is None:
+            _refuse_without_odds(players)
+        races = players.gap.nearest_races(**limits)
     else:
         races = fair_races(
             players.rack,
@@ -44,17 +40,9 @@ def command(asked: Fair) -> Answer:
     return fair_answer(players, races, target=asked.target, via=asked.via)
 
 
-def _scale(players: TwoPlayers) -> Scale:
-    """Return the scale of the ratings; without any, one of natural log-odds."""
-    return players.scale or Scale("log-odds", math.log(2.0))
-
-
-def _difference(players: TwoPlayers) -> float:
-    if players.scale is not None:
-        return players.difference
-    p = players.p_game_a
-    if p is None:
+def _refuse_without_odds(players: TwoPlayers) -> None:
+    """Refuse chances that form of the day cannot change, or about which it says nothing."""
+    if players.p_game_a is None:
         refuse("--form knows nothing of the break here; give --p, or two ratings")
-    if p in (0.0, 1.0):
-        refuse(f"--form changes nothing where --p is {p:g}; leave it out")
-    return math.log(p) - math.log1p(-p)
+    if players.p_game_a in (0.0, 1.0):
+        refuse(f"--form changes nothing where --p is {players.p_game_a:g}; leave it out")

@@ -23,7 +23,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart, ChartDraft, ChartRow
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.charts.given_ratings import win_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches.parameters import in_shape
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fitted import Ratings
@@ -367,12 +367,8 @@ def win_matrix(
     known = component[:, None] == component
     np.fill_diagonal(known, val=False)
     chance = np.full(known.shape, np.nan)
-    chance[known] = win_given_ratings(
-        (rating[:, None] - rating)[known],
-        np.sqrt(np.maximum(spread, 0.0))[known],
-        m,
-        n,
-        scale=ratings.scale,
-    )
+    error = np.sqrt(np.maximum(spread, 0.0))
+    gap = Gap(rating[:, None] - rating, error, ratings.scale)
+    chance[known] = gap[known].win(m, n)
     names = pd.Index(named, name="player")
     return pd.DataFrame(chance, index=names, columns=names)

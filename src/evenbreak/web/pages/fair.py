@@ -12,7 +12,7 @@ from starlette.routing import Route
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import FairRace, fair_races
-from evenbreak.handicaps.charts.given_ratings import nearest_races_given_ratings
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of, unstated_scale
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE
@@ -102,7 +102,7 @@ def _races(sides: tuple[Side, ...], scale: Scale, length: int) -> list[FairRace]
             "{value!r} is not a rating. Enter a number, such as 520.", value=format(one.rating, "g")
         )
     if error:
-        return nearest_races_given_ratings(gap, error, scale=scale, race_to=length, top=3)
+        return Gap(gap, error, scale).nearest_races(race_to=length, top=3)
     return fair_races(Rack(float(scale.win_probability(gap))), race_to=length, top=3)
 
 
