@@ -3,12 +3,13 @@
 `python docs/option_tables.py` (`make option-tables`) writes them between their marks:
 `<!-- options: fair -->` and `<!-- end of options -->`. `<!-- options: NAME, not OTHER -->` has
 those that the other command does not have, `<!-- options: NAME, as OTHER -->` those it has too.
+`<!-- options: GROUP NAME + OTHER + ... -->` has those of several commands of a group.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,25 @@ def table_of(question: type, fields: Iterable[Declared] | None = None) -> str:
     return "\n".join(["| option | meaning |", "|---|---|", *lines, ""])
 
 
+def joint_table(group: str, names: Sequence[str]) -> str:
+    """Return the table of the options of several commands, with the commands that have each."""
+    having: dict[str, list[str]] = {}
+    for name in names:
+        question = question_of(f"{group} {name}")
+        for one in declared(question):
+            if not one.field.argument:
+                having.setdefault(_row(question, one), []).append(name)
+    lines = ["| option | commands | meaning |", "|---|---|---|"]
+    for row, commands in having.items():
+        typed, _, meaning = row.partition("` | ")
+        others = [name for name in names if name not in commands]
+        listed = ", ".join(f"`{name}`" for name in min(commands, others, key=len))
+        if len(others) < len(commands):
+            listed = f"all but {listed}" if others else "all"
+        lines.append(f"{typed}` | {listed} | {meaning}")
+    return "\n".join([*lines, ""])
+
+
 def _row(question: type, one: Declared) -> str:
     typed = f"{one.option} {one.metavar}".strip().replace("|", "\\|")
     short = f", `{one.short}`" if one.short else ""
@@ -67,6 +87,10 @@ def with_tables(text: str) -> str:
     """Return a page with its tables as they are now."""
 
     def table(mark: re.Match[str]) -> str:
+        if " + " in mark[2]:
+            first, *others = mark[2].split(" + ")
+            group, _, name = first.rpartition(" ")
+            return mark[1] + joint_table(group, [name, *others]) + mark[3]
         name, *which = re.split(r", (as|not) ", mark[2])
         question = question_of(name)
         rows = list(declared(question))

@@ -2,56 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
-from evenbreak.errors import InputError
-from evenbreak.fields.kinds import File, Flag, Named, Number, Text
+from evenbreak.fields.kinds import File, Flag, Number
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters
+from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import Parameter
-
-
-def minutes_of_day(text: str) -> int:
-    """Return a time of day in minutes after midnight.
-
-    >>> minutes_of_day("19:30")
-    1170
-    """
-    match = re.fullmatch(r"\s*(\d{1,2})[:.h](\d{2})\s*", text)
-    hours, minutes = (int(match[1]), int(match[2])) if match else (24, 0)
-    if hours > 23 or minutes > 59:
-        raise InputError(f"{text!r}; give a time of day from 0:00 to 23:59, such as 19:30")
-    return 60 * hours + minutes
-
-
-TIME_OF_DAY = Named(minutes_of_day, "HH:MM")
-
-At: TypeAlias = Annotated[
-    int | None, Field(TIME_OF_DAY, "When it happened.", usual="now", section="File")
-]
-Evening: TypeAlias = Annotated[
-    str | None,
-    Field(
-        File("FILE.db"),
-        "The file of the tournament under way.",
-        usual="tonight.db",
-        section="File",
-        more="Also in the environment: `EVENBREAK_TOURNAMENT`.",
-    ),
-]
-Prizes: TypeAlias = Annotated[
-    str | None,
-    Field(
-        Text("MONEY,..."),
-        "The money for first place, second, ..., such as 500,300,150.",
-        more="Adds each player's average prize.",
-    ),
-]
-
 
 _DRAW = "The seed of the draw, and of what is simulated."
 Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
@@ -89,15 +49,13 @@ class NewTournament(TournamentPlan, Starters):
 
 
 @dataclass(frozen=True, kw_only=True)
-class OfEntrants(TournamentPlan, Starters):
+class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
     """A question about a list of entrants, or about the tournament under way."""
 
     entrants: Annotated[
         str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
     ] = None
     scale: ScaleOf = None
-    file: Evening = None
-    at: At = None
     seed: Draw = 0
     under_way: ClassVar[tuple[str, ...]] = ()
     """What can be asked about the tournament under way."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from inspect import cleandoc
 from typing import Any, TypeVar
 
 import click
@@ -171,14 +172,19 @@ class AskedCommand(click.Command):
         text = self.help or ""
         with formatter.indentation():
             formatter.write_paragraph()
-            formatter.write_text(text if ctx.meta.get(ALL_HELP) else text.partition("\n\n")[0])
+            formatter.write_text(text if self._explains_all(ctx) else text.partition("\n\n")[0])
+
+    def _explains_all(self, ctx: click.Context) -> bool:
+        """Return whether the help explains all options: if that is asked for, or they are few."""
+        options = [one for one in declared(self.question) if not one.field.argument]
+        return bool(ctx.meta.get(ALL_HELP)) or len(options) <= _FEW
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options by sections; unless all is asked for, those of sections by name only.
 
         So the help fits a screen, with what is needed most.
         """
-        every = bool(ctx.meta.get(ALL_HELP))
+        every, all_asked = self._explains_all(ctx), bool(ctx.meta.get(ALL_HELP))
         sections: dict[str, list[click.Parameter]] = {"": []}
         fields = {one.name: one.field for one in declared(self.question)}
         for param in self.get_params(ctx):
@@ -187,7 +193,7 @@ class AskedCommand(click.Command):
                 continue
             if every or field.section or not field.rare:
                 sections.setdefault(field.section, []).append(param)
-        if every:
+        if all_asked:
             sections[_ANSWER] = [one for one in self.get_params(ctx) if one.name not in fields]
         folded = []
         for section, params in sections.items():
@@ -201,11 +207,13 @@ class AskedCommand(click.Command):
             else:
                 names = (option for name, _ in rows for option in name.split()[:1])
                 folded.append((section, ", ".join(names)))
-        if not every:
+        if not all_asked:
             with formatter.section(f"More, explained by {ALL_HELP}"):
                 formatter.write_dl([*folded, (_ANSWER, _COMMON)])
 
 
+_FEW = 8
+"""So many options are explained by --help even if they are in sections."""
 _WIDEST = 24
 """The columns of a help text that options have; those of wider ones begin a line below."""
 _ANSWER = "The answer"
@@ -252,7 +260,7 @@ def command_of(
             question=question,
             callback=shown,
             params=[*params_of(question), *reversed(own)],
-            help=_worded(question.__doc__ or "", question),
+            help=_worded(cleandoc(question.__doc__ or ""), question),
             epilog=f"\b\nExamples:\n{lines}" if lines else None,
         )
 

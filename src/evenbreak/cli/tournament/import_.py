@@ -2,68 +2,17 @@
 
 from __future__ import annotations
 
-import click
-
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import OF_LIST, SAY_WHICH, scale_option
-from evenbreak.cli.kit.paces import DISCIPLINES
-from evenbreak.cli.kit.values import Whole, refuse
-from evenbreak.cli.tournament.evening import answer_of, at_option
-from evenbreak.ratings.scale import Scale
-from evenbreak.tournaments.evening.format import LONGEST_RACE
-
-EXAMPLES = """\b
-Examples:
-  evenbreak tournament import cup.json --ratings entrants.csv --tables 6
-  evenbreak tournament odds
-"""
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.tournament.evening import moment, night_of
+from evenbreak.questions.evening import Import
 
 
-@click.command("import", epilog=EXAMPLES)
-@click.argument("saved", metavar="FILE")
-@click.option("--ratings", metavar="ENTRANTS.csv", help="The players' ratings.")
-@scale_option(OF_LIST, fixed=False)
-@click.option(
-    "--race",
-    type=Whole(1, LONGEST_RACE),
-    metavar="N",
-    help="What is raced to.  [default: as saved]",
-)
-@click.option(
-    "--tables", type=Whole(1, 1000), metavar="T", help="The number of tables.  [default: as saved]"
-)
-@click.option(
-    "--discipline",
-    type=click.Choice(DISCIPLINES),
-    help="The game, for how long matches take.  [default: as saved, else 9-ball]",
-)
-@click.option(
-    "--out",
-    metavar="FILE.db",
-    default="tonight.db",
-    show_default=True,
-    help="The file of the tournament, which must not exist yet.",
-)
-@at_option
-@faces()
-def command(
-    *,
-    saved: str,
-    ratings: str | None,
-    scale: Scale | None,
-    race: int | None,
-    tables: int | None,
-    discipline: str | None,
-    out: str,
-    at: str,
-) -> Answer:
-    """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
-
-    The bracket, the results and the times are those of FILE; go on with the other commands. FILE
-    may also be the CSV of evenbreak tournament export --events.
-    Players without a rating are taken as average ones.
-    """
+@command_of(Import, "import")
+def command(asked: Import) -> Answer:
+    """Go on with a tournament from another program."""
     from dataclasses import replace
 
     import numpy as np
@@ -79,11 +28,12 @@ def command(
     from evenbreak.tournaments.evening.events import Entrant, Plan
     from evenbreak.tournaments.evening.fold import evening
 
+    saved, scale, at = asked.saved, asked.scale, moment(asked.at)
     known: dict[str, Entrant] = {}
     warnings: list[str] = []
     points = scale or SCALES[DEFAULT_SCALE]
-    if ratings is not None:
-        file = files.read_entrants(ratings)
+    if asked.ratings is not None:
+        file = files.read_entrants(asked.ratings)
         points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
         filled = file.roster.with_starters(points.centre, points.points_per_doubling, points)
         warnings += filter(None, [games_words(file.roster, filled)])
@@ -97,12 +47,12 @@ def command(
         }
     plan = Plan(
         "imported",
-        race or 0,
+        asked.race or 0,
         scale=points.text,
         starter=points.centre,
         starter_error=points.points_per_doubling,
-        tables=tables or 0,
-        discipline=discipline or "",
+        tables=asked.tables or 0,
+        discipline=asked.discipline or "",
     )
     if is_database(saved):
         refuse(
@@ -127,6 +77,6 @@ def command(
     ]
     if unrated:
         said.append(unrated_words(unrated, plan.starter, plan.starter_error))
-    answer = answer_of(out, state, at, said)
-    new_tournament(out, events)  # last, so that what cannot be shown is never written
+    answer = night_of(asked.out, state, at, said)
+    new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
     return replace(answer, warnings=[*warnings, *answer.warnings])

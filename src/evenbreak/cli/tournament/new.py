@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.tournament.evening import answer_of, moment
+from evenbreak.cli.tournament.evening import moment, night_of
 from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in
 from evenbreak.questions.tournament import NewTournament
 
@@ -39,7 +39,7 @@ def command(asked: NewTournament) -> Answer:
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = evening(events)
-    answer = answer_of(asked.out, state, at, _unrated(entered, state))
+    answer = night_of(asked.out, state, at, _unrated(entered, state))
     new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
     return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
 

@@ -8,9 +8,9 @@ from pathlib import PurePath
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.values import refuse
-from evenbreak.cli.tournament.evening import file_of, moment, outlook_of
+from evenbreak.cli.tournament.evening import moment, outlook_of
 from evenbreak.cli.tournament.options import tournament_of
-from evenbreak.cli.tournament.prize_money import paid_places
+from evenbreak.cli.tournament.prizes import paid_places
 from evenbreak.questions.tournament import TournamentOdds
 
 
@@ -43,7 +43,7 @@ def _under_way(asked: TournamentOdds) -> Answer:
     """Find each player's odds in the tournament under way."""
     from evenbreak.answers.tournament.under_way import odds_under_way
 
-    file = file_of(asked)
+    file = asked.path
     outlook = replace(outlook_of(file, moment(asked.at, file)), walkovers=asked.walkovers)
     paid = paid_places(asked.prizes, len(outlook.state.order))
     return odds_under_way(outlook, sure=asked.sure, prizes=paid, source=PurePath(file).name)

@@ -6,131 +6,81 @@ from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-import click
-
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.values import NUMBER, Number, refuse
-from evenbreak.cli.tournament.evening import at_option, file_option, outlook_of
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.tournament.evening import moment, outlook_of
 from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Number
 from evenbreak.files.tables.names import KnownNames
+from evenbreak.questions.evening import PayOut
 
 if TYPE_CHECKING:
     from evenbreak.tournaments import PrizeMoney
 
-MONEY = Number(0.0, 1e9, " is not an amount of money; give a number such as 20")
-SHARE = Number(0.0, 0.99, " is not a part; give a number from 0 to 0.99, such as 0.1")
 
-EXAMPLES = """\b
-Examples:
-  evenbreak tournament prizes --fee 20 --added 100
-  evenbreak tournament prizes --fee 20 --payout 50,30,20 --house 0.1 --keep
-  evenbreak tournament prizes --calcutta --sold "Ann Lee=60" --sold "Bo Diaz=25"
-"""
-
-
-@click.command("prizes", epilog=EXAMPLES)
-@click.option(
-    "--fee", type=MONEY, metavar="MONEY", default=0.0, help="What each player pays to enter."
-)
-@click.option("--added", type=MONEY, metavar="MONEY", default=0.0, help="Money added to the pot.")
-@click.option(
-    "--house",
-    type=SHARE,
-    metavar="P",
-    default=0.0,
-    help="The part of the pot that the house keeps.",
-)
-@click.option(
-    "--payout",
-    metavar="NAME|P,...",
-    help="What the places get: hoboken, 40/30/20/10, 40/30/15, 70/30, or percentages such as "
-    "50,30,20.  [default: 70/30 for fewer than 8 players, else 40/30/20/10]",
-)
-@click.option(
-    "--keep",
-    is_flag=True,
-    help="Keep them with the tournament: the page shows them, and this command unless it is "
-    "given others.",
-)
-@click.option("--calcutta", is_flag=True, help="What each player is worth in the Calcutta.")
-@click.option(
-    "--sold",
-    multiple=True,
-    metavar="NAME=BID",
-    help="With --calcutta: a player who has been sold, and for how much; may be repeated.",
-)
-@file_option
-@at_option
-@faces()
-def command(
-    *,
-    fee: float,
-    added: float,
-    house: float,
-    payout: str | None,
-    keep: bool,
-    calcutta: bool,
-    sold: tuple[str, ...],
-    file: str,
-    at: str,
-) -> Answer:
-    """Find what each place is paid, and what each player may expect.
-
-    With --calcutta, find what each player still to be sold is worth: the share of the pot, and the
-    bid at which it wins back what it costs.
-    """
+@command_of(PayOut, "prizes")
+def command(asked: PayOut) -> Answer:
+    """Find what each place is paid."""
     from evenbreak.answers.tournament.prizes import calcutta_answer, tournament_prizes_answer
     from evenbreak.files.store.desk import keep_prizes, kept_prizes
     from evenbreak.files.store.tournament import read_tournament
 
+    file, house, has_money = asked.path, asked.house, asked.fee or asked.added
     state = read_tournament(file)
     entrants, name = len(state.entrants), PurePath(file).name
-    money = _money(fee, added, house, payout)
-    if calcutta:
-        if fee or added or keep:
-            refuse(
-                "--fee, --added and --keep are for the prizes; the pot of a Calcutta is its bids"
-            )
+    money = _money(asked)
+    if asked.calcutta:
+        odds = outlook_of(file, moment(asked.at, file)).odds
+        bids = _bids(asked, state.order)
         table = money.payouts(entrants)
-        return calcutta_answer(
-            outlook_of(file, at).odds, table, _bids(sold, state.order), house=house, source=name
-        )
-    if sold:
-        refuse("--sold is for --calcutta")
+        return calcutta_answer(odds, table, bids, house=house, source=name)
     kept = kept_prizes(file)
-    if kept and not (fee or added):
+    if kept and not has_money:
         money = replace(kept, house=house or kept.house, payout=money.payout or kept.payout)
     pot = money.pot(entrants)
     if not pot:
-        refuse("there is no prize money; give --fee or --added")
-    odds = outlook_of(file, at).odds if state.drawn else None
-    answer = tournament_prizes_answer(state, money.payouts(entrants), pot, odds, source=name)
-    if keep:
+        asked.refuse("there is no prize money; give {fee} or {added}")
+    now = outlook_of(file, moment(asked.at, file)).odds if state.drawn else None
+    answer = tournament_prizes_answer(state, money.payouts(entrants), pot, now, source=name)
+    if asked.keep:
         keep_prizes(file, money)
     return answer
 
 
-def _money(fee: float, added: float, house: float, payout: str | None) -> PrizeMoney:
+def _money(asked: PayOut) -> PrizeMoney:
     from evenbreak.tournaments import PAYOUTS, PrizeMoney
 
-    text = payout or ""
+    text = asked.payout or ""
     if text not in PAYOUTS:
         text = "/".join(part.strip().removesuffix("%") for part in text.split(","))
     try:
-        return PrizeMoney(fee, added, house, text)
+        return PrizeMoney(asked.fee, asked.added, asked.house, text)
     except InputError as error:
         refuse(f"--{error}")
 
 
-def _bids(sold: tuple[str, ...], players: tuple[str, ...]) -> dict[str, float]:
-    known, bids = KnownNames(players), {}
-    for text in sold:
-        name, _, amount = text.rpartition("=")
-        place = known.place(name.strip())
-        if not NUMBER.fullmatch(amount.strip()) or float(amount) < 0.0:
-            refuse(f"--sold {text!r}; give a player and a bid, such as 'Ann Lee=60'")
+def _bids(asked: PayOut, players: tuple[str, ...]) -> dict[str, float]:
+    names, bids = KnownNames(players), {}
+    for name, amount in asked.sold:
+        place = names.place(name)
         if place is None:
-            refuse(f"--sold {text!r}: {name.strip()!r} is not in the tournament{known.hint(name)}")
-        bids[players[place]] = float(amount)
+            asked.refuse(
+                "{sold} {name!r} is not in the tournament{hint}", name=name, hint=names.hint(name)
+            )
+        bids[players[place]] = amount
     return bids
+
+
+def paid_places(text: str | None, players: int) -> tuple[float, ...]:
+    """Return the money for each place that --prizes states."""
+    if text is None:
+        return ()
+    wanted = "give an amount for each paid place, such as 500,300,150"
+    try:
+        amounts = tuple(Number(0.0, 1e12).read(part) for part in text.split(","))
+    except InputError:
+        refuse(f"--prizes is {text!r}; {wanted}")
+    if len(amounts) > players:
+        refuse(f"--prizes has {len(amounts)} places for {players} players; give fewer")
+    return amounts

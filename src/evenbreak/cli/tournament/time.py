@@ -7,7 +7,7 @@ from pathlib import PurePath
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.paces import stated_pace
-from evenbreak.cli.tournament.evening import file_of, moment, outlook_of
+from evenbreak.cli.tournament.evening import moment, outlook_of
 from evenbreak.cli.tournament.options import tournament_of
 from evenbreak.questions.tournament import TournamentTime
 
@@ -38,7 +38,7 @@ def _under_way(asked: TournamentTime) -> Answer:
     from evenbreak.answers.tournament.under_way import time_under_way
     from evenbreak.matches import Turnover
 
-    file = file_of(asked)
+    file = asked.path
     return time_under_way(
         outlook_of(file, moment(asked.at, file)),
         tables=asked.tables,

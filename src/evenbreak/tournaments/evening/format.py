@@ -28,6 +28,28 @@ Discipline: TypeAlias = Annotated[
 _FORMAT, _RACES = "Format", "Races"
 _PLAYERS = Whole(1, MOST_PLAYERS)
 _RACE = Whole(1, LONGEST_RACE)
+LosersRace: TypeAlias = Annotated[
+    Race | None,
+    Field(
+        _RACE,
+        "Races on the losers' side, and in a consolation event.",
+        usual="as the others",
+        label=say("Race on the losers' side (blank: the same)"),
+        section=_RACES,
+        formats=("double", "pods", "consolation"),
+    ),
+]
+FinalRace: TypeAlias = Annotated[
+    Race | None,
+    Field(
+        _RACE,
+        "Races of the final, and of a second final.",
+        usual="as the others",
+        label=say("Race in the final (blank: the same)"),
+        section=_RACES,
+        formats=("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
+    ),
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,25 +163,5 @@ class Format:
             formats=("swiss",),
         ),
     ] = None
-    losers_race: Annotated[
-        Race | None,
-        Field(
-            _RACE,
-            "Races on the losers' side, and in a consolation event.",
-            usual="as the others",
-            label=say("Race on the losers' side (blank: the same)"),
-            section=_RACES,
-            formats=("double", "pods", "consolation"),
-        ),
-    ] = None
-    final_race: Annotated[
-        Race | None,
-        Field(
-            _RACE,
-            "Races of the final, and of a second final.",
-            usual="as the others",
-            label=say("Race in the final (blank: the same)"),
-            section=_RACES,
-            formats=("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
-        ),
-    ] = None
+    losers_race: LosersRace = None
+    final_race: FinalRace = None

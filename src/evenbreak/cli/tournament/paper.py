@@ -1,0 +1,143 @@
+"""The commands that show, print or list what the tournament under way has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import PurePath
+from typing import TYPE_CHECKING
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.terminal import write_file
+from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.tournament.evening import answer_of, moment
+from evenbreak.cli.tournament.prizes import paid_places
+from evenbreak.questions.evening import Export, Next, Print, Show
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments.evening.fold import Evening
+
+KINDS = (".svg", ".png", ".pdf", ".html")
+
+
+@command_of(Show, "show")
+def show(asked: Show) -> Answer:
+    """Show the bracket."""
+    from evenbreak.answers.tournament.night import bracket_table
+    from evenbreak.files.store.tournament import read_tournament
+
+    state, out = read_tournament(asked.path), asked.out
+    chips = state.plan.form == "chips"
+    if out is not None:
+        kind = PurePath(out).suffix.lower()
+        if chips:
+            asked.refuse("{out} draws a bracket, and a chip tournament has none")
+        if kind not in KINDS:
+            asked.refuse(
+                "{out} {name!r}; name a file that ends in {kinds}", name=out, kinds=", ".join(KINDS)
+            )
+        write_file(out, _drawing(state, PurePath(asked.path).stem, kind))
+    answer = answer_of(asked, state)
+    if not state.drawn or chips:
+        return answer
+    table = bracket_table(state)
+    return replace(answer, parts=[answer.parts[0], table, *answer.parts[1:]], csv=table)
+
+
+@command_of(Next, "next")
+def next_matches(asked: Next) -> Answer:
+    """Show who plays next, and on which table."""
+    from evenbreak.answers.tournament.night import night_answer
+    from evenbreak.files.store.tournament import read_tournament
+    from evenbreak.tournaments.evening.outlook import Outlook
+
+    state = read_tournament(asked.path)
+    if asked.prizes is not None and state.plan.form == "chips":
+        asked.refuse("{prizes} is for matches; in a chip tournament no single rack decides them")
+    return night_answer(
+        Outlook(state, moment(asked.at, asked.path)),
+        decides=True,
+        prizes=paid_places(asked.prizes, len(state.entrants)),
+        source=PurePath(asked.path).name,
+    )
+
+
+@command_of(Export, "export")
+def export(asked: Export) -> Answer:
+    """List the matches that were played, or all that happened."""
+    from evenbreak.answers.faces.to_csv import to_csv
+    from evenbreak.answers.tournament.printed import (
+        tournament_events_answer,
+        tournament_matches_answer,
+    )
+    from evenbreak.files.store.tournament import read_events, read_tournament
+
+    name = PurePath(asked.path).stem
+    if asked.events:
+        answer = tournament_events_answer(read_events(asked.path), name)
+    else:
+        answer = tournament_matches_answer(read_tournament(asked.path), name)
+    if asked.out is not None:
+        write_file(asked.out, "".join(to_csv(answer)).encode())
+    return answer
+
+
+@command_of(Print, "print", always_text=True)
+def print_paper(asked: Print) -> Answer:
+    """Write score cards, the bracket or the draw as a PDF."""
+    from evenbreak.answers.kit.wording import count_of
+    from evenbreak.answers.tournament.printed import printed_answer, score_cards
+    from evenbreak.files.store.tournament import read_tournament
+    from evenbreak.sheets.paper_pages import score_cards_pdf
+
+    state, name = read_tournament(asked.path), PurePath(asked.path).stem
+    if state.plan.form == "chips":
+        refuse("a chip tournament has neither score cards nor a bracket to print")
+    place = asked.out or f"{asked.what}.pdf"
+    if PurePath(place).suffix.lower() != ".pdf":
+        asked.refuse("{out} {name!r}; name a file that ends in .pdf", name=place)
+    if asked.what == "draw":
+        write_file(place, _draw_list(state, name))
+        return printed_answer(state, "The list of the draw", place)
+    if asked.what == "bracket":
+        write_file(place, _drawing(state, name, ".pdf"))
+        return printed_answer(state, "The bracket", place)
+    cards = score_cards(state, asked.match)
+    if not cards:
+        refuse("no match is waiting to be played, so there is no card to print")
+    write_file(place, score_cards_pdf(cards, name, per_page=asked.per_page))
+    return printed_answer(state, count_of(len(cards), "score card"), place)
+
+
+def _drawing(state: Evening, name: str, kind: str) -> bytes:
+    """Return the bracket of a tournament, drawn as .svg, .png, .pdf or .html."""
+    from evenbreak.answers.tournament.bracket_view import bracket_panels
+    from evenbreak.answers.tournament.tournament import races_words
+
+    panels = bracket_panels(state)
+    heading = [name, f"{state.bracket.format}. {races_words(state.races)}"]
+    if kind == ".html":
+        from evenbreak.sheets.bracket_page import bracket_html
+
+        return bracket_html(panels, heading)
+    from evenbreak.sheets.bracket_drawing import bracket_figure, bracket_pdf
+
+    if kind == ".pdf":
+        return bracket_pdf(panels, heading, name)
+    from evenbreak.plots.picture import image_bytes
+
+    return image_bytes(bracket_figure(panels, heading), "svg" if kind == ".svg" else "png")
+
+
+def _draw_list(state: Evening, name: str) -> bytes:
+    from evenbreak.answers.tournament.printed import first_matches
+    from evenbreak.answers.tournament.tournament import races_words
+    from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf
+
+    players = []
+    for one in first_matches(state):
+        other = next((player for player in one.pair if player != one.name), "")
+        players.append(FirstMatch(one.name, one.seed, one.match or "", other, one.table))
+    form = state.bracket.format
+    about = f"{form[0].upper()}{form[1:]}. {races_words(state.races)}"
+    return draw_list_pdf(players, name, about)
