@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
 import tempfile
 import zipfile
 from collections.abc import Callable
@@ -12,8 +11,10 @@ from typing import TypeVar
 
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.tables.problems import of_list
 from evenbreak.web.forms import Form
 from evenbreak.web.refusals import RefusalError
+from evenbreak.words import say
 
 _WORKBOOK = b"PK\x03\x04"
 _MOST_UNPACKED = 50 << 20
@@ -50,22 +51,19 @@ def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
         try:
             return read(place)
         except DataError as error:
-            raise DataError([_of_list(problem, place) for problem in error.problems]) from None
+            problems = [_nameless(of_list(problem), place) for problem in error.problems]
+            raise DataError(problems) from None
 
 
 def warnings_of(file: RosterFile, name: str = "") -> list[str]:
     """Return the warnings about a list that came in, with its name in place of the file's."""
-    start, found = f"{name}, " if name else "", []
-    for text in file.warnings:
-        with_line = re.sub(rf"^{re.escape(file.source)}:(\d+): ", rf"{start}line \1: ", text)
-        found.append(with_line.replace(file.source, name or "the list"))
-    return found
+    return [_nameless(of_list(text, name), file.source, name) for text in file.warnings]
 
 
-def _of_list(problem: str, place: Path) -> str:
-    """Return a problem of the list without the name of the file that it was read from."""
-    with_line = re.sub(rf"^{re.escape(str(place))}:(\d+): ", r"line \1: ", problem)
-    return with_line.replace(f"{place}: ", "").replace(str(place), "the list")
+def _nameless(text: str, place: object, name: str = "") -> str:
+    """Return a text that may still name the file that it was read from, with the list's name."""
+    source = str(place)
+    return text.replace(source, name or say("the list")) if source in text else text
 
 
 def _check_size(content: bytes) -> None:

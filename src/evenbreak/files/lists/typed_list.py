@@ -16,10 +16,11 @@ import numpy as np
 
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.names import clean_name, same_name
-from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.problems import Problems, quoted, warning
 from evenbreak.files.tables.rows import content_of, is_spreadsheet, text_of
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import Texts, TextTable
+from evenbreak.words import say
 
 _ONE = r"[0-9]+(?:[.,][0-9]{1,2})?"
 _NUMBER = rf"[-+]?{_ONE}"
@@ -153,7 +154,9 @@ _HIGHEST_PLACE = 256
 _LONGEST_LINE = 1000
 """Letters of a line: far more than a name and its numbers have."""
 
-_WRITE_IT = "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
+_WRITE_IT = say(
+    "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
+)
 
 
 def read_players(
@@ -198,8 +201,13 @@ def read_players(
     most = len(numbers)
     for number, line in enumerate(lines, 1):
         if len(line) > _LONGEST_LINE:
-            has = f"{quoted(line)} has {len(line):,} letters"
-            problems.add(number, f"{has}, which is no name; {_WRITE_IT}")
+            problems.add(
+                number,
+                "{line} has {n:,} letters, which is no name; {remedy}",
+                line=quoted(line),
+                n=len(line),
+                remedy=_WRITE_IT,
+            )
     found = _lines([line if len(line) <= _LONGEST_LINE else "" for line in lines], most)
     warnings = _fronts(found, problems)
     rows = _with_numbers_after_blanks(found, most)
@@ -258,15 +266,21 @@ def _fronts(rows: Sequence[TypedLine], problems: Problems) -> list[str]:
         )
         problems.add(
             first.number,
-            f"the number {first.front} in front of {quoted(first.name)} is no place in that order; "
-            f"sort the lines or leave the numbers out, and {_WRITE_IT}",
+            "the number {n} in front of {name} is no place in that order; sort the lines or leave "
+            "the numbers out, and {remedy}",
+            n=first.front,
+            name=quoted(first.name),
+            remedy=_WRITE_IT,
         )
         return []
-    one = numbered[0]
-    return [
-        f"{problems.source}:{one.number}: the number {one.front} in front of {quoted(one.name)} is "
-        "left out, and so are the others; the order is that of the lines"
-    ]
+    first = numbered[0]
+    left_out = say(
+        "the number {n} in front of {name} is left out, and so are the others; the order is that "
+        "of the lines",
+        n=first.front,
+        name=quoted(first.name),
+    )
+    return [warning(problems.source, first.number, left_out)]
 
 
 def _with_numbers_after_blanks(rows: list[TypedLine], most: int) -> list[TypedLine]:
@@ -290,25 +304,40 @@ def _refuse_other_text(rows: list[TypedLine], problems: Problems) -> None:
     for one in rows:
         slip = rated and not one.cells and re.search(r",|[0-9]{2}", one.name)
         if one.left_over or slip:
-            problems.add(one.number, f"{quoted(one.name)} is not a name and a rating; {_WRITE_IT}")
+            problems.add(
+                one.number,
+                "{text} is not a name and a rating; {remedy}",
+                text=quoted(one.name),
+                remedy=_WRITE_IT,
+            )
 
 
 def _doubts(rows: list[TypedLine], source: str) -> list[str]:
     """Return a warning for each kind of line that could mean something else."""
-    kinds: dict[str, list[str]] = {}
-    for one in (row for row in rows if not row.left_over):
-        at, rating = f"{source}:{one.number}: ", one.cells[0] if one.cells else ""
-        if one.after_blank:
-            whole = quoted(f"{one.name} {rating}")
-            said = f"{at}{whole} is read as {one.name} with the rating {rating}"
-            kinds.setdefault("split", []).append(said)
-        elif re.search(r"^\W*[0-9]" if one.cells else r"[0-9()\[\]]", one.name):
-            said = f"{at}{quoted(one.name)} is taken as a name"
-            kinds.setdefault("name", []).append(said)
+    kinds: dict[str, list[tuple[int, str]]] = {}
+    for row in (row for row in rows if not row.left_over):
+        rating, quote = row.cells[0] if row.cells else "", quoted(row.name)
+        if row.after_blank:
+            doubt = say(
+                "{text} is read as {name} with the rating {rating}",
+                text=quoted(f"{row.name} {rating}"),
+                name=row.name,
+                rating=rating,
+            )
+            kinds.setdefault("split", []).append((row.number, doubt))
+        elif re.search(r"^\W*[0-9]" if row.cells else r"[0-9()\[\]]", row.name):
+            doubt = say("{name} is taken as a name", name=quote)
+            kinds.setdefault("name", []).append((row.number, doubt))
         if rating and float(rating.replace(",", ".")) <= 0:
-            said = f"{at}{quoted(one.name)} has the rating {rating}; leave it out if it means none"
-            kinds.setdefault("low", []).append(said)
+            doubt = say(
+                "{name} has the rating {rating}; leave it out if it means none",
+                name=quote,
+                rating=rating,
+            )
+            kinds.setdefault("low", []).append((row.number, doubt))
     return [
-        said[0] + (f", and so are {len(said) - 1} more" if said[1:] else "")
-        for said in kinds.values()
+        warning(source, line, "{doubt}, and so are {n} more", doubt=doubt, n=len(others))
+        if others
+        else warning(source, line, doubt)
+        for (line, doubt), *others in kinds.values()
     ]

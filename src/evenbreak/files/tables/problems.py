@@ -67,6 +67,9 @@ def first_ones(
     return [*warnings[:most], warning(source, None, rest(left))]
 
 
+_OF_FILE, _OF_LINE = "{source}: {text}", "{source}:{line}: {text}"
+
+
 def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence:
     """Return what is to be known of a line of a file, or of the file: template and values.
 
@@ -75,9 +78,28 @@ def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence
     """
     text = template if isinstance(template, Sentence) else say(template, **values)
     place = FilePath(source)
-    if not line:
-        return say("{source}: {text}", source=place, text=text)
-    return say("{source}:{line}: {text}", source=place, line=line, text=text)
+    return (
+        say(_OF_LINE, source=place, line=line, text=text)
+        if line
+        else say(_OF_FILE, source=place, text=text)
+    )
+
+
+def of_list(problem: str, name: str = "") -> str:
+    """Return a problem or a warning as one of a list, whose file has no name worth saying.
+
+    >>> tied = warning("/tmp/list.csv", 7, "is tied")
+    >>> of_list(tied), of_list(tied, "Racks")
+    ('line 7: is tied', 'Racks, line 7: is tied')
+    """
+    if not isinstance(problem, Sentence) or problem.template not in (_OF_FILE, _OF_LINE):
+        return problem
+    text, line = problem.values["text"], problem.values.get("line")
+    if name and line:
+        return say("{list}, line {line}: {text}", list=name, line=line, text=text)
+    if line:
+        return say("line {line}: {text}", line=line, text=text)
+    return say("{list}: {text}", list=name, text=text) if name else text
 
 
 def refusal(source: str, template: str, line: Any = None, /, **values: Any) -> DataError:
