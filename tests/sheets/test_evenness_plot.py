@@ -1,7 +1,7 @@
 import pytest
 
-from evenbreak.answers.league.pairs import SurePair, chart_bands
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.answers.league.sheet import SurePair, chart_bands
 from evenbreak.handicaps import Gap
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import scale_of

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.simulated import luck_words
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError

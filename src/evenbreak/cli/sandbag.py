@@ -85,7 +85,7 @@ def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
 @command_of(SandbagWatch, "watch")
 def watch(asked: SandbagWatch) -> Answer:
     """Check results for sandbagging."""
-    from evenbreak.answers.league.nights import (
+    from evenbreak.answers.league.rating_changes import (
         events_marked,
         events_to_try,
         nights_of_files,

@@ -9,8 +9,7 @@ import pandas as pd
 from matplotlib.ticker import MaxNLocator
 
 from evenbreak.answers.kit.scales import decimals_of
-from evenbreak.answers.league.pairs import Band, SurePair
-from evenbreak.answers.league.sheet import NO_RACE
+from evenbreak.answers.league.sheet import NO_RACE, Band, SurePair
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import Scale
 

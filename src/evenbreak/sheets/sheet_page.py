@@ -11,7 +11,6 @@ import pandas as pd
 from evenbreak.answers.kit.scales import decimals_of
 from evenbreak.answers.kit.wording import race
 from evenbreak.answers.league.matchups import matchups_answer, races_of
-from evenbreak.answers.league.pairs import how_sure, three_pairs
 from evenbreak.answers.league.report import NOTHING_LEFT_OUT, how_even, how_to_read, report_answer
 from evenbreak.answers.league.round import Round
 from evenbreak.answers.league.sheet import (
@@ -19,7 +18,9 @@ from evenbreak.answers.league.sheet import (
     NO_RACE,
     Sheet,
     count_groups,
+    how_sure,
     races_by_name,
+    three_pairs,
 )
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import rows_of

@@ -17,7 +17,7 @@ from evenbreak.answers.kit.columns import (
 from places import SRC
 
 ANSWERS = SRC / "answers"
-MAKERS = {ANSWERS / "kit" / "columns.py", ANSWERS / "columns" / "entries.py"}
+MAKERS = {ANSWERS / "kit" / "columns.py", ANSWERS / "columns" / "shown.py"}
 
 
 def test_each_key_has_one_entry():

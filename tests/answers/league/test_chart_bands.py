@@ -1,7 +1,7 @@
 import pytest
 
-from evenbreak.answers.league.pairs import chart_bands
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.answers.league.sheet import chart_bands
 from evenbreak.handicaps import Gap
 from evenbreak.handicaps.charts.fair import fair_races
 from evenbreak.matches.win import race_win_probability

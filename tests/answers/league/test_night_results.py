@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.answers.league.nights import rating_changes_of_files
+from evenbreak.answers.league.rating_changes import rating_changes_of_files
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results

@@ -4,13 +4,13 @@ import math
 import numpy as np
 import pytest
 
-from evenbreak.answers.league.pairs import matchups_frame
 from evenbreak.answers.league.roster_matchups import (
     NOT_LINKED,
     OfferedRaces,
     all_pairs,
     roster_matchups,
 )
+from evenbreak.answers.league.sheet import matchups_frame
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results

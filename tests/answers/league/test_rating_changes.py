@@ -3,8 +3,7 @@
 import pytest
 
 from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.league.nights import rating_changes_of_files
-from evenbreak.answers.league.rating_changes import rating_changes_answer
+from evenbreak.answers.league.rating_changes import rating_changes_answer, rating_changes_of_files
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart

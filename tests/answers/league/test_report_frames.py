@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 
 from evenbreak import __version__
-from evenbreak.answers.league.pairs import matchups_frame
 from evenbreak.answers.league.roster_matchups import OfferedRaces
-from evenbreak.answers.league.sheet import count_groups, dates_of, summary_frame
+from evenbreak.answers.league.sheet import count_groups, dates_of, matchups_frame, summary_frame
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results

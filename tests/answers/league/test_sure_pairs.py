@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from evenbreak.answers.league.pairs import how_sure, three_pairs
+from evenbreak.answers.league.sheet import how_sure, three_pairs
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.results import Results
 from leagues import sheet_of, two_groups

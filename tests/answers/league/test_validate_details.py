@@ -2,7 +2,7 @@
 
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.league.validate_findings import details
-from evenbreak.answers.league.validate_judgement import scored_of
+from evenbreak.answers.league.validate_handicaps import scored_of
 from evenbreak.ratings import Results, scale_of, validate
 
 NPL, FARGO = scale_of("npl"), scale_of("fargo")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.answers.league.validate_judgement import (
+from evenbreak.answers.league.validate_handicaps import (
     clearly_off,
     points_text,
     scored_of,

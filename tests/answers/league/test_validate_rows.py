@@ -5,7 +5,7 @@ import math
 import pytest
 
 from evenbreak.answers.league.validate_findings import COLUMNS, findings_table
-from evenbreak.answers.league.validate_judgement import scored_of
+from evenbreak.answers.league.validate_handicaps import scored_of
 
 
 def rows_of(found):

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.match.breaks import breaks_answer
+from evenbreak.answers.match.formats import breaks_answer
 from evenbreak.games import Rack
 from evenbreak.practice import compare_break_formats
 

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.match.oneball import oneball_answer
+from evenbreak.answers.match.shot_games import oneball_answer
 from evenbreak.practice import ShotChoice
 
 

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.match.straight import straight_answer
+from evenbreak.answers.match.shot_games import straight_answer
 from evenbreak.matches import StraightPool, even_spot
 
 

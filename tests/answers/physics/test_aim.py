@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.aim import aim_answer, aim_words, throw_answer
-from evenbreak.answers.physics.hit import Hit
+from evenbreak.answers.physics.hit import Hit, aim_answer, aim_words, throw_answer
 from evenbreak.answers.physics.shot import shot_answer
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.errors import InputError

@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.cue_ball_path import cue_ball_path_answer, path_words
-from evenbreak.answers.physics.hit import Hit
+from evenbreak.answers.physics.hit import Hit, cue_ball_path_answer, path_words
 from evenbreak.answers.physics.units import IMPERIAL
 from evenbreak.physics import collide
 

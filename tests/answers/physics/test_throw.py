@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.aim import throw_answer, throw_words
-from evenbreak.answers.physics.hit import Hit
+from evenbreak.answers.physics.hit import Hit, throw_answer, throw_words
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics import SlipFriction, collide
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import expit
 
-from evenbreak.answers.league.nights import nights_of_files
+from evenbreak.answers.league.rating_changes import nights_of_files
 from evenbreak.answers.sandbag.watch import (
     day_sd_doubts,
     match_rows,

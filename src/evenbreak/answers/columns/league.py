@@ -1,7 +1,7 @@
 """Columns of a league: ratings, races, seasons, whether ratings hold, ladders, sandbagging."""
 
 from evenbreak.answers.columns import shown
-from evenbreak.answers.columns.entries import detail, number, registry, text
+from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, games, percent, race, signed, yes_or_no
 
 LEAGUE = registry(

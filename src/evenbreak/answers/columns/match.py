@@ -1,7 +1,7 @@
 """Columns of a match, of a game as a graph, and of handicap charts."""
 
 from evenbreak.answers.columns import shown
-from evenbreak.answers.columns.entries import detail, number, registry, text
+from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, games, race, signed
 
 MATCH = registry(

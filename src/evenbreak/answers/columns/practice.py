@@ -1,7 +1,7 @@
 """Columns of practice, of shots and strokes, and of files that were written."""
 
 from evenbreak.answers.columns import shown
-from evenbreak.answers.columns.entries import detail, number, registry, text
+from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, games, yes_or_no
 
 PRACTICE = registry(

@@ -1,7 +1,7 @@
 """Columns of tournaments, and of team nights and team leagues."""
 
 from evenbreak.answers.columns import shown
-from evenbreak.answers.columns.entries import detail, number, registry, text
+from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, percent, race, share
 
 TOURNAMENT = registry(

@@ -10,11 +10,11 @@ from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.answers.league.prior import evidence_rows, levels_data
 from evenbreak.answers.league.validate_findings import details, findings_table
-from evenbreak.answers.league.validate_handicaps import handicap_remarks
-from evenbreak.answers.league.validate_judgement import (
+from evenbreak.answers.league.validate_handicaps import (
     UNLIKELY,
     VAGUE,
     clearly_off,
+    handicap_remarks,
     more_or_less,
     points_text,
     scored_of,

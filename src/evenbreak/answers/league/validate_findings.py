@@ -7,8 +7,7 @@ from typing import Any
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import percent
-from evenbreak.answers.league.validate_handicaps import handicap_rows, starts_table
-from evenbreak.answers.league.validate_judgement import points_text
+from evenbreak.answers.league.validate_handicaps import handicap_rows, points_text, starts_table
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.estimates import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD

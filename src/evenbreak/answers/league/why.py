@@ -14,9 +14,9 @@ from evenbreak.answers.kit.columns import column_of, columns_of, in_files
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import decimals_of, like_scale_words
 from evenbreak.answers.kit.wording import percent, race
-from evenbreak.answers.league.pairs import matchups_frame
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.answers.league.sheet import matchups_frame
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings, rating_sources
 from evenbreak.ratings.prior import PriorChoice

@@ -1,15 +1,27 @@
-"""A hit of the cue ball on an object ball, in words and quantities."""
+"""A hit: the throw, where to aim, and where the cue ball goes."""
 
 import math
 from typing import Any, NamedTuple
 
+from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
-from evenbreak.answers.kit.parts import Quantity
+from evenbreak.answers.kit.parts import Quantities, Quantity
 from evenbreak.answers.kit.wording import decimals
-from evenbreak.answers.physics.units import Unit
+from evenbreak.answers.physics.units import Unit, Units
 from evenbreak.physics.collision import Collision, collide
+from evenbreak.physics.deflection import (
+    EnergyShares,
+    deflection,
+    deflection_slope,
+    energy_after_hit,
+    energy_in_roll,
+    largest_deflection_cut,
+    right_angle_cut,
+    split_roll_cut,
+)
 from evenbreak.physics.friction import SlipFriction
-from evenbreak.physics.throw import gearing_side
+from evenbreak.physics.slide import roll_velocity
+from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensitivity
 
 degrees = decimals(2)
 """How an angle in degrees is shown."""
@@ -177,3 +189,219 @@ def spin_words(topspin: float) -> str:
     named = {1.0: "natural roll", 0.0: "stun", -1.0: "reverse natural roll"}
     kind = "topspin" if topspin > 0.0 else "draw"
     return named.get(topspin) or f"{kind} ({degrees(topspin)})"
+
+
+def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
+    """Return where to aim so that the object ball, thrown, reaches its target.
+
+    Parameters
+    ----------
+    hit
+        its cut is the angle at which the object ball has to leave.
+    distance
+        from the object ball to the middle of the pocket, in metres.
+    units
+        in which the answer is given.
+
+    Raises
+    ------
+    InputError
+        if the object ball cannot be cut that thin.
+
+    >>> from evenbreak.answers.physics.units import IMPERIAL
+    >>> hit = Hit(-14.5, 0.0, 0.0, 0.06, "limited")
+    >>> answer = aim_answer(hit, 0.9144, IMPERIAL)
+    >>> print(answer.sentences[0])
+    Aim 1.57 inches to the left of the middle of the pocket (a thinner cut); throw brings the
+    ball back.
+    """
+    length, (angle, topspin, side) = units.length, hit.cut_and_spin
+    friction: dict[str, Any] = {"mu": hit.mu, "friction": hit.friction, "speed": hit.speed}
+    found = aim(angle, distance, topspin, side, **friction)
+    aimed = hit.collide(found.cut)
+    offset = hit.hand * found.offset
+    angles = {"throw_deg": math.degrees(found.throw), "aim_cut_deg": math.degrees(found.cut)}
+    quantities = [
+        *hit.asked(aimed, units.speed),
+        length.quantity("distance", distance),
+        *quantities_of(angles),
+        length.quantity("offset_to_aim", offset),
+        length.quantity("rule_offset", hit.hand * found.offset_of_text),
+    ]
+    left_out = [SQUIRT] if hit.side else []
+    return Answer(
+        hit.heading(aimed, units.speed, f"{length.typed(distance)} to the pocket"),
+        [aim_words(offset, hit.hand * found.cut, hit, length), *left_out, Quantities(quantities)],
+    )
+
+
+def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
+    """Return where to aim, in a sentence.
+
+    Parameters
+    ----------
+    offset
+        to the right of the middle of the pocket, in metres.
+    cut
+        the cut angle to aim for, below 0 if it is to the side opposite to that of the hit.
+    hit, length
+        the hit, and the unit of the offset.
+    """
+    amount = length.text(abs(offset), 2)
+    if amount.startswith("0.00 "):
+        return f"Aim at the middle of the pocket: throw is less than 0.01 {length.words} there."
+    side = "right" if offset > 0.0 else "left"
+    thinness = "a thinner cut" if side == hit.towards else "a fuller cut"
+    if cut < 0.0:
+        thinness = f"a cut to the {hit.away}"
+    note = f" ({thinness})" if hit.cut else ""
+    return (
+        f"Aim {amount} to the {side} of the middle of the pocket{note}; throw brings the ball back."
+    )
+
+
+def throw_answer(hit: Hit, units: Units) -> Answer:
+    """Return the throw of a hit.
+
+    >>> from evenbreak.answers.physics.units import IMPERIAL
+    >>> answer = throw_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
+    >>> print(answer.sentences[0])
+    Throw takes 1.59 degrees off the cut: the object ball goes thick unless you aim thinner.
+    """
+    found = hit.collide()
+    throw = math.degrees(found.throw)
+    shot = hit.cut_and_spin
+    factor, sensitivity = throw_factor(*shot), throw_sensitivity(*shot)
+    given = -2.5 * found.sideways / math.hypot(found.ahead, found.sideways)
+    values = {
+        "throw_deg": throw,
+        "object_cut_deg": hit.cut - hit.hand * throw,
+        "throw_factor": factor,
+        "throw_sensitivity": sensitivity if math.isfinite(sensitivity) else None,
+        "friction_stops": math.tan(abs(found.throw)) < (1.0 - 1e-9) * found.mu * abs(factor),
+        "no_throw_side": gearing_side(shot[0]),
+        "object_side": given,
+    }
+    quantities = [*hit.asked(found, units.speed), *quantities_of(values)]
+    return Answer(
+        hit.heading(found, units.speed), [throw_words(throw, hit), Quantities(quantities)]
+    )
+
+
+def throw_words(throw: float, hit: Hit) -> str:
+    """Return what a throw, in degrees, does to the shot.
+
+    >>> throw_words(1.418, Hit(0.0, 1.0, 0.5, 0.0556, "limited"))
+    'The object ball is thrown 1.42 degrees to the left.'
+    """
+    amount = degrees(abs(throw))
+    if float(amount) == 0.0:
+        return "There is no throw: the object ball leaves along the line of centres."
+    if hit.cut == 0.0:
+        side = hit.away if throw > 0.0 else hit.towards
+        return f"The object ball is thrown {amount} degrees to the {side}."
+    if throw > 0.0:
+        return (
+            f"Throw takes {amount} degrees off the cut: the object ball goes thick unless you "
+            "aim thinner."
+        )
+    return (
+        f"Throw adds {amount} degrees to the cut: the object ball goes thin unless you aim fuller."
+    )
+
+
+_AT_REST = 1e-12
+"""The speed below which a ball counts as standing still, over that of the cue ball."""
+
+
+def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
+    """Return the deflection of the cue ball: the angle by which its path turns.
+
+    >>> from evenbreak.answers.physics.units import IMPERIAL
+    >>> answer = cue_ball_path_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
+    >>> print(answer.sentences[0])
+    Once it rolls, the cue ball goes 35.73 degrees to the left; without friction between the
+    balls it would go 33.67 degrees to the left.
+    """
+    found = hit.collide()
+    angle, topspin, _ = hit.cut_and_spin
+    stops = hit.cut == 0.0 and topspin == 0.0
+    smooth = None if stops else deflection(angle, topspin)
+    rough = _deflection_with_friction(found)
+    # With next to no topspin the deflection is that of stun, which is larger the fuller the hit.
+    largest = largest_deflection_cut(topspin) if topspin > 1e-9 else None
+    answers = {
+        "deflection_deg": smooth,
+        "deflection_thrown_deg": rough,
+        "throw_deg": found.throw,
+        "departure_deg": _departure(found),
+        "deflection_sensitivity": None if stops else deflection_slope(angle, topspin),
+        "largest_deflection_deg": None if largest is None else deflection(largest, topspin),
+        "largest_deflection_cut_deg": largest,
+        "right_angle_cut_deg": right_angle_cut(topspin) if -2.5 <= topspin < 0.0 else None,
+        "equal_energy_cut_deg": split_roll_cut(topspin) if abs(topspin) <= 2.5 else None,
+    }
+    in_degrees = {
+        name: math.degrees(one) if one is not None and name.endswith("_deg") else one
+        for name, one in answers.items()
+    }
+    values = {
+        **in_degrees,
+        "object_energy_share": _object_share(energy_after_hit(angle, topspin)),
+        "object_energy_share_rolling": _object_share(energy_in_roll(angle, topspin)),
+    }
+    sentence = path_words(in_degrees["deflection_thrown_deg"], in_degrees["deflection_deg"], hit)
+    quantities = [*hit.asked(found, units.speed), *quantities_of(values)]
+    return Answer(hit.heading(found, units.speed), [sentence, Quantities(quantities)])
+
+
+def path_words(rough: float | None, smooth: float | None, hit: Hit) -> str:
+    """Return where the cue ball goes, in a sentence.
+
+    Parameters
+    ----------
+    rough, smooth
+        the deflection in degrees with and without friction between the balls; None where the
+        cue ball stands still.
+    hit
+        which side the object ball goes to.
+
+    >>> path_words(None, None, Hit(0.0, 0.0, 0.0, 0.0556, "limited"))
+    'The cue ball stops dead.'
+    """
+    first = f"{'Once it rolls, the' if rough is not None else 'The'} cue ball {_way(rough, hit)}"
+    if _way(rough, hit) == _way(smooth, hit):
+        return f"{first}."
+    otherwise = _way(smooth, hit, verbs=("would stop", "would go", "would come"))
+    return f"{first}; without friction between the balls it {otherwise}."
+
+
+def _way(
+    angle: float | None, hit: Hit, verbs: tuple[str, str, str] = ("stops", "goes", "comes")
+) -> str:
+    stop, go, come = verbs
+    if angle is None:
+        return f"{stop} dead"
+    amount = degrees(abs(angle))
+    straight = {"0.00": f"{go} straight on", "180.00": f"{come} straight back"}
+    side = hit.away if angle > 0.0 else hit.towards
+    return straight.get(amount, f"{go} {amount} degrees to the {side}")
+
+
+def _deflection_with_friction(found: Collision) -> float | None:
+    """Return the deflection in radians, below 0 to the side of the object ball."""
+    rim_velocity = found.ball.radius * found.cue_spin
+    ahead, left = map(float, roll_velocity(found.cue_velocity[:2], rim_velocity))
+    if math.hypot(ahead, left) < _AT_REST * found.speed:
+        return None
+    return math.atan2(-left if found.cut < 0.0 else left, ahead)
+
+
+def _departure(found: Collision) -> float | None:
+    """Return the angle between the two paths in radians; None if a ball stands still."""
+    slowest = min(math.hypot(*ball[:2]) for ball in (found.object_velocity, found.cue_velocity))
+    return None if slowest < _AT_REST * found.speed else float(found.departure)
+
+
+def _object_share(energies: EnergyShares) -> float:
+    return float(energies.object_ball / (energies.object_ball + energies.cue_ball))

@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.by_way import by_way
+from evenbreak.answers.kit.by_way import by_way, luck_words
 from evenbreak.answers.kit.columns import columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
-from evenbreak.answers.kit.simulated import luck_words
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.chains.ways import Way
 from evenbreak.files.practice import DrillLogFile

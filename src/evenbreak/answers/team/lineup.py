@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import error_of_share, luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.simulated import error_of_share, luck_words
 from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills

@@ -10,7 +10,7 @@ from evenbreak.questions.games import Breaks
 @command_of(Breaks, "breaks")
 def command(asked: Breaks) -> Answer:
     """Compare break formats."""
-    from evenbreak.answers.match.breaks import breaks_answer
+    from evenbreak.answers.match.formats import breaks_answer
 
     rack = Rack(asked.p1 or 0.0, asked.p2 or 0.0)
     first = "ab".index(asked.first_break) + 1

@@ -24,7 +24,7 @@ another match where it does not, so that every answer takes seconds."""
 @command_of(Compare, "compare")
 def command(asked: Compare) -> Answer:
     """Compare match formats for two players."""
-    from evenbreak.answers.match.compare import Compared, compare_answer
+    from evenbreak.answers.match.formats import Compared, compare_answer
 
     players = players_of(asked, 0.0)
     read = _read(asked.formats, players)

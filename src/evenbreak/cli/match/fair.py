@@ -13,7 +13,7 @@ from evenbreak.questions.match import Fair
 @command_of(Fair, "fair")
 def command(asked: Fair) -> Answer:
     """Find the fairest races."""
-    from evenbreak.answers.match.fair import fair_answer
+    from evenbreak.answers.match.odds import fair_answer
     from evenbreak.handicaps.charts.fair import fair_races
 
     players = players_of(asked, asked.form)

@@ -12,7 +12,7 @@ from evenbreak.questions.games import OneBall
 @command_of(OneBall, "oneball")
 def command(asked: OneBall) -> Answer:
     """Choose the best shot."""
-    from evenbreak.answers.match.oneball import oneball_answer
+    from evenbreak.answers.match.shot_games import oneball_answer
 
     shots = [
         practice.ShotChoice(str(number), shot[0], shot[1], shot[2:])

@@ -14,7 +14,7 @@ from evenbreak.questions.games import Straight
 @command_of(Straight, "straight")
 def command(asked: Straight) -> Answer:
     """Give the odds of a match of straight pool."""
-    from evenbreak.answers.match.straight import straight_answer
+    from evenbreak.answers.match.shot_games import straight_answer
 
     safety, averages = asked.safety, asked.averages
     shots: list[Fraction | float] = (

@@ -35,7 +35,7 @@ def command(distance: float, units: Units, **hit: Any) -> Answer:
     friction x distance x sine of the cut angle, for a cue ball that rolls without english.
     Hard shots are thrown less than soft ones: give --speed to allow for that.
     """
-    from evenbreak.answers.physics.aim import aim_answer
+    from evenbreak.answers.physics.hit import aim_answer
     from evenbreak.answers.physics.units import unit_doubts
 
     asked = hit_of(units, **hit)

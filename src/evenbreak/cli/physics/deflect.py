@@ -30,7 +30,7 @@ def command(units: Units, **hit: Any) -> Answer:
     once it rolls: 0 to 180 degrees, away from the object ball. --side, --speed, --mu and
     --friction change only the angles that allow for friction between the balls.
     """
-    from evenbreak.answers.physics.cue_ball_path import cue_ball_path_answer
+    from evenbreak.answers.physics.hit import cue_ball_path_answer
     from evenbreak.answers.physics.units import unit_doubts
 
     answer = cue_ball_path_answer(hit_of(units, **hit), units)

@@ -31,7 +31,7 @@ def command(units: Units, **hit: Any) -> Answer:
     are thrown less than soft ones: give --speed to allow for that. Without it, friction is
     --mu at any speed.
     """
-    from evenbreak.answers.physics.aim import throw_answer
+    from evenbreak.answers.physics.hit import throw_answer
     from evenbreak.answers.physics.units import unit_doubts
 
     answer = throw_answer(hit_of(units, **hit), units)

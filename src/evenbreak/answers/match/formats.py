@@ -1,16 +1,21 @@
-"""Match formats side by side: which is better for whom, and at what strength that changes."""
+"""Match formats side by side, and break formats in the long run: what is better for whom."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.by_way import by_way
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import chance, listed, percent
+from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.chains.ways import Way
+from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossing, Crossings
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.odds import MatchOdds
+from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""
@@ -59,7 +64,7 @@ def compare_answer(
     parts: list[Part] = [_advice(compared, players), _formats(compared, players, axis)]
     if len(compared) > 1:
         parts.append(_turns(names, pairs, players, _stays(axis, hold)))
-    formats = Table("", in_files(_COLUMNS), [_row(one) for one in compared])
+    formats = Table("", in_files(_COLUMNS), [_format_row(one) for one in compared])
     if players.taken_as_right:
         parts.append(players.taken_as_right)
     return Answer(
@@ -70,7 +75,7 @@ def compare_answer(
             **players.named,
             "formats": [
                 {
-                    **dict(zip(_COLUMNS, _row(one), strict=True)),
+                    **dict(zip(_COLUMNS, _format_row(one), strict=True)),
                     "format": name,
                     "even": [_point(point) for point in one.even],
                 }
@@ -94,7 +99,7 @@ def compare_answer(
 _COLUMNS = ("format", "p_win_a", "from_even", "mean_games", "games_p90", "even_p1", "even_places")
 
 
-def _row(one: Compared) -> tuple[Any, ...]:
+def _format_row(one: Compared) -> tuple[Any, ...]:
     text = str(one.format)
     return (
         # A bare 9:5 is a time of day to a spreadsheet.
@@ -118,7 +123,7 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
     rows = [
         (
             str(one.format),
-            *_row(one)[1:5],
+            *_format_row(one)[1:5],
             listed([chance(point.p1) for point in one.even]) if one.even else "none",
         )
         for one in compared
@@ -180,3 +185,101 @@ def _turn(found: Crossings, one: str, two: str) -> str:
         for better, point in zip(found.better, found.points, strict=False)
     ]
     return ", ".join([*parts, f"then {names[found.better[-1]]}"])
+
+
+USUAL = ("winner", "loser", "alternate")
+
+
+def breaks_answer(
+    rack: Rack[float],
+    *,
+    win: float = 1.0,
+    lose: float = 1.0,
+    first_breaker: int = 1,
+    via: Way | None = None,
+) -> Answer:
+    """Return the break formats, the best for player 1 first; player 1 is A.
+
+    Parameters
+    ----------
+    rack
+        the chances with the break.
+    win, lose, first_breaker, via
+        as for `compare_break_formats`.
+
+    >>> from evenbreak.games import Rack
+    >>> print(breaks_answer(Rack(0.9, 0.5), lose=2).sentences[0])
+    A does best with winner breaks, winning 83% of the racks; B does best with loser breaks, ...
+    At these stakes A comes out ahead with winner and alternate breaks and behind with loser breaks.
+    Over 100 racks with winner breaks, A comes out 50 points ahead on average, give or take 17.
+    """
+    stakes: dict[str, Any] = {"win": win, "lose": lose, "first_breaker": first_breaker}
+    values = compare_break_formats(rack, via=via, **stakes)
+    kernel = {value.name: value.share for value in compare_break_formats(rack, **stakes)}
+    usual = [value for value in values if value.name in USUAL]
+    columns = columns_of(
+        "breaks share_a points_per_rack sd_points fair_win first_break_racks memory"
+    )
+    return Answer(
+        f"The breaker wins a rack with probability {rack.p1:g} (A) or "
+        f"{rack.chance(2, breaker=2):g} (B)\nA wins {win:g} for each rack won and pays {lose:g} "
+        "for each rack lost",
+        [
+            f"{_who_gains(usual)}\n{_in_a_session(usual[0])}",
+            Table("formats", columns, [_breaks_row(value, lose) for value in values]),
+            "'Even if a win pays': what A should get for a rack won to make the stakes fair. "
+            "'First break': how many more racks A wins in a long session by breaking first.",
+            *by_way(via, ((value.share, kernel[value.name]) for value in values)),
+        ],
+        [
+            "'Spread of points': multiply it by the square root of N for the standard deviation of "
+            "A's points over N racks. 'Left after a rack': how much of the first break's effect is "
+            "left one rack later (the second eigenvalue of the chain of breakers); below 0, the "
+            "advantage changes sides."
+        ],
+    )
+
+
+def _breaks_row(value: BreakFormatValue, lose: float) -> tuple[Any, ...]:
+    fair_win = value.fair_ratio * lose
+    head_start = value.name in USUAL and math.isfinite(value.first_break)
+    return (
+        {"player 1": "a", "player 2": "b"}.get(value.name, value.name),
+        value.share,
+        value.points,
+        value.sd_points,
+        fair_win if math.isfinite(fair_win) else None,
+        value.first_break if head_start else None,
+        value.memory,
+    )
+
+
+def _who_gains(usual: Sequence[BreakFormatValue]) -> str:
+    """Return which of the usual formats suits whom, and where the stakes turn."""
+    for value in usual:
+        if math.isinf(value.first_break):
+            return f"With {value.name} breaks, the player who breaks first breaks every rack."
+    best, worst = usual[0], usual[-1]
+    if best.share - worst.share < SAME:
+        return "Winner, loser and alternate breaks are worth the same to both."
+    text = (
+        f"A does best with {best.name} breaks, winning {percent(best.share)} of the racks; B does "
+        f"best with {worst.name} breaks, winning {percent(1.0 - worst.share)}."
+    )
+    gains = [value.name for value in usual if value.points > SAME]
+    losses = [value.name for value in usual if value.points < -SAME]
+    if gains and losses:
+        text += (
+            f"\nAt these stakes A comes out ahead with {listed(gains)} breaks "
+            f"and behind with {listed(losses)} breaks."
+        )
+    return text
+
+
+def _in_a_session(best: BreakFormatValue) -> str:
+    points = round(100 * best.points)
+    ahead = f"{count_of(abs(points), 'point')} {'ahead' if points > 0 else 'behind'}"
+    return (
+        f"Over 100 racks with {best.name} breaks, A comes out {ahead if points else 'even'} on "
+        f"average, give or take {10 * best.sd_points:,.0f}."
+    )
