@@ -3,7 +3,7 @@
 import numpy as np
 
 from evenbreak.ratings.covariance import count_pairs
-from evenbreak.ratings.mixed_posterior import find_mode
+from evenbreak.ratings.posterior import find_mode
 from evenbreak.ratings.validation.walk_forward import DailyRefit
 
 RNG = np.random.default_rng(4)

@@ -7,7 +7,7 @@ from evenbreak.ratings import Levels, Results
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.fit import weights_of
 from evenbreak.ratings.likelihood_terms import likelihood_terms
-from evenbreak.ratings.mixed_posterior import WayToRate, find_mixed_mode, find_modes
+from evenbreak.ratings.posterior import WayToRate, find_mixed_mode, find_modes
 from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.stretches import SeasonSoFar
 

@@ -13,7 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.fit import BREAK_SD
 from evenbreak.ratings.likelihood_terms import likelihood_terms
-from evenbreak.ratings.mixed_posterior import find_mixed_mode
+from evenbreak.ratings.posterior import find_mixed_mode
 from evenbreak.ratings.results_frame import FORMATS
 from tiers import examples
 

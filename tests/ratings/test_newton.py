@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings.mixed_posterior import MOST_STEPS, damped, find_zero, tolerance
+from evenbreak.ratings.posterior import MOST_STEPS, damped, find_zero, tolerance
 
 
 def test_newton_steps_find_the_root_of_a_cube():

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from scipy.special import expit
 
 from evenbreak.ratings.covariance import count_pairs
-from evenbreak.ratings.mixed_posterior import find_mode
+from evenbreak.ratings.posterior import find_mode
 
 
 def two_players(won, lost):

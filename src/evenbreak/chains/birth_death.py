@@ -19,8 +19,17 @@ Numerators and denominators are multiplied separately. A running product of quot
 repeat the rounding error of one quotient n times if all are equal; a running product of the
 given numbers rounds differently at each step, so its error grows like the square root of n.
 
-References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and
-McGregor 1957.
+`LineElimination` solves for such a class by eliminating every second state. No two states at odd
+places are neighbours, so all of them are eliminated at once, in one vector operation: with d[i]
+the sum of the arcs out of state i and its leak, the arc from i - 1 to i + 1 becomes up[i - 1]
+up[i] / d[i], and likewise down the line. Half the states are left, again in a line; after log2(n)
+rounds one is: the elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic
+reduction (Hockney 1965). It works in the platform's extended precision. Where all arcs are equal,
+each round repeats the rounding errors of the round before, which in doubles would show at n =
+10,000; and arcs between states far apart are smaller than any double. Where a long double is no
+wider than a double (Windows, some ARM), lines are solved in another way (see `factorisation`).
+
+References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and McGregor 1957.
 """
 
 from __future__ import annotations
@@ -271,21 +280,6 @@ def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
     terms = np.ldexp(significand, power - power.max() + _HIGH)
     left, right = float(terms[:split].sum()), float(terms[split:].sum())
     return left / (left + right), right / (left + right)
-
-
-# Elimination for a class whose states stand in a line, every second state at a time.
-#
-# No two states at odd places are neighbours, so all of them can be eliminated at once, in one
-# vector operation: with up[i] and down[i] the arcs out of state i and d[i] their sum and its
-# leak, the arc from i - 1 to i + 1 becomes up[i - 1] up[i] / d[i], and likewise down the line.
-# Half the states are left, again in a line; after log2(n) rounds one is. This is the
-# elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic reduction (Hockney
-# 1965), and it subtracts nothing.
-#
-# It works in the platform's extended precision. Where all arcs are equal, each round repeats
-# the rounding errors of the round before, which in doubles would show at n = 10,000; and arcs
-# between states far apart are smaller than any double. Where a long double is no wider than a
-# double (Windows, some ARM), lines are solved in another way (see `factorisation`).
 
 
 if TYPE_CHECKING:

@@ -369,9 +369,6 @@ def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
     return index
 
 
-# Random paths of a chain, many at once.
-
-
 def random_paths(
     matrix: csc_array, begin: Floats, steps: int, paths: int, rng: np.random.Generator
 ) -> Ints:

@@ -9,6 +9,9 @@ side, then those from c on that have a neighbour before c separate it from the o
 places near the middle the one with the fewest such states is taken. On a square grid of n states
 the factors then have O(n log n) entries and take O(n^1.5) operations.
 
+The states of a front are eliminated together in a dense array (see `dense_elimination`); what is
+left of the front is added to the front of the first state that remains.
+
 References: George 1973, "Nested dissection of a regular finite element mesh"; George and Liu 1981,
 Computer Solution of Large Sparse Positive Definite Systems, chapters 7 and 8; Liu 1992, "The
 multifrontal method for sparse matrix solution".
@@ -179,14 +182,6 @@ def _cut(crossing: Places, begin: int, end: int) -> int | None:
     margin = max(int(_MIDDLE * size), 1)
     cut = begin + margin + int(np.argmin(crossing[begin + margin : end - margin]))
     return None if crossing[cut] > _WIDEST * size else cut
-
-
-# Elimination for one large class, in the dense fronts of a nested dissection.
-#
-# The states of a front are eliminated together in a dense array (see `dense_elimination`); what
-# is left of the front is added to the front of the first state that remains.
-#
-# References: Liu 1992, "The multifrontal method for sparse matrix solution".
 
 
 class FrontElimination:

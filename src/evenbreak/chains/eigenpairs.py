@@ -1,14 +1,29 @@
-"""Eigenpairs of a transition matrix: LAPACK (small) and ARPACK (large).
+"""Eigenpairs of a transition matrix: LAPACK (small) and ARPACK (large), and those of eigenvalue 1.
 
-The pairs of eigenvalue 1 are known (see `unit_pairs`), and a closed class of period d also has the
+The pairs of eigenvalue 1 are known (`UnitPairs`), and a closed class of period d also has the
 other d-th roots of 1. All other vectors are projected off these and made biorthogonal,
 
     L = (Y R)^-1 Y for left vectors Y and right vectors R,
 
 which exists if neither set is defective and both belong to the same eigenvalues.
 
-References: Golub and Van Loan, Matrix Computations, chapter 7, for LAPACK's QR algorithm;
-Lehoucq, Sorensen and Yang 1998 for ARPACK.
+`UnitPairs`. The structure says how often eigenvalue 1 occurs and where its vectors live: once for
+each closed class, whose right vector R is the stationary law and whose left vector L is the chance
+of ending there. Both are solved for from the arcs, by LU factors that are applied again to what is
+still missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among some states
+and D the chances of leaving them:
+
+- L v, for a start v, needs one solve for all classes: x = A^-1 v_T are visits to the transient
+  states, and L_C v = v_C + B_C x with the arcs B_C into class C. Every column of A and B together
+  sums to 0, so that residuals r put the chances off by no more than sum |r|.
+- R: a state where some steps from anywhere spend much time is cut out of each class; the others
+  solve A x = the arcs out of it. A w >= 1, checked in pairs too, proves that no entry is off by
+  more than its w times the largest residual (A is an M-matrix).
+
+Other eigenvalues may therefore lie as close to 1 as they like without mixing in.
+
+References: Golub and Van Loan, Matrix Computations, chapter 7, for LAPACK's QR algorithm; Lehoucq,
+Sorensen and Yang 1998 for ARPACK; Varga 1962, Matrix Iterative Analysis, for bounds by M-matrices.
 """
 
 from __future__ import annotations
@@ -269,26 +284,6 @@ def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     rows, columns = left.real.copy(), right.real.copy()
     rows[lower], columns[:, lower] = left[lower].imag, -right[:, lower].imag
     return Eigenpairs(values, rows, columns)
-
-
-# The eigenvectors of eigenvalue 1, and the limit that they give, with a proved bound.
-#
-# The structure says how often eigenvalue 1 occurs and where its vectors live: once for each closed
-# class, whose right vector R is the stationary law and whose left vector L is the chance of ending
-# there. Both are solved for from the arcs, by LU factors that are applied again to what is still
-# missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among some states and D
-# the chances of leaving them:
-#
-# - L v, for a start v, needs one solve for all classes: x = A^-1 v_T are visits to the transient
-#   states, and L_C v = v_C + B_C x with the arcs B_C into class C. Every column of A and B together
-#   sums to 0, so that residuals r put the chances off by no more than sum |r|.
-# - R: a state where some steps from anywhere spend much time is cut out of each class; the others
-#   solve A x = the arcs out of it. A w >= 1, checked in pairs too, proves that no entry is off by
-#   more than its w times the largest residual (A is an M-matrix).
-#
-# Other eigenvalues may therefore lie as close to 1 as they like without mixing in.
-#
-# Reference: Varga 1962, Matrix Iterative Analysis, for bounds by M-matrices.
 
 
 EPS = float(np.finfo(float).eps)

@@ -5,9 +5,21 @@ prints: 0.6 is 3/5. A state whose self-loop is listed stays with what its other 
 the arcs of every other state must sum to exactly 1.
 
 States with few arcs are eliminated. Where many arcs are left, the fractions would grow with every
-step, so what remains is solved modulo a prime (see `lifting`).
+step, so what remains is solved in another way.
 
-Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
+What remains is solved modulo the powers of a prime. With each column of I - T brought to whole
+numbers by its common denominator, A = (I - T) D, and C = A^-1 modulo a prime p, the digits y_k in
+base p of the solution of A x = b are
+
+    y_k = C r_k  mod p,   r_0 = b,   r_(k+1) = (r_k - A y_k) / p.
+
+Numerators and denominators are minors of A, and no minor of such a matrix is larger than the
+product of its diagonal; with twice the digits of that, each fraction is known. All this takes
+n^2 operations a digit on whole numbers of the machine, where elimination would take n^3 on
+fractions with thousands of digits.
+
+References: Kemeny and Snell 1960, Finite Markov Chains, chapter III; Dixon 1982, "Exact solution
+of linear equations using p-adic expansions"; Wang 1981 for the fractions.
 """
 
 from __future__ import annotations
@@ -162,22 +174,6 @@ def _dot(x: Sequence[Fraction], y: Sequence[Fraction]) -> Fraction:
 def _shown(total: Any) -> str:
     text = str(total)
     return text if len(text) <= 40 else f"1 {'+' if total > 1 else '-'} {abs(float(total - 1)):.2g}"
-
-
-# Exact solution of a dense system in whole numbers, modulo the powers of a prime.
-#
-# With each column of I - T brought to whole numbers by its common denominator, A = (I - T) D, and
-# C = A^-1 modulo a prime p, the digits y_k in base p of the solution of A x = b are
-#
-#     y_k = C r_k  mod p,   r_0 = b,   r_(k+1) = (r_k - A y_k) / p.
-#
-# Numerators and denominators are minors of A, and no minor of such a matrix is larger than the
-# product of its diagonal; with twice the digits of that, each fraction is known. All this takes
-# n^2 operations a digit on whole numbers of the machine, where elimination would take n^3 on
-# fractions with thousands of digits.
-#
-# References: Dixon 1982, "Exact solution of linear equations using p-adic expansions"; Wang 1981
-# for the fractions.
 
 
 _BITS = 24

@@ -2,16 +2,39 @@
 
 | class | method | time, memory |
 |---|---|---|
-| one state, or up to 64 | forward substitution over all of them (`triangular_solve`) | linear |
-| a line of states, if long doubles are long | cyclic reduction (`line_elimination`) | linear |
-| some hundreds of states, or dense | elimination in fronts (`front_elimination`) | cubic |
+| one state, or up to 64 | forward substitution over all of them (`TriangularSolve`) | linear |
+| a line of states, if long doubles are long | cyclic reduction (`birth_death`) | linear |
+| some hundreds of states, or dense | elimination in fronts (`dissection`) | cubic |
 | cut in two by few states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid |
 | others | iteration on aggregates, every entry proved (`certified`) | about linear |
 
 Consecutive small classes are solved together. A class that is left so rarely that twice the digits
-of a double prove nothing is eliminated without subtraction: in fronts, up to 40 million factors, or
-in decimal numbers if it is long and narrow, since doubles would repeat the same rounding error at
-each state. What would take more than that is refused.
+of a double prove nothing is eliminated without subtraction: in fronts, up to 40 million factors,
+or in decimal numbers if it is long and narrow, since doubles would repeat the same rounding error
+at each state. What would take more than that is refused.
+
+A state that is alone in its class is watched only when it moves (`TriangularSolve`): with P[i, j]
+the arc from j to i over the sum of all arcs out of j, the flow f through the states from a density
+b obeys
+
+    f[i] = b[i] + sum over j of P[i, j] f[j],
+
+upstream states first. This is a triangular system whose terms all have one sign, and the expected
+visits are f[j] over the sum of the arcs out of j. A small class of several states enters it with
+each state twice, as it is entered and as it is left, joined by the factors of
+`eliminate_together`: what enters a state moves on to states eliminated later, divided by the pivot
+it is the visits to it, and visits to a state bring visits to states eliminated earlier. So the
+whole is triangular, its size at most twice the number of states, and I - T and its transpose are
+each solved in one call.
+
+Graphs of the same size are eliminated together (`eliminate_together`): stacked into one array, the
+last axis of which counts them, each step of the elimination of Grassmann, Taksar and Heyman (1985)
+is one vector operation over the whole stack, so that no Python loop runs per graph. The arcs out
+of state k and into it are finished in its turn, from those of the states before, which touches
+memory least:
+
+    A[i, k] += sum of A[i, l] A[l, k] over l < k,   i > k,   d[k] = sum of A[i, k] over i > k,
+    A[k, j] = (A[k, j] + sum of A[k, l] A[l, j] over l < k) / d[k],   j > k.
 """
 
 from __future__ import annotations
@@ -247,23 +270,6 @@ def _runs(offsets: Places) -> list[Places]:
     return [offsets[a : b + 1] for a, b in pairwise(marks)]
 
 
-# One forward substitution through single states and small classes.
-#
-# A state that is alone in its class is watched only when it moves: with P[i, j] the arc from
-# j to i over the sum of all arcs out of j, the flow f through the states from a density b
-# obeys
-#
-#     f[i] = b[i] + sum over j of P[i, j] f[j],
-#
-# upstream states first. This is a triangular system whose terms all have one sign, and the
-# expected visits are f[j] over the sum of the arcs out of j. A small class of several states
-# enters it with each state twice, as it is entered and as it is left, joined by the factors
-# of `blocks`: what enters a state moves on to states eliminated later, divided by the pivot it is
-# the visits to it, and visits to a state bring visits to states eliminated earlier. So the whole
-# is triangular, its size at most twice the number of states, and I - T and its transpose are each
-# solved in one call.
-
-
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -398,17 +404,6 @@ def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> cs
         for ends in (rows, columns)
     ]
     return csc_array((np.concatenate((np.ones(size), -entries)), tuple(at)), shape=(size, size))
-
-
-# Elimination within many small classes, or of many chains with one graph, at once.
-#
-# Graphs of the same size are stacked into one array, the last axis of which counts them, and each
-# step of the elimination of Grassmann, Taksar and Heyman (1985) is one vector operation over the
-# whole stack, so that no Python loop runs per graph. The arcs out of state k and into it are
-# finished in its turn, from those of the states before, which touches memory least:
-#
-#     A[i, k] += sum of A[i, l] A[l, k] over l < k,   i > k,   d[k] = sum of A[i, k] over i > k,
-#     A[k, j] = (A[k, j] + sum of A[k, l] A[l, j] over l < k) / d[k],   j > k.
 
 
 def eliminate_together(A: Floats, size: int) -> Floats:

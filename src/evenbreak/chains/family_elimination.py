@@ -1,7 +1,7 @@
 """The limits of many chains with one graph: elimination of states over arrays of chances.
 
 The order of elimination depends on the graph alone. Each step is done for all chains at once,
-and free of subtraction, as for one chain (see `elimination` and `blocks`).
+and free of subtraction, as for one chain (see `elimination` and `factorisation`).
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 """

@@ -8,11 +8,34 @@ vectors the chances of ending there, so that the stochastic limit is
 
 (the source text's derivation after P5.22). This is the second route to the limit. It shares
 only the chain's arcs and structure with the eliminations of `stochastic_limit`. Every answer comes
-with a proved bound on its error (see `unit_pairs`); what cannot be proved, in chains that nearly
+with a proved bound on its error (see `eigenpairs`); what cannot be proved, in chains that nearly
 fall apart, is refused.
 
 Where the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
-symmetric matrices instead (see `reversible`): all of them, and all real.
+symmetric matrices instead: all of them, and all real.
+
+A class is reversible if some weights w > 0 balance every pair of its arcs, w_j M_ij = w_i M_ji;
+in a closed class they are the stationary law. With D = diag(sqrt(w)) the matrix
+
+    S = D^-1 M D,    S_ij = sqrt(M_ij M_ji),
+
+is symmetric, so all eigenvalues are real and there are n orthonormal eigenvectors Q, however many
+decades the law spans. M has the right vectors D Q and the left vectors Q^T D^-1. States in a line
+are always reversible, and S is then tridiagonal. The weights come from a tree of arcs that reaches
+the whole class, as products of pairs of doubles with their exponents apart; the arcs off the tree
+must agree with them (Kolmogorov's criterion).
+
+All pairs of a chain are put together from those of its classes, if it has no transient states or
+one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
+within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of
+M are
+
+    R = (D q, B D q / (lambda - 1)),    L = (q^T D^-1, 0);
+
+the pairs of eigenvalue 1 are the absorbing states and the chances of ending there.
+
+References: Kelly 1979, Reversibility and Stochastic Networks, chapter 1; Cuppen 1981 for LAPACK's
+divide and conquer (through scipy).
 """
 
 from __future__ import annotations
@@ -78,7 +101,7 @@ class Spectrum:
     limit_error
         a bound on the sum of the absolute errors of `limit`, from any start.
     orthonormal
-        shape (n, k) for a chain of reversible classes (see `reversible`), otherwise None:
+        shape (n, k) for a chain of reversible classes, otherwise None:
         the eigenvectors Q of the symmetric matrices S = D^-1 M D of the classes. In a closed
         class D holds the square roots of the stationary law.
     right
@@ -211,34 +234,6 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     values, left, right = pairs.in_complex()
     values, left, right = within_unit_disc(values[:k]), left[:k], right[:, :k]
     return Spectrum(chain, values, units, residual, ones.error, vectors, right, left)
-
-
-# Eigenvectors of reversible chains, from a symmetric matrix that is similar to M.
-#
-# A class is reversible if some weights w > 0 balance every pair of its arcs, w_j M_ij = w_i M_ji;
-# in a closed class they are the stationary law. With D = diag(sqrt(w)) the matrix
-#
-#     S = D^-1 M D,    S_ij = sqrt(M_ij M_ji),
-#
-# is symmetric, so all eigenvalues are real and there are n orthonormal eigenvectors Q, however
-# many decades the law spans. M has the right vectors D Q and the left vectors Q^T D^-1. States in
-# a line are always reversible, and S is then tridiagonal.
-#
-# The weights come from a tree of arcs that reaches the whole class, as products of pairs of
-# doubles with their exponents apart; the arcs off the tree must agree with them (Kolmogorov's
-# criterion).
-#
-# All pairs of a chain are put together from those of its classes, if it has no transient states or
-# one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
-# within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of
-# M are
-#
-#     R = (D q, B D q / (lambda - 1)),    L = (q^T D^-1, 0);
-#
-# the pairs of eigenvalue 1 are the absorbing states and the chances of ending there.
-#
-# References: Kelly 1979, Reversibility and Stochastic Networks, chapter 1; Cuppen 1981 for
-# LAPACK's divide and conquer (through scipy).
 
 
 ALL_REVERSIBLE = 2000

@@ -1,4 +1,4 @@
-"""The stationary law of every closed class: the density on it that M leaves unchanged.
+"""The stationary law of every closed class, and the mean times between its states.
 
 Cut one state c out of the class. With T the arcs among the others, which are all left in the
 end, and b the arcs out of c,
@@ -9,7 +9,40 @@ x is the expected number of visits to the others between two visits to c. The so
 subtraction (see `transient`). Where the whole chain is one small or dense class, c is the state
 that is eliminated last: with L U = I - T of the whole class, the law is the last column of U^-1.
 
-References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
+The mean time m_j from j to a target solves, over the states that are certain to reach it and with
+w_j = 1 the time that a step from j takes,
+
+    m_j = w_j + sum_i T[i, j] m_i.
+
+The targets of a closed class are all solved for at once, by halves. Let A be one half of the
+states and B the other, P = T_BA (I - T_AA)^-1 the chances of where the chain enters B from each
+state of A, and h = (I - T_AA)^-T w_A the mean times until it does. Watched only while it is in
+B, the chain has the arcs and times
+
+    T_BB + P T_AB,   w_B + T_AB^T h,
+
+from which its means to all targets in B follow in the same way. From a state of A they are
+m_A = h + P^T m_B, and the targets in A follow with A and B exchanged. Nothing is subtracted:
+I - T_AA is factored as in `dense_elimination`, and the rest adds up products of positive numbers.
+Each level of halving costs a quarter of the one before: 1.1 n^3 multiplications and as many
+additions in all, about as many as it takes to invert a matrix. Each state's arcs and its time are
+multiplied by a number at random, which changes no mean: otherwise hundreds of states alike would
+all round in the same direction.
+
+A transient state t is certain to be reached from j if and only if every path from j into a
+closed class passes through t: t dominates j. What the chain does after t does not matter. So the
+states that a state r dominates, if no other dominates r, make a closed class with it once r has
+arcs to all of them: before they reach a target other than r, they do not meet r.
+
+Underflow takes at most 2^-1074 away from an arc. As a step takes a time of 1 or more, the visits
+to all states before the target come to m_j or fewer, so that m_j loses no more than n 2^-1074
+max m of itself: nothing that shows, unless a mean comes close to the largest float. Then the
+target is solved for alone (see `transient`).
+
+References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Kemeny and Snell 1960, Finite
+Markov Chains, sections 4.4 and 4.5; Meyer 1989, "Stochastic complementation, uncoupling Markov
+chains, and the theory of nearly reducible systems"; Allen and Cocke 1972, "Graph theoretic
+constructs for program control flow analysis", for the search for dominators.
 """
 
 from __future__ import annotations
@@ -150,47 +183,6 @@ def _law_of(arcs: Arcs) -> Floats:
         return decimal_law(arcs)
     order, walk = line
     return put_back(birth_death_law(walk.up, walk.down), order)
-
-
-# Mean first-passage times between all states, and Kemeny's constant.
-#
-# With w_j = 1 the time that a step from j takes, the mean time m_j from j to a target solves, over
-# the states that are certain to reach it,
-#
-#     m_j = w_j + sum_i T[i, j] m_i.
-#
-# The targets of a closed class are all solved for at once, by halves. Let A be one half of the
-# states and B the other, P = T_BA (I - T_AA)^-1 the chances of where the chain enters B from each
-# state of A, and h = (I - T_AA)^-T w_A the mean times until it does. Watched only while it is in
-# B, the chain has the arcs and times
-#
-#     T_BB + P T_AB,   w_B + T_AB^T h,
-#
-# from which its means to all targets in B follow in the same way. From a state of A they are
-#
-#     m_A = h + P^T m_B,
-#
-# and the targets in A follow with A and B exchanged. Nothing is subtracted: I - T_AA is factored
-# as in `dense_elimination`, and the rest adds up products of positive numbers. Each level of
-# halving costs a quarter of the one before: 1.1 n^3 multiplications and as many additions in all,
-# about as many as it takes to invert a matrix. Each state's arcs and its time are multiplied by a
-# number at random, which changes no mean: otherwise hundreds of states alike would all round in
-# the same direction.
-#
-# A transient state t is certain to be reached from j if and only if every path from j into a
-# closed class passes through t: t dominates j. What the chain does after t does not matter. So the
-# states that a state r dominates, if no other dominates r, make a closed class with it once r has
-# arcs to all of them: before they reach a target other than r, they do not meet r.
-#
-# Underflow takes at most 2^-1074 away from an arc. As a step takes a time of 1 or more, the visits
-# to all states before the target come to m_j or fewer, so that m_j loses no more than n 2^-1074
-# max m of itself: nothing that shows, unless a mean comes close to the largest float. Then the
-# target is solved for alone (see `transient`).
-#
-# References: Kemeny and Snell 1960, Finite Markov Chains, sections 4.4 and 4.5; Meyer 1989,
-# "Stochastic complementation, uncoupling Markov chains, and the theory of nearly reducible
-# systems"; Allen and Cocke 1972, "Graph theoretic constructs for program control flow analysis",
-# for the search for dominators.
 
 
 MOST_STATES = 4000

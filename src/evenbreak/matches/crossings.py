@@ -3,6 +3,11 @@
 If the break does not matter, both questions ask for the zeros of a polynomial with whole
 coefficients, which are counted exactly, so none is missed. If it does, the log-odds of the
 two matches are compared on a fine grid, and every change of sign is refined.
+
+By Descartes' rule, the changes of sign in the coefficients of p^k q^(N-k) bound the number of
+zeros for 0 < p < 1; with no change there is none, with one change there is one. With more changes
+the interval is halved and the form rewritten for each half (Vincent; Collins & Akritas 1976). All
+of it is done in whole numbers, so rounding neither makes a zero nor loses one.
 """
 
 from __future__ import annotations
@@ -270,14 +275,6 @@ def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[
         float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14)) for i in turns
     ]
     return roots, [int(signs[0]), *signs[turns + 1].tolist()]
-
-
-# Every zero of a form with whole coefficients for 0 < p < 1.
-#
-# By Descartes' rule, the changes of sign in the coefficients of p^k q^(N-k) bound the number of
-# zeros; with no change there is none, with one change there is one. With more changes the
-# interval is halved and the form rewritten for each half (Vincent; Collins & Akritas 1976). All
-# of it is done in whole numbers, so rounding neither makes a zero nor loses one.
 
 
 _FINEST = 48

@@ -2,6 +2,11 @@
 
 Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
 its states at once: a rack leads from each state to one of two, depending on who wins it.
+
+All scores i : k - i of a race that are possible after k racks lie on an antidiagonal of the score
+table. Its probabilities, one row for each breaker, move to the next antidiagonal by two products
+with a slice: a rack that player 1 wins shifts the row by one, a rack that player 2 wins leaves it
+in place.
 """
 
 from __future__ import annotations
@@ -94,14 +99,6 @@ def _followed(match: Match, enough: Floats, most: float) -> Floats:
         mass = moved[:alive]
         wins.append(moved[alive:].copy())
     return np.array(wins)
-
-
-# Who wins a race in any break format, and after how many racks, for arrays of probabilities.
-#
-# All scores i : k - i that are possible after k racks lie on an antidiagonal of the score
-# table. Its probabilities, one row for each breaker, move to the next antidiagonal by two
-# products with a slice: a rack that player 1 wins shifts the row by one, a rack that player 2
-# wins leaves it in place.
 
 
 # Parameters are taken in blocks small enough for the processor's cache.

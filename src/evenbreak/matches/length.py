@@ -1,4 +1,4 @@
-"""How long a match takes, in racks."""
+"""How long a match takes in racks; and who wins any game, of any number of players, and when."""
 
 from __future__ import annotations
 
@@ -173,9 +173,6 @@ def _unless_endless(value: Any, never: Any, shape: tuple[int, ...]) -> Any:
     return in_shape(np.where(np.asarray(never) > 0.0, np.nan, value), shape)
 
 
-# The distribution of the length of a match.
-
-
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
 
@@ -271,9 +268,6 @@ class MatchLength(Generic[ChanceT, MeanT]):
         if chances.ndim == 1:
             return int(at) if found else None
         return at if found.all() else np.where(found, at, np.nan)
-
-
-# Who wins a game and when, for any game and any number of players.
 
 
 _LONGEST = 100_000

@@ -1,4 +1,14 @@
-"""How long a match takes in minutes: a mixture of lognormals over its number of games."""
+"""How long a match takes in minutes, and when those of a table or of a whole evening end.
+
+The minutes of a match are a mixture of lognormals over its number of games. For several matches,
+times are put on a grid of steps h so that the mean is kept: what lies between two points goes to
+both of them in proportion. With L(x) the mean of a time cut off at x, the point x receives
+
+    (2 L(x) - L(x - h) - L(x + h)) / h.
+
+What is at the points up to x has then ended half a step after x. Sums are convolutions, done by
+the fast Fourier transform.
+"""
 
 from __future__ import annotations
 
@@ -124,17 +134,6 @@ def between(low: Any, high: Any, reached: Callable[[Any], Any]) -> Any:
         holds = reached(middle)
         low, high = np.where(holds, low, middle), np.where(holds, middle, high)
     return high
-
-
-# When the matches of a table end, and when matches that all begin at once do, on a usual evening.
-#
-# Times are put on a grid of steps h so that the mean is kept: what lies between two points goes to
-# both of them in proportion. With L(x) the mean of a time cut off at x, the point x receives
-#
-#     (2 L(x) - L(x - h) - L(x + h)) / h.
-#
-# What is at the points up to x has then ended half a step after x. Sums are convolutions, done by
-# the fast Fourier transform.
 
 
 _STEPS_PER_SD = 500

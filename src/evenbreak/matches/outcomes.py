@@ -1,4 +1,4 @@
-"""The outcomes of a match, from the outcomes of its racks or sets.
+"""The outcomes of a match, from those of its racks or sets, and the chance of a shutout.
 
 The outcome of a unit (a rack or a set) is (winner, next breaker), with its probability and the
 mean and standard deviation of the number of racks it takes, given who breaks first in it. The
@@ -8,6 +8,10 @@ treated alike.
 
 A mean may be as long as 1e300 racks, whose square is too large for a float, so squares are
 taken in units of the longest mean.
+
+The chain of the scores is solved by elimination of states. Only positive numbers are added,
+multiplied and divided (see `evenbreak.chains.elimination`), so every answer keeps its relative
+accuracy however long play goes on. All its values may be floats, arrays of one shape, or fractions.
 """
 
 from __future__ import annotations
@@ -256,13 +260,6 @@ def _with_length(
     return Outcome(reach[start], mean[start], unit * ratio(spread, reach[start]) ** 0.5)
 
 
-# The Markov chain of a match's scores, solved by elimination of states.
-#
-# Only positive numbers are added, multiplied and divided (see `evenbreak.chains.elimination`), so
-# every answer keeps its relative accuracy however long play goes on. All values may be floats,
-# arrays of one shape, or fractions.
-
-
 NEVER = "never"
 """The final state that stands for play that never ends."""
 
@@ -362,9 +359,6 @@ def _truth(answer: Any) -> Any:
     if isinstance(answer, bool):
         return answer
     return True if answer.all() else answer if answer.any() else False
-
-
-# The chance of a shutout: one player wins every rack (or set) still played.
 
 
 @overload

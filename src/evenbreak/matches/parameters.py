@@ -1,4 +1,4 @@
-"""The probabilities inside a match: plain numbers or arrays.
+"""The probabilities inside a match, plain numbers or arrays, and how a game of your own ends.
 
 Numpy is loaded only for arrays, because the scalar kernels use this module too.
 """
@@ -88,9 +88,6 @@ def in_shape(value: Any, shape: tuple[int, ...]) -> Any:
     import numpy as np
 
     return np.array(np.broadcast_to(value, shape), dtype=float)
-
-
-# How a game of anybody's own ends: its final states by winner, and its chances as a rack.
 
 
 _CERTAIN = 1e-9

@@ -1,4 +1,4 @@
-"""Within how many racks a match ends with a given probability, from any of its states.
+"""A match rack by rack: its states, and within how many racks it ends from any of them.
 
 P(the match is still going on after k + 1 racks), given the state now, is the mean of P(it is
 still going on after k racks) over the states that the next rack leads to. Short matches are
@@ -135,9 +135,6 @@ def _least_racks(powers: list[Any], density: Any, q: float) -> int:
         if then < q * (1.0 - TIE):
             racks, ended, density = racks + 2**j, then, density @ stay
     return racks + 1
-
-
-# The states of a match, and the two to which the next rack can lead from each of them.
 
 
 RackMoves = dict[Any, tuple[tuple[Any, Any], tuple[Any, Any]]]

@@ -221,9 +221,6 @@ def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> 
         )
 
 
-# The spot in straight pool: how many points the weaker player should need for an even match.
-
-
 _EVEN = (0.4, 0.6)
 """A match in which a player wins with a chance from .4 to .6 is called even."""
 

@@ -1,6 +1,12 @@
-"""The chance of winning as a formula, with sympy.
+"""The chance of winning as a formula, with sympy, and as polynomials in p and q = 1 - p.
 
-It needs sympy, which the extra `symbolic` installs.
+The formula needs sympy, which the extra `symbolic` installs.
+
+Where the break does not matter, a form of degree N is the list of coefficients c[k] of p^k q^(N-k),
+whole numbers. Every match has two forms without negative coefficients, F1 and F2, and W(p) = F1 /
+(F1 + F2). For a race they are sums over its scores, for an n-ahead match those of the gambler's
+ruin, and a match of sets has the forms of the set in place of p and q. Questions about W become
+questions about the signs of whole numbers.
 """
 
 from __future__ import annotations
@@ -158,15 +164,6 @@ def _quotient(match: Match, player: int) -> Any:
 
 def _symbols_of(match: Match) -> str:
     return "p1 p2" if match.break_matters else "p"
-
-
-# The chance of winning as polynomials in p and q = 1 - p, if the break does not matter.
-#
-# A form of degree N is the list of coefficients c[k] of p^k q^(N-k), whole numbers. Every match
-# has two forms without negative coefficients, F1 and F2, and W(p) = F1 / (F1 + F2). For a race
-# they are sums over its scores, for an n-ahead match those of the gambler's ruin, and a match of
-# sets has the forms of the set in place of p and q. Questions about W become questions about the
-# signs of whole numbers.
 
 
 Form = list[int]

@@ -1,7 +1,11 @@
-"""A shot that allows for throw: aimed so that the object ball goes where it should (P4.6).
+"""A shot that allows for throw: aimed so that the object ball goes to a point or a pocket (P4.6).
 
 The throw depends on the spin with which the cue ball arrives, the spin on how far the cue ball
 travels, and that on where it is aimed. So the cut is found for the shot as a whole.
+
+At a pocket the aim is the middle of its mouth, or one side of it if a cushion is in the way. A ball
+at a cushion cannot be sent at the middle of the mouth of a corner pocket, since the cue ball would
+have to be inside the cushion; along the cushion it drops all the same.
 """
 
 from __future__ import annotations
@@ -189,12 +193,6 @@ def _between(first: Floats, second: Floats) -> float:
     """Return the angle from one vector to another, counterclockwise, in radians."""
     across = float(first[0] * second[1] - first[1] * second[0])
     return math.atan2(across, float(first @ second))
-
-
-# A shot at a pocket: at the middle of its mouth, or to one side if a cushion is in the way.
-#
-# A ball at a cushion cannot be sent at the middle of the mouth of a corner pocket, since the cue
-# ball would have to be inside the cushion; along the cushion it drops all the same.
 
 
 _STEPS = 8

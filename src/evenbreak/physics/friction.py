@@ -1,4 +1,12 @@
-"""Friction: how to measure it, and how it slows a sliding block (section 1)."""
+"""Friction: how to measure it, how it slows a sliding block, and what it is between two balls.
+
+Section 1 of the source text takes a number for two balls, which its throw test measures (P1.6).
+Measured at several speeds, the friction falls as the balls slip faster on each other:
+
+    mu(v) = a + b exp(-c v)
+
+A hit keeps the friction of the slip with which it begins.
+"""
 
 from __future__ import annotations
 
@@ -253,16 +261,6 @@ def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Float
     together(**found)
     speed, friction, gravity, last = found.values()
     return speed, friction * gravity, last
-
-
-# The friction between two balls: a number, or a curve that falls with the speed of the slip.
-#
-# The source text takes a number, which its throw test measures (P1.6). Measured at several speeds,
-# the friction falls as the balls slip faster on each other:
-#
-#     mu(v) = a + b exp(-c v)
-#
-# A hit keeps the friction of the slip with which it begins.
 
 
 BALL_FRICTION = 4.0 / 72.0

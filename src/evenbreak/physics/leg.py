@@ -1,6 +1,11 @@
 """The path of one ball, from its start until it stops, hits something or drops into a pocket.
 
 It slides and then rolls, as described in `slide`; here the path has an end and a clock.
+
+A pocket is a straight mouth between the noses of two cushions, across the corner or along the side,
+that a ball fits through or not. A corner of the table is (0, 0); x runs along it from the head
+cushion to the foot cushion, and y to the left of that. The source text has no pockets; the mouths
+here are 4 1/2 inches at the corners and 5 inches at the sides, the tightest in common use.
 """
 
 from __future__ import annotations
@@ -277,14 +282,6 @@ def _arc(along: float, beside: float) -> float:
     if beside < 1e-100:  # along / beside may overflow
         return 0.5 * along * abs(along)
     return 0.5 * (along * math.hypot(along, beside) + beside**2 * math.asinh(along / beside))
-
-
-# The six pockets of a table, as gaps between the cushions that a ball fits through or not.
-#
-# A corner of the table is (0, 0); x runs along it from the head cushion to the foot cushion, and y
-# to the left of that. A pocket is a straight mouth between the noses of two cushions: across the
-# corner, or along the side. The source text has no pockets; the mouths here are 4 1/2 inches at
-# the corners and 5 inches at the sides, the tightest in common use.
 
 
 CORNER_MOUTH = 4.5 * INCH

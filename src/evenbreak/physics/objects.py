@@ -1,4 +1,4 @@
-"""The equipment: ball, cloth, table and cue."""
+"""The equipment: ball, cloth, table, cue; the sizes and weights that are allowed (P1.1 to P1.3)."""
 
 from __future__ import annotations
 
@@ -177,9 +177,6 @@ def _positive(thing: object, name: str, wanted: str) -> None:
     wanted = f"a number from {LEAST:g} to {LARGEST:g} ({wanted})"
     found = number(getattr(thing, name), name, low=LEAST, high=LARGEST, wanted=wanted)
     object.__setattr__(thing, name, found)
-
-
-# The sizes and weights of balls that the rules allow (section 1, P1.1 to P1.3).
 
 
 class BallSet(NamedTuple):

@@ -1,4 +1,4 @@
-"""The energy of a rolling ball, other shapes, and spin without speed (section 2, P2.4 to P2.6).
+"""Rolling balls: table speed (P1.5), energy, other shapes, and spin without speed (P2.4 to P2.6).
 
 A round body with inertia k M R^2 that rolls without slipping has (1 + k) times the energy of its
 motion; k = 2/5 for a ball. On a slope it accelerates as if only 1 / (1 + k) of the pull acted,
@@ -182,9 +182,6 @@ def spin_stop(rim_speed: Any, cloth: Cloth) -> SpinStop:
         speed**2 / (2.0 * resistance),
     )
     return SpinStop(*map(plain, parts))
-
-
-# Table speed: how far a ball rolls (section 1, P1.5).
 
 
 TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(

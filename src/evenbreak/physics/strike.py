@@ -1,4 +1,4 @@
-"""What the tip gives the cue ball, on or off centre (section 3, P3.4 to P3.10 and P1.7).
+"""What the tip gives the cue ball, on or off centre (section 3), and the best cue to break with.
 
 The cue is level and moves freely while the tip touches the ball, and the hit loses no energy.
 With b the distance of the tip from the centre in units of R, the ball gets
@@ -179,12 +179,6 @@ def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats
             "together are 1 at most"
         )
     return up, right
-
-
-# A cue ball struck in the centre (section 3, P3.1 to P3.3).
-#
-# The speed and energy that the cue gives to the ball, and the best cue to break with. The cue is
-# level and moves freely while the tip touches the ball, and the hit is elastic.
 
 
 class CentreHit(NamedTuple):

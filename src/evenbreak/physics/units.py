@@ -1,4 +1,4 @@
-"""The units that players use, in SI units.
+"""The units that players use, in SI units, and checks of numbers in them.
 
 Multiply to convert to SI, divide to convert back: `9 * INCH` is in metres, `length / INCH` in
 inches.
@@ -34,9 +34,6 @@ DEGREE = math.pi / 180.0
 
 GRAVITY = 386.0 * INCH
 """The acceleration of gravity in m/s^2: 386 in/s^2 = 9.8044 m/s^2, the value of the source text."""
-
-
-# Checks of numbers and arrays: numbers too large to calculate with are refused.
 
 
 LARGEST = 1e50

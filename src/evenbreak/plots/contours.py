@@ -1,4 +1,4 @@
-"""Contour lines over the unit square: the value of a pair of probabilities (p1, p2)."""
+"""Contour lines over the unit square: a break format or a shot, by a pair of chances (p1, p2)."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -126,9 +126,6 @@ def _level(level: Any) -> str:
     return f"{level:.4g}".replace("-", "\N{MINUS SIGN}")
 
 
-# Contour plots of what a break format is worth, with two players as a dot.
-
-
 _X = "$p_1$ = P(A wins | A breaks)"
 _Y = "$p_2$ = P(B wins | B breaks)"
 _DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
@@ -222,9 +219,6 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
         f"The dot: A wins {p1:g} of the racks A breaks, B wins {p2:g} of the racks B breaks",
     )
     return figure
-
-
-# Shots of the one-ball game on a contour plot of the chance of winning.
 
 
 _TITLES = {

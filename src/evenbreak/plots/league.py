@@ -1,4 +1,4 @@
-"""Pictures of simulated seasons: ratings by week, wins by gap of skill, spread of the standings."""
+"""Pictures of seasons, simulated and played: ratings, standings, sandbagging, calibration."""
 
 import math
 from collections.abc import Sequence
@@ -156,9 +156,6 @@ def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Pict
     return figure if ax is None else ax
 
 
-# Pictures of sandbagging: what it pays, and the evidence for it.
-
-
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""
 
@@ -257,9 +254,6 @@ def watch_figure(
 def _curve(one: Watched) -> tuple[range, list[float]]:
     values = [1.0, *(math.exp(min(max(value, -300.0), 300.0)) for value in one.log_e)]
     return range(len(values)), values
-
-
-# A picture of a validated season: the chances given, and how often favourites won.
 
 
 @overload

@@ -1,4 +1,4 @@
-"""Match formats in one picture: the chance of winning against p, and where the curves cross."""
+"""Pictures of matches: the chance to win by p and format, and how it moved in a match so far."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, overload
@@ -121,9 +121,6 @@ def plot_formats(
     axes.legend(frameon=False, loc="best")
     take_names_as_they_are(axes)
     return figure if ax is None else ax
-
-
-# A match so far as a picture: how likely each player was to win, rack after rack.
 
 
 _MOST_SCORES = 24

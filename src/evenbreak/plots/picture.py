@@ -1,4 +1,7 @@
-"""Figures as pictures: the same bytes for everybody, and what a notebook shows."""
+"""Figures as pictures: one look, the same bytes for everybody, and what a notebook shows.
+
+The look is readable in black and white and for the colour-blind.
+"""
 
 from __future__ import annotations
 
@@ -93,9 +96,6 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
     with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
         whole.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
     return small_svg(out.getvalue().decode()).encode() if kind == "svg" else out.getvalue()
-
-
-# One style for all plots: readable in black and white and for the colour-blind.
 
 
 class LineStyle(NamedTuple):
@@ -251,9 +251,6 @@ def take_names_as_they_are(axes: Axes) -> None:
         text.set_parse_math(False)
 
 
-# An SVG in fewer bytes: what matplotlib writes beyond what can be seen, taken out.
-
-
 _DECIMAL = re.compile(r"-?\d+\.\d+")
 _PLACES = re.compile(r'( (?:d|x|y|points)="|translate\()([^")]*)')
 _SHAPE = re.compile(r'<path id="([\w.-]+)" d="[^"]*" (style="[^"]*")')
@@ -284,9 +281,6 @@ def small_svg(svg: str) -> str:
 
 def _rounded(number: re.Match[str]) -> str:
     return f"{round(float(number[0]), 1) + 0.0:.1f}".removesuffix(".0")
-
-
-# Dots with names beside them, on a plot of pairs of probabilities.
 
 
 def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:

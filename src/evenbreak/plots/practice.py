@@ -1,4 +1,4 @@
-"""Plots of practice scores: one list over time, or two side by side."""
+"""Plots of practice: scores over time, runs with their mean, median and mode, and drills."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -193,9 +193,6 @@ def _strip(
     axes.annotate(f"{mean:.2f}", (beside, mean), (9, -3), textcoords="offset points")
 
 
-# Pictures of a score, with its mean, median and mode, and of the spot in straight pool.
-
-
 _SHOWN = (0.001, 0.995)
 """The quantiles between which scores are drawn."""
 
@@ -329,9 +326,6 @@ def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
     axes.margins(x=0.02)
     axes.legend(frameon=False)
     return figure if ax is None else ax
-
-
-# Plots of a drill: the attempts at each level, in the long run and in a log.
 
 
 _LEVEL = "level"

@@ -1,4 +1,4 @@
-"""The circles, arcs and loops of a game diagram, and labels that stay clear of them."""
+"""A game diagram's strokes: circles, arcs, loops, clear labels, and where the nodes go."""
 
 from __future__ import annotations
 
@@ -311,9 +311,6 @@ class Pen:
             ncols=max(1, int(width / 1.6)),
             frameon=False,
         )
-
-
-# Where the nodes of a game diagram go: on a line, on a grid of scores, or in layers.
 
 
 Positions: TypeAlias = Mapping[Any, tuple[float, float]]

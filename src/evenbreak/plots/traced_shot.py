@@ -1,4 +1,4 @@
-"""A traced shot drawn from above on its table, with the hit enlarged."""
+"""A traced shot drawn from above on its table, with the hit enlarged, in inches."""
 
 from typing import Any
 
@@ -174,9 +174,6 @@ def _line(axes: Axes, start: Any, end: Any, **style: Any) -> None:
 def _frame(axes: Axes) -> Any:
     frame: dict[str, Any] = {"fc": "none", "ec": "0.5", "lw": 0.8, "transform": axes.transAxes}
     return Rectangle((0.0, 0.0), 1.0, 1.0, **frame, clip_on=False)
-
-
-# A pool table from above: cushions, pockets and diamonds, in inches.
 
 
 _RAIL = 5.0

@@ -288,9 +288,6 @@ def _value(
     )
 
 
-# Endless play as two states (who breaks), and who wins the rack in each of them.
-
-
 class Breakers(NamedTuple):
     """The two states of endless play (who breaks the rack), for arrays of probabilities.
 

@@ -1,4 +1,18 @@
-"""Progressive drills: where a player settles, and which level is worth practising."""
+"""Progressive drills: where a player settles, and what each level is worth practising.
+
+The levels of a drill are in a line, so between two levels that communicate as many attempts go
+up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
+quotients. The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the
+total lead over the long-run mean, summed over all time, of a player who is now at level i:
+
+    q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
+    d mean / d p[i] = law[i] (D[i - 1] + D[i]).
+
+The climbs are solved from the top for levels above the mean, from the bottom for those below:
+then all terms are positive and no digits are lost.
+
+References: Schweitzer 1968; Karlin and McGregor 1957.
+"""
 
 from __future__ import annotations
 
@@ -89,21 +103,6 @@ def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics
         tuple(level_lifts(success).tolist()),
         limit.period,
     )
-
-
-# Where progressive drills settle and what each level is worth, for many drills at once.
-#
-# The levels of a drill are in a line, so between two levels that communicate as many attempts go
-# up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
-# quotients. The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the
-# total lead over the long-run mean, summed over all time, of a player who is now at level i:
-#
-#     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
-#     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
-#
-# The climbs are solved from the top for levels above the mean, from the bottom for those below:
-# then all terms are positive and no digits are lost. References: Schweitzer 1968; Karlin and
-# McGregor 1957.
 
 
 MORE = 0.05

@@ -6,6 +6,15 @@ fractions of attempts at each level and the chances estimated from the same log 
 agree, since a session that keeps to the rule crosses between two levels upwards as often as
 downwards, give or take once. And in short sessions even chances without memory seem, on
 average, to have one (Miller & Sanjurjo 2018).
+
+One of the models tested has a single shot chance p for a whole drill: level i takes i - 1 good
+shots. With s_i successes and f_i misses at level i, and p_i = p^(i - 1),
+
+    log L(p) = sum over i >= 2 of  s_i (i - 1) log p + f_i log(1 - p^(i - 1)).
+
+In x = -log p the slope, sum of (i - 1) (f_i / (exp((i - 1) x) - 1) - s_i), decreases
+throughout, so there is one maximum, found by bisection. Level 1 is ignored: there the model is
+p^0 = 1 for any p.
 """
 
 from __future__ import annotations
@@ -156,9 +165,6 @@ def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
     return PlayedAgainTest(float(seen), float(by_chance.mean()), p_value, error)
 
 
-# Simulated drill logs: what a log looks like if nothing but the chances decides.
-
-
 _AT_ONCE = 500_000
 """The most stretches simulated side by side, so that memory stays small."""
 
@@ -224,17 +230,6 @@ def _played(
         level = np.clip(level + np.where(won, 1, -1), 0, n - 1)
         before = np.where(won, AFTER_SUCCESS, AFTER_MISS)
     return counts.reshape(replicas, n, 3, 2)
-
-
-# A single shot chance p for a whole drill: the model in which level i takes i - 1 good shots.
-#
-# With s_i successes and f_i misses at level i, and p_i = p^(i - 1),
-#
-#     log L(p) = sum over i >= 2 of  s_i (i - 1) log p + f_i log(1 - p^(i - 1)).
-#
-# In x = -log p the slope, sum of (i - 1) (f_i / (exp((i - 1) x) - 1) - s_i), decreases
-# throughout, so there is one maximum, found by bisection. Level 1 is ignored: there the model is
-# p^0 = 1 for any p.
 
 
 _LOG_X = (-40.0, 8.0)

@@ -1,7 +1,15 @@
-"""Where ratings begin: what is known of players from results that are not in the file.
+"""Where players are expected to be before any result of a file.
 
-A rating r with the standard error s, made with a prior N(m, σ²), says about the skill θ what
-results with the information
+The skill of player i, in natural log-odds, has the prior
+
+    θi = mi + Zi b + ei,    ei ~ N(0, σ²),    bk ~ N(0, sk²),
+
+with a known mean m, and levels b, one for each team or division, which are estimated with the
+skills. A row of Z says which levels a player belongs to. Integrating b out would leave players
+of one team correlated; kept as unknowns, levels are only further nodes of the graph of play.
+
+Earlier results may be known too. A rating r with the standard error s, made with a prior N(m, σ²),
+says about the skill θ what results with the information
 
     J = 1/s² - 1/σ²    and    Jx = r/s² - m/σ²
 
@@ -198,17 +206,6 @@ class Beginning:
         place = {name: k for k, name in enumerate(self.players)}
         at = [place.get(name, -1) for name in players]
         return np.append(values, 0.0)[at]
-
-
-# Where players are expected to be before any result: the mean of the prior.
-#
-# The skill of player i, in natural log-odds, is
-#
-#     θi = mi + Zi b + ei,    ei ~ N(0, σ²),    bk ~ N(0, sk²),
-#
-# with a known mean m, and levels b, one for each team or division, which are estimated with the
-# skills. A row of Z says which levels a player belongs to. Integrating b out would leave players
-# of one team correlated; kept as unknowns, levels are only further nodes of the graph of play.
 
 
 @dataclass(frozen=True, eq=False)

@@ -274,9 +274,6 @@ def sums_by_player(
     return sums(low, for_low, players) + sums(high, also, players)
 
 
-# Who won how many games, and who played whom how often: all that the plain model needs.
-
-
 @dataclass(frozen=True, eq=False)
 class PairCounts:
     """Games won and lost by each player, and games played by each pair.

@@ -19,7 +19,7 @@ from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
-from evenbreak.ratings.mixed_posterior import find_mixed_mode, find_mode
+from evenbreak.ratings.posterior import find_mixed_mode, find_mode
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 

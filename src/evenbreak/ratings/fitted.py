@@ -1,4 +1,9 @@
-"""Ratings as a fit returns them, with their uncertainty."""
+"""Ratings as a fit returns them, with their uncertainty and what each is made of.
+
+In the normal approximation a skill is the mean of what each source says, weighted by precision:
+1/s² for the rating is that of the prior, plus J of the rating brought along (see
+`evenbreak.ratings.beginning`), plus that of the results, which is what is left.
+"""
 
 from __future__ import annotations
 
@@ -429,13 +434,6 @@ class Ratings:
         if player not in self.players:
             raise InputError(f"player {player!r} is not rated; write the name as the results do")
         return self.players.index(player)
-
-
-# What a rating is made of: what was assumed before, the rating brought along, and the results.
-#
-# In the normal approximation a skill is the mean of what each source says, weighted by precision:
-# 1/s² for the rating is that of the prior, plus J of the rating brought along (see
-# `evenbreak.ratings.beginning`), plus that of the results, which is what is left.
 
 
 LEAST = 1e-3

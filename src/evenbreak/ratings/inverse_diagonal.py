@@ -1,13 +1,29 @@
-"""The diagonal of the inverse of a sparse symmetric positive definite matrix, exactly.
+"""The diagonal of the inverse of a sparse symmetric positive definite matrix.
 
-Selected inversion: eliminate block by block, then come back. With the pivots of a block
-first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complement S = F22 - G F21ᵀ,
+Selected inversion finds it exactly: eliminate block by block, then come back. With the pivots of a
+block first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complement S = F22 - G F21ᵀ,
 
     H⁻¹ = [F11⁻¹ + Gᵀ S⁻¹ G    -Gᵀ S⁻¹;   -S⁻¹ G    S⁻¹]
 
 and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fagan & Chen
 1973; Erisman & Tinney 1975). The blocks are the dense fronts of the multifrontal method
 (Duff & Reid 1983). A matrix that fills in altogether is one front.
+
+Where no elimination order keeps a league's Hessian sparse, the diagonal is found nearly. All rows
+of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with a weak prior, its
+largest by far. It is put aside exactly: with u the vector of ones,
+
+    diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn)
+
+and, scaled to a unit diagonal by S, what is left is I - W with the spectral radius ρ of W
+small in a league where everybody may meet everybody. Eliminating all others but i,
+
+    ((I - W)⁻¹)ᵢᵢ = 1 / (1 - Σⱼₖ Wᵢⱼ Cⱼₖ Wₖᵢ),
+
+C being the inverse without row i, whose eigenvalues lie between 1/(1+ρ) and 1/(1-ρ). So
+the sum is known within that factor of Σⱼ Wᵢⱼ², which is small where players have many
+games. Within those bounds C is taken as its diagonal, and that as the answer sought: the
+cavity approximation, exact but for cycles of opponents (Thouless, Anderson & Palmer 1977).
 """
 
 from __future__ import annotations
@@ -140,24 +156,6 @@ def _sums(x: Floats, y: Floats) -> Floats:
     return np.asarray(np.einsum("ij,ij->j", x, y))
 
 
-# The diagonal of the inverse of a league's Hessian, where no elimination order keeps it sparse.
-#
-# All rows of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with
-# a weak prior, its largest by far. It is put aside exactly: with u the vector of ones,
-#
-#     diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn)
-#
-# and, scaled to a unit diagonal by S, what is left is I - W with the spectral radius ρ of W
-# small in a league where everybody may meet everybody. Eliminating all others but i,
-#
-#     ((I - W)⁻¹)ᵢᵢ = 1 / (1 - Σⱼₖ Wᵢⱼ Cⱼₖ Wₖᵢ),
-#
-# C being the inverse without row i, whose eigenvalues lie between 1/(1+ρ) and 1/(1-ρ). So
-# the sum is known within that factor of Σⱼ Wᵢⱼ², which is small where players have many
-# games. Within those bounds C is taken as its diagonal, and that as the answer sought: the
-# cavity approximation, exact but for cycles of opponents (Thouless, Anderson & Palmer 1977).
-
-
 _LARGE = 2000
 """From this many rows on, answers may be approximate, because they are much faster."""
 
@@ -258,12 +256,6 @@ def _square_sums(lower: NDArray[Any]) -> Floats:
 def not_definite() -> AccuracyError:
     """Return the error of a Hessian that rounding has made singular."""
     return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
-
-
-# The dense blocks in which a sparse symmetric matrix is eliminated.
-#
-# A minimum degree order, its elimination tree, and pivots that share their rows gathered
-# in one front (Liu 1992, "The multifrontal method for sparse matrix solution").
 
 
 _ONE_FRONT_UP_TO = 300

@@ -4,6 +4,11 @@ Whoever has played little tends to be weaker than those who have played much; pl
 team or division tend to be alike; and the races of a handicap league say how strong the league
 takes its players to be. `Levels` says how much each of these counts; `Knowledge` gathers, match by
 match, what a file says about each player, and makes the means of their priors of it.
+
+A race m:n is even where the first player wins a game with the chance p for which W(p; m, n) = 1/2;
+the difference of strength that it implies is ln p/(1 - p). The players' strengths by their races
+(`StatedStrength`) are those whose differences come nearest to the implied ones, by least squares
+over all matches so far.
 """
 
 from __future__ import annotations
@@ -262,13 +267,6 @@ def means_of(results: Results, levels: Levels, stated: StatedStrength | None = N
     known.see(rows)
     known.play(rows)
     return known.means()
-
-
-# How strong a league takes its players to be, by the races that it makes them play.
-#
-# A race m:n is even where the first player wins a game with the chance p for which W(p; m, n) =
-# 1/2; the difference of strength that it implies is ln p/(1 - p). The players' strengths are those
-# whose differences come nearest to the implied ones, by least squares over all matches so far.
 
 
 RIDGE = 0.01

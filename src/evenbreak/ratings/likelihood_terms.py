@@ -8,6 +8,15 @@ as i broke, j broke, or it is not known who did; or only the winner of a race i:
 which has the likelihood W(p(θi - θj); m, n). β is the break advantage. The logarithm of every
 such term is concave in (θ, β). Where it is known how many racks each player broke, but not who
 won which of them, a term convex in β alone is added (see `evenbreak.ratings.who_broke`).
+
+For such a race, with d the difference in natural log-odds, p = 1 / (1 + exp(-d)) and q = 1 - p, the
+chance is W = I_p(m, n), the regularised incomplete beta function. Then
+
+    d/dd log W = h,    d²/dd² log W = h (m q - n p - h),    h = p^m q^n / (B(m, n) W),
+
+and the second is nowhere above zero: log W is concave, so matches known by their winners
+alone have one most likely set of ratings. (The integrand of I_p, written in d, is
+log-concave, and so is every integral of it from -∞: Prékopa 1973.)
 """
 
 from __future__ import annotations
@@ -199,18 +208,6 @@ def _pair_codes(results: Results) -> Ints:
     low = np.minimum(results.player_a, results.player_b)
     high = np.maximum(results.player_a, results.player_b)
     return np.asarray(low * len(results.players) + high)
-
-
-# What winning or losing a race says about the rating difference, when no score is known.
-#
-# With d the difference in natural log-odds, p = 1 / (1 + exp(-d)) and q = 1 - p, the race
-# m:n is won with chance W = I_p(m, n), the regularised incomplete beta function. Then
-#
-#     d/dd log W = h,    d²/dd² log W = h (m q - n p - h),    h = p^m q^n / (B(m, n) W),
-#
-# and the second is nowhere above zero: log W is concave, so matches known by their winners
-# alone have one most likely set of ratings. (The integrand of I_p, written in d, is
-# log-concave, and so is every integral of it from -∞: Prékopa 1973.)
 
 
 _FAR = 1e-200

@@ -5,6 +5,11 @@ in one search for the width of the prior, for what the file knows about players 
 `evenbreak.ratings.levels`), and for the half-life of old results. The width under which the actual
 results were most likely is chosen first, if the results are enough to choose by. Then each of the
 others is added in turn where it clearly predicts better, and the width is chosen anew.
+
+What one way of rating gains over another is a betting score. Predictions are made before the
+results, so the product of the ratios of what two ways predicted reaches 20, if the first way is
+right, with a chance of at most 1/20 (Ville 1939; Shafer 2021). That also holds for the mean of the
+scores of several ways.
 """
 
 from __future__ import annotations
@@ -312,13 +317,6 @@ def _as_it_went(found: StretchLosses, tried: Floats) -> float:
     return float(chosen.sum() / found.predicted.sum())
 
 
-# What one way of rating gains over another in predicting a season, and whether that is clear.
-#
-# Predictions are made before the results, so the product of the ratios of what two ways predicted
-# is a betting score: if the first way is right, the chance that the score ever reaches 20 is at
-# most 1/20 (Ville 1939; Shafer 2021). That also holds for the mean of the scores of several ways.
-
-
 FEWEST_STRETCHES = 10
 """Stretches from which ways can be compared."""
 
@@ -374,9 +372,6 @@ def _errors(gain: Estimate) -> float:
     """Return by how many standard errors a gain is above 0: the interval is 1.96 each way."""
     middle, half = (gain.high + gain.low) / 2.0, (gain.high - gain.low) / 2.0
     return 1.960 * middle / half if half > 0.0 else math.copysign(math.inf, middle)
-
-
-# Whether a season is predicted better where old games count less.
 
 
 HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)

@@ -1,4 +1,4 @@
-"""What the columns of a DataFrame of results mean, cell by cell.
+"""What the columns of a DataFrame of results mean, cell by cell, and the words in them.
 
 The columns are those of a results file. A cell without a meaning is a problem that names its
 row, and all problems are reported at once.
@@ -209,9 +209,6 @@ def _racks(cell: Any) -> str | None:
     return text if set(text) <= {"a", "b"} else None
 
 
-# One spelling for names that differ in case or blanks alone: they are one player's.
-
-
 def folded(name: str) -> str:
     """Return what names have in common that differ in case or blanks alone.
 
@@ -247,11 +244,6 @@ def usual_spellings(counts: Mapping[str, int], meant: Set[str] = frozenset()) ->
         if key not in spelling or rank(name) > rank(spelling[key]):
             spelling[key] = name
     return spelling
-
-
-# The words in which results are written, in a file or in a DataFrame, and what they mean.
-#
-# Words are compared by their letters and digits in one case: see `letters`.
 
 
 FORMATS = ("", "winner", "loser", "alternate", "a", "b")

@@ -2,6 +2,11 @@
 
 A difference of d points on a scale of s points a doubling gives the game probability
 p = 1 / (1 + 2^(-d/s)), so the odds p / (1 - p) are 2^(d/s).
+
+Where ratings do not say what their scale is, the numbers decide, or the user must. 612 can only be
+a Fargo rating, and 92 only one of the NPL. Where a list fits no single scale, a guess could turn a
+favorite of 59% into one of 76%, so none is made. Nor are ratings read on the scale that a chart or
+a system brings along if they look like those of another.
 """
 
 from __future__ import annotations
@@ -260,13 +265,6 @@ def _numbers(value: float | Many, name: str) -> float | Floats:
     if np.isnan(array).any():
         raise InputError(f"{name} holds a value that is not a number; give numbers")
     return float(array) if array.ndim == 0 else array
-
-
-# The scale of ratings that do not say what it is: the numbers decide, or the user must.
-#
-# 612 can only be a Fargo rating, and 92 only one of the NPL. Where a list fits no single scale, a
-# guess could turn a favorite of 59% into one of 76%, so none is made. Nor are ratings read on the
-# scale that a chart or a system brings along if they look like those of another.
 
 
 DEFAULT_SCALE = "npl"

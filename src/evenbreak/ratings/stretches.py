@@ -2,6 +2,11 @@
 
 The season is divided into stretches of whole days. Each stretch but the first is predicted
 from the ratings of all days before it, at face value. Nothing is predicted from itself.
+
+The skills that matches show in several ways of rating are those of `evenbreak.ratings.fit`. It goes
+through the matches for each way anew; here the likelihood is made once for each half-life, what is
+known of players once for each set of levels, and the modes are found together, or each from the one
+before where there are many players.
 """
 
 from __future__ import annotations
@@ -20,7 +25,7 @@ from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
 from evenbreak.ratings.levels import Levels, StatedStrength, has_handicaps, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
-from evenbreak.ratings.mixed_posterior import GRADIENT, WayToRate, find_mixed_mode, find_modes
+from evenbreak.ratings.posterior import GRADIENT, WayToRate, find_mixed_mode, find_modes
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE, scale_of
 
@@ -194,14 +199,6 @@ def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.dat
     first = np.flatnonzero(np.diff(number, prepend=-1))
     last = np.append(first[1:], len(days)) - 1
     return [(days[a], days[b]) for a, b in zip(first[1:], last[1:], strict=True)]
-
-
-# The skills that matches show in several ways of rating, which share what they have in common.
-#
-# They are those of `evenbreak.ratings.fit`. It goes through the matches for each way anew; here
-# the likelihood is made once for each half-life, what is known of players once for each set of
-# levels, and the modes are found together, or each from the one before where there are many
-# players.
 
 
 SOLVED_AT_ONCE = 80

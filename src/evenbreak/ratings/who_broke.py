@@ -2,6 +2,17 @@
 
 `first_break` broke the first rack; who broke the next follows from the break format and,
 for winner and loser breaks, from who won the rack before.
+
+A match known by its score alone says less. In a race whose break format and first breaker are
+known, the score i:j and the winner of the last rack determine how many racks each player broke: a
+broke n of them. It is not known how many of those a won, k. The sequences of racks with the same k
+are equally likely, and there are c(k) of them, so that with the skills' difference d and the break
+advantage β
+
+    P(score) = exp(d i) / ((1 + exp(d + β))^n (1 + exp(d - β))^(i + j - n))
+               * Σ_k c(k) exp(β (2k - i)):
+
+the difference is as well known as if every rack were, and only β is known less well.
 """
 
 from __future__ import annotations
@@ -17,19 +28,6 @@ from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.results_frame import FORMATS
-
-# How many racks players won on their own break, where a match is known by its score alone.
-#
-# In a race whose break format and first breaker are known, the score i:j and the winner of the
-# last rack determine how many racks each player broke: a broke n of them. It is
-# not known how many of those a won, k. The sequences of racks with the same k are equally
-# likely, and there are c(k) of them, so that with the skills' difference d and the break
-# advantage β
-#
-#     P(score) = exp(d i) / ((1 + exp(d + β))^n (1 + exp(d - β))^(i + j - n))
-#                * Σ_k c(k) exp(β (2k - i)):
-#
-# the difference is as well known as if every rack were, and only β is known less well.
 
 
 class BreakWins(NamedTuple):

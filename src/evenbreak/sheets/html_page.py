@@ -1,4 +1,9 @@
-"""What all HTML pages share: one frame, one style, and a policy that allows nothing else."""
+"""All HTML pages: one frame and style, a policy that allows nothing else; any answer as a page.
+
+A page says what its answer says, in that order, in one file that fetches nothing from elsewhere. A
+sheet may draw the tables of its answer in another way, and add drawings; it adds no sentence of its
+own.
+"""
 
 import base64
 import hashlib
@@ -90,12 +95,6 @@ def _digest(text: str) -> str:
 
 def _template(name: str) -> str:
     return files("evenbreak.sheets").joinpath("templates", name).read_text("utf-8")
-
-
-# Any answer as a page: one file, nothing fetched from elsewhere.
-#
-# A page says what its answer says, in that order. A sheet may draw the tables of its answer in
-# another way, and add drawings; it adds no sentence of its own.
 
 
 class Section(NamedTuple):

@@ -1,4 +1,4 @@
-"""The draw as a list to print: each player by name, with the first match, whom they meet, where."""
+"""Lists and cards to print: the draw, each player with their first match; and score cards."""
 
 from __future__ import annotations
 
@@ -75,9 +75,6 @@ def _row(page: Paper, one: FirstMatch, y: float, wide: float, *, grey: bool) -> 
     page.text(MARGIN + 4.3, y, against, size=size)
     if one.table is not None:
         page.text(wide - MARGIN - 0.05, y, f"table {one.table}", size=_SIZE, ha="right")
-
-
-# Score cards to print: four on a page, or one.
 
 
 _GAP = 0.25

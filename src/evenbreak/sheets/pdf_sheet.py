@@ -46,9 +46,6 @@ from evenbreak.sheets.race_blocks import (
     race_blocks,
 )
 
-# How large everything on the paper sheet is, so that the table fills the page.
-
-
 MOST_ON_A_PAGE = 24
 LARGEST, SMALLEST = 11.0, 7.0
 """Sizes of letters, in points: more looks lost on the page, less cannot be read on a wall."""

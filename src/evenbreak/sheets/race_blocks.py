@@ -1,4 +1,4 @@
-"""The table of races cut into blocks of columns, and each player's races by themselves."""
+"""What both sheets show: races in blocks of columns, ratings with bars, how even the races are."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,9 +12,6 @@ from evenbreak.answers.kit.scales import decimals_of
 from evenbreak.answers.league.sheet import NO_RACE, Band, SurePair
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import Scale
-
-# Ratings with their bars, on an axis from 0 to 100 per cent, for pages and for paper.
-
 
 NOT_OVER_THE_EDGE = (4, 96)
 """A label nearer to an end of the axis would hang over it."""
@@ -128,9 +125,6 @@ def player_lines(
             )
         )
     return lines
-
-
-# The small plot on the sheet's page: how even the races are, by rating difference.
 
 
 WIDTH, HEIGHT = 360, 230

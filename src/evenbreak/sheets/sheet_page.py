@@ -90,9 +90,6 @@ def sheet_html(sheet: Sheet) -> bytes:
     )
 
 
-# The races of a round as one HTML file: for the wall, a phone and a screen reader.
-
-
 MOST_ACROSS = 48
 """The most players whose races against each other stand on a page."""
 

@@ -1,4 +1,10 @@
-"""Distributions on the whole numbers 0, 1, 2, ...: games won, balls run, points scored."""
+"""Distributions on the whole numbers 0, 1, 2, ...: games won, balls run, points scored.
+
+Probabilities are the decimals that people write: .9 is nine tenths. Ties are real: with p = .5 the
+chance of a score of 7 or less after 8 innings is exactly one half, and ceil((2 x .9 - 1) / (1 -
+.9)) is 8, but 9 in floats. So wherever floats come near a tie, modes, medians and quantiles are
+decided in rational arithmetic.
+"""
 
 from __future__ import annotations
 
@@ -176,13 +182,6 @@ class CountLaw(ABC):
         if abs(found - tail) > _NEAR * abs(tail):
             return bool(found > tail)
         return self.exact_cumulative(n) >= wanted
-
-
-# Probabilities as the decimals that people write: .9 is nine tenths.
-#
-# Ties are real. With p = .5 the chance of a score of 7 or less after 8 innings is exactly one
-# half, and ceil((2 x .9 - 1) / (1 - .9)) is 8, but 9 in floats. So wherever floats come near a
-# tie, modes, medians and quantiles are decided in rational arithmetic.
 
 
 def exact(p: Any, name: str = "p") -> Fraction:

@@ -1,4 +1,4 @@
-"""Advantages that the ratings do not know: of breaking first, and of the break."""
+"""Advantages that the ratings do not know: of the break, of the first column, and of experience."""
 
 from __future__ import annotations
 
@@ -114,9 +114,6 @@ def _tally(forecasts: Forecasts) -> Floats:
         for breaker, letter in zip(broke, racks, strict=True):
             tally[row, breaker - 1, "ab".index(letter)] += 1.0
     return tally
-
-
-# Whether the first column means something: an advantage, or only how the file was written.
 
 
 FEWEST_ON_A_DATE = 3
@@ -237,9 +234,6 @@ def _varies(p: Floats, won: Floats, group: Ints) -> float:
     excess = float((np.bincount(group, won - p) ** 2 - v).sum())
     spread = float((fourth + 2.0 * v**2).sum())
     return 1.0 if spread <= 0.0 else float(ndtr(-excess / math.sqrt(spread)))
-
-
-# Whether players with little experience win more or less than predicted.
 
 
 LIMITS = (0, 1, 21, 51, 201)

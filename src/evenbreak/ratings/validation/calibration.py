@@ -118,9 +118,6 @@ def no_favourites(p: Floats, games: Floats) -> int:
     return int(((np.abs(p - 0.5) <= TOSS_UP) & (games > 0)).sum())
 
 
-# How good one kind of prediction of a season was.
-
-
 Of = Literal["game", "match"]
 How = Literal["plug-in", "integrated"]
 

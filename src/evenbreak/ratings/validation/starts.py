@@ -3,6 +3,15 @@
 A race m:n takes back the difference at which it is even (see `stated_strength`). How large the
 difference is in fact, the games show: on average over all handicap matches, for each size of the
 start, and for a class, where the results say in which class each player is.
+
+How much stronger players are for each unit by which their league puts them ahead (a class, a
+rating, or the race's own difference): in match i the games are won with the log-odds k x + e,
+where x is what the league says and e, the same in all games of the match, is normal with mean 0
+and variance v: players differ from what their league says, and from day to day. k and v are
+estimated by maximum likelihood. When a race stops depends on its games alone, so races of any kind
+may be mixed. Matches that share a player are not independent, so the standard error is the
+sandwich's for pairs: products of slopes are summed over all pairs of matches with a player in
+common (Aronow, Samii & Assenova 2015, "Cluster-robust variance estimation for dyadic data").
 """
 
 from __future__ import annotations
@@ -218,18 +227,6 @@ def _groups(season: Results, apart: NDArray[np.int64], implied: Floats) -> list[
         taken = float((sign[rows] * implied[rows]).mean())
         found.append(StartGroup(size, int(rows.sum()), (needs, gets), stronger, taken))
     return found
-
-
-# How much stronger players are for each unit by which their league puts them ahead of opponents.
-#
-# In match i the games are won with the log-odds k x + e, where x is what the league says (a
-# difference of classes, of ratings, or the one at which the race would be even) and e, the same in
-# all games of the match, is normal with mean 0 and variance v: players differ from what their
-# league says, and from day to day. k and v are estimated by maximum likelihood. When a race stops
-# depends on its games alone, so races of any kind may be mixed. Matches that share a player are
-# not independent, so the standard error is the sandwich's for pairs: products of slopes are summed
-# over all pairs of matches with a player in common (Aronow, Samii & Assenova 2015, "Cluster-robust
-# variance estimation for dyadic data").
 
 
 NODES = 15

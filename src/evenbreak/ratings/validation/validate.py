@@ -48,8 +48,6 @@ from evenbreak.ratings.validation.within_matches import (
     streaks,
 )
 
-# Whether handicaps are fair in the data: how often the player with the longer race wins.
-
 
 class HandicapFairness(NamedTuple):
     """The handicap races with one spot: how often the player with the longer race won.
@@ -98,9 +96,6 @@ def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
             HandicapFairness(games, matches, wins, share, *wilson(share, matches), expected)
         )
     return found
-
-
-# Whether favourites won short and long races as often as predicted.
 
 
 class RaceLengths(NamedTuple):

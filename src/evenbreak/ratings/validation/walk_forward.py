@@ -2,6 +2,11 @@
 
 What ratings are worth shows in matches that they have not seen. So the ratings from all
 earlier dates predict every match of a date, and only then are refitted with its results.
+
+Little changes from one day to the next, so a few Newton steps from yesterday's mode find today's
+(the model is that of `evenbreak.ratings.posterior`). Newton systems, and the variances of today's
+differences, are solved by conjugate gradients, which here take no longer than a factorisation and
+start no threads that wait for each other.
 """
 
 from __future__ import annotations
@@ -25,7 +30,7 @@ from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
 from evenbreak.ratings.levels import Knowledge, Levels
-from evenbreak.ratings.mixed_posterior import damped, find_zero, step_accuracy, tolerance
+from evenbreak.ratings.posterior import damped, find_zero, step_accuracy, tolerance
 from evenbreak.ratings.results import Results
 
 NODES = 31
@@ -280,14 +285,6 @@ def _known_before(season: Results, date_of: Ints) -> tuple[Floats, Floats]:
         for players in (season.player_a[rows], season.player_b[rows]):
             known += np.bincount(players, games[rows], len(known))
     return before[0], before[1]
-
-
-# Ratings refitted day by day, each time from where they stood the day before.
-#
-# The model is that of `evenbreak.ratings.mixed_posterior`. Little changes from one day to the next,
-# so a few Newton steps from yesterday's mode find today's. Newton systems, and the variances
-# of today's differences, are solved by conjugate gradients, which here take no longer than a
-# factorisation and start no threads that wait for each other.
 
 
 GRADIENT = 1e-6

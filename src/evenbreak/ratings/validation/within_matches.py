@@ -2,6 +2,11 @@
 
 From scores alone: do they vary about the predictions as much as they should? From racks: do
 wins come in streaks?
+
+What form of the day means for deciders, sweeps and games is compared with what is seen. Its
+variance (see `evenbreak.ratings.day_form`) is estimated here from forecasts, which know the past
+only. So whatever else they miss, such as players who improve, is in it too, and so is that their
+standard errors take the games of a match for independent.
 """
 
 from __future__ import annotations
@@ -143,13 +148,6 @@ def streaks(forecasts: Forecasts) -> Streaks | None:
         return None
     z = (runs - expected) / math.sqrt(variance)
     return Streaks(runs, expected, z, two_sided(z), matches)
-
-
-# What form of the day means for scores: deciders, sweeps and games, seen and expected.
-#
-# Here the variance of form (see `evenbreak.ratings.day_form`) is estimated from forecasts, which
-# know the past only. So whatever else they miss, such as players who improve, is in it too, and so
-# is that their standard errors take the games of a match for independent.
 
 
 class ScoreShape(NamedTuple):

@@ -1,10 +1,31 @@
-"""The mode of the posterior where results differ in what they say and how much they weigh.
+"""The mode of the posterior of ratings, by a sparse Newton method, by three routes.
 
-The likelihood is that of `evenbreak.ratings.likelihood_terms`. Its logarithm is concave in
-(θ, β), and those of the priors strictly so: there is one mode, and Newton's method finds it
-with a step that is halved until it goes down, or for games alone shortened so that it does. Where
-the score alone says how many racks each player broke, the sum is still concave in θ, though not
-necessarily in β.
+With skills θ in natural log-odds, player i beats j with chance 1 / (1 + exp(θj - θi)). Games are
+independent given the skills, and every skill has the prior N(0, 1/τ).
+
+`find_mode`, where all games count alike. Up to a constant the negative log-posterior is
+
+    f(θ) = Σ_{i<j} n_ij log(exp θi + exp θj) - Σ_i w_i θi + (τ/2) Σ_i θi²
+
+so win totals w and pair counts n are all that it needs. Its Hessian is the Laplacian of the graph
+of play, weighted by n_ij p_ij p_ji, plus τI: a symmetric M-matrix. It never evaluates f, so it
+does a fraction of the work of the next.
+
+`find_mixed_mode`, where results differ in what they say and how much they weigh. The likelihood is
+that of `evenbreak.ratings.likelihood_terms`. Its logarithm is concave in (θ, β), and those of the
+priors strictly so: there is one mode, and Newton's method finds it with a step that is halved
+until it goes down, or for games alone shortened so that it does. Where the score alone says how
+many racks each player broke, the sum is still concave in θ, though not necessarily in β.
+
+`find_modes`, for one season rated in several ways. In a league of a few dozen players a step of
+Newton's method takes longer to call than to calculate, so all ways take each step at once, as
+arrays with one row a way. The levels of teams and divisions are integrated out: with the design Z
+and the levels' variances S, the skills are normal with
+
+    precision  Q = (σ²I + Z S Zᵀ)⁻¹
+
+about their means, and their mode is the same as that of skills and levels together. The break
+advantage, where it is estimated, is the last unknown.
 """
 
 from __future__ import annotations
@@ -23,19 +44,13 @@ from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.covariance import Curvature, PairCounts, sums_by_player
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, race_slopes
 
-# The mode of the Bradley-Terry posterior, by a sparse Newton method.
-#
-# With skills θ in natural log-odds, player i beats j with chance 1 / (1 + exp(θj - θi)).
-# Games are independent given the skills, and every skill has the prior N(0, 1/τ). Up to a
-# constant the negative log-posterior is
-#
-#     f(θ) = Σ_{i<j} n_ij log(exp θi + exp θj) - Σ_i w_i θi + (τ/2) Σ_i θi²
-#
-# so win totals w and pair counts n are all that it needs. Its Hessian is the Laplacian of
-# the graph of play, weighted by n_ij p_ij p_ji, plus τI: a symmetric M-matrix.
-#
-# This is the fast route where all games count alike: it never evaluates f, so it does a fraction
-# of the work of the general one (see `evenbreak.ratings.mixed_posterior`).
+
+class Mode(NamedTuple):
+    """Where the posterior is highest, the largest entry of its gradient there, and the steps."""
+
+    point: Floats
+    gradient: float
+    iterations: int
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:
@@ -84,20 +99,9 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
     return find_zero(start, gradient_at, tolerance(precision, most))
 
 
-# Newton's method for the mode of a rating posterior: the loop that all fits share.
-
-
 MOST_STEPS = 200
 GRADIENT_TOLERANCE = 1e-8
 _ROUNDING = 1e-14
-
-
-class Mode(NamedTuple):
-    """Where the posterior is highest, the largest entry of its gradient there, and the steps."""
-
-    point: Floats
-    gradient: float
-    iterations: int
 
 
 def tolerance(precision: float, most: float, gradient: float = GRADIENT_TOLERANCE) -> float:
@@ -259,19 +263,6 @@ def find_mixed_mode(
     known_best = float(known.information.max(initial=0.0))
     most = max(float(terms.race_m.max(initial=0)), terms.amount, known_best)
     return find_zero(begin, gradient_at, tolerance(precision, most, gradient))
-
-
-# The modes of one season rated in several ways, found together.
-#
-# In a league of a few dozen players a step of Newton's method takes longer to call than to
-# calculate, so here all ways take each step at once, as arrays with one row a way. The model is
-# that of `evenbreak.ratings.mixed_posterior`. The levels of teams and divisions are integrated
-# out: with the design Z and the levels' variances S, the skills are normal with
-#
-#     precision  Q = (σ²I + Z S Zᵀ)⁻¹
-#
-# about their means, and their mode is the same as that of skills and levels together. The break
-# advantage, where it is estimated, is the last unknown.
 
 
 GRADIENT = 1e-6
