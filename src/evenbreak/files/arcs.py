@@ -133,7 +133,8 @@ def read_arcs(path: str | Path) -> ArcsFile:
         _refuse_twice(table, states, sources, targets)
         # If a number is wrong or missing, its sum would be reported for the same reason.
         if whole and not np.isnan(p).any():
-            _refuse_sums(table, states, sources, p)
+            for row, problem in sum_problems(states, sources, p).items():
+                table.note(row, problem)
     table.problems.raise_any()
     return ArcsFile(states, sources, targets, p, table.source, table.warnings, states[sources[0]])
 
@@ -151,24 +152,14 @@ def _refuse_twice(
     key = sources * len(states) + targets
     _, first, which = np.unique(key, return_index=True, return_inverse=True)
     again = np.flatnonzero(first[which] != np.arange(len(key)))
-    table.problems.add_rows(
-        table.lines,
-        again,
-        lambda row: say(
+    for row in again:
+        table.note(
+            row,
             "the arc {source} -> {target} is in line {line} already; keep one of the two",
             source=quoted(states[sources[row]]),
             target=quoted(states[targets[row]]),
             line=table.lines[first[which[row]]],
-        ),
-    )
-
-
-def _refuse_sums(
-    table: TextTable, states: list[str], sources: NDArray[np.int64], p: NDArray[np.float64]
-) -> None:
-    wrong = sum_problems(states, sources, p)
-    rows = np.array(list(wrong), dtype=np.int64)
-    table.problems.add_rows(table.lines, rows, lambda row: wrong[row])
+        )
 
 
 def sum_problems(

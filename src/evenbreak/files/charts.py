@@ -219,8 +219,8 @@ def _levels(table: TextTable, name: str) -> LevelChart:
     for (mine, opponent), (games, row) in races.items():
         against = races.get((opponent, mine), (games, row))[0]
         if mine > opponent and games < against:
-            table.problems.add(
-                int(table.lines[row]),
+            table.note(
+                row,
                 "level {level} needs {games} games against level {opponent}, which needs "
                 "{against}; the higher level must need at least as many",
                 level=mine,
@@ -253,8 +253,8 @@ def _note(
     """Note what one level needs against another, or that an earlier row says otherwise."""
     before, earlier = races.setdefault(pair, (games, row))
     if before != games:
-        table.problems.add(
-            int(table.lines[row]),
+        table.note(
+            row,
             "level {level} needs {games} games against level {opponent} here but {before} in line "
             "{line}; keep one of the two",
             level=pair[0],

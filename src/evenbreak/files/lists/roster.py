@@ -311,13 +311,10 @@ def roster_of(table: TextTable) -> RosterFile:
     games = np.where(table["games"] == NOT_STATED, NOT_STATED, table["games"] + races)
     ratings = table.read["rating"]
     if "rating" in table:
-        table.problems.add_rows(
-            table.lines,
-            np.flatnonzero(~ratings.stated & ratings.good & (games > 0)),
-            lambda row: say(
-                "rating is empty after {games} games; fill it in, or write 0 games",
-                games=games[row],
-            ),
+        table.note(
+            ~ratings.stated & ratings.good & (games > 0),
+            "rating is empty after {games} games; fill it in, or write 0 games",
+            games=games,
         )
     scale, form = _scale(table), _form(table)
     table.problems.raise_any()
@@ -368,22 +365,22 @@ def _scale(table: TextTable) -> Scale | None:
         return None if named is None else SCALES[named]
     first: Scale = scales[rows[0]]
     if named is not None and not first.same_points(SCALES[named]):
-        table.problems.add(
-            int(table.lines[rows[0]]),
+        table.note(
+            rows[0],
             "scale {scale!r} differs from the title {title}; correct one of them",
             scale=first.text,
             title=quoted(table.titles["rating"]),
         )
-    table.problems.add_rows(
-        table.lines,
-        np.array([row for row in rows if not first.same_points(scales[row])], dtype=int),
-        lambda row: say(
-            "scale {scale!r} differs from {first!r} in line {line}; put all ratings on one scale",
-            scale=scales[row].text,
-            first=first.text,
-            line=table.lines[rows[0]],
-        ),
-    )
+    for row in rows:
+        if not first.same_points(scales[row]):
+            table.note(
+                row,
+                "scale {scale!r} differs from {first!r} in line {line}; put all ratings on one "
+                "scale",
+                scale=scales[row].text,
+                first=first.text,
+                line=table.lines[rows[0]],
+            )
     return first
 
 
@@ -394,16 +391,13 @@ def _form(table: TextTable) -> float:
     if not len(rows):
         return 0.0
     first = float(column[rows[0]])
-    table.problems.add_rows(
-        table.lines,
+    table.note(
         rows[column[rows] != first],
-        lambda row: say(
-            "match_form {form:g} differs from {first:g} in line {line}; it is that of the whole "
-            "league, so write one number",
-            form=column[row],
-            first=first,
-            line=table.lines[rows[0]],
-        ),
+        "match_form {form:g} differs from {first:g} in line {line}; it is that of the whole "
+        "league, so write one number",
+        form=column,
+        first=first,
+        line=table.lines[rows[0]],
     )
     return first
 

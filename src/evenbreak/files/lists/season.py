@@ -106,14 +106,11 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     """
     table = SEASON.read(path)
     skill, days, joins, leaves = (table[name] for name in ("skill", "day_sd", "joins", "leaves"))
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((leaves > 0) & (leaves < joins)),
-        lambda row: say(
-            "leaves in week {leaves}, before week {joins}; correct one of them",
-            leaves=leaves[row],
-            joins=joins[row],
-        ),
+    table.note(
+        (leaves > 0) & (leaves < joins),
+        "leaves in week {leaves}, before week {joins}; correct one of them",
+        leaves=leaves,
+        joins=joins,
     )
     if len(table) == 1:
         table.problems.add(None, "has 1 player; a league needs two or more")
@@ -317,14 +314,9 @@ def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, 
     players = {"players": KnownNames(roster.players)}
     table = schema.but(player_a=players, player_b=players).read(path)
     a, b = table["player_a"], table["player_b"]
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero((a == b) & (a >= 0)),
-        lambda row: say(
-            "{name} is on both sides; write two different players",
-            name=quoted(roster.players[a[row]]),
-        ),
-    )
+    for row in np.flatnonzero((a == b) & (a >= 0)):
+        name = quoted(roster.players[a[row]])
+        table.note(row, "{name} is on both sides; write two different players", name=name)
     table.problems.raise_any()
     return table, np.column_stack([a, b])
 

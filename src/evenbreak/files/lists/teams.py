@@ -285,10 +285,9 @@ def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, 
     """
     table = TEAM_RESULTS.read(path)
     home, away = table.read["home_score"], table.read["away_score"]
-    table.problems.add_rows(
-        table.lines,
-        np.flatnonzero(home.stated != away.stated),
-        lambda _: say("one score is empty; write both, or neither where the match was not played"),
+    table.note(
+        home.stated != away.stated,
+        "one score is empty; write both, or neither where the match was not played",
     )
     scores = np.stack([home.values, away.values], axis=1)
     unplayed = (scores.sum(axis=1) == 0) & home.good & away.good

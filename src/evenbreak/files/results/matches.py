@@ -94,8 +94,8 @@ def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> li
     for row, code in enumerate(codes.tolist()):
         pair = meant[code]
         if isinstance(pair, str):
-            table.problems.add(
-                int(table.lines[row]),
+            table.note(
+                row,
                 "{column} {cell} {fault}",
                 column=name,
                 cell=quoted(distinct[code]),
@@ -166,7 +166,7 @@ def _with_winners(table: TextTable) -> TextTable:
         numbers = [int(text) if text.isdecimal() else 0 for text in counts]
         problem = _not_won(*numbers)
         if problem:
-            table.problems.add(int(table.lines[row]), problem)
+            table.note(row, problem)
         winners.append("" if problem else winner)
     return replace(table, columns={**table.columns, "winner": Texts.of(winners)})
 
@@ -283,8 +283,7 @@ def _with_scores(
     for name, rows in wrong.items():
         if not _is_missing(table, name):
             problem = _unknown("score" if "score" in table else name if name in table else "")
-            for row in np.flatnonzero(rows):
-                table.problems.add(int(table.lines[row]), problem)
+            table.note(rows, problem)
             good = good & ~rows
     return values, good
 
@@ -312,8 +311,7 @@ def _add_contradictions(table: TextTable, results: Results, rows: NDArray[np.int
     for problem in find_problems(results):
         row = rows[problem.row]
         by_alias = _one_player(table, row) if problem.column == "player_b" else ""
-        text = joined([problem.message, by_alias], "")
-        table.problems.add(int(table.lines[row]), text)
+        table.note(row, joined([problem.message, by_alias], ""))
 
 
 def _one_player(table: TextTable, row: int) -> str:

@@ -143,8 +143,8 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         return None, True
     if open_:
         row = int(np.isin(codes, open_).argmax())
-        table.problems.add(
-            int(table.lines[row]),
+        table.note(
+            row,
             "{column} {date} may have the month first or the day, and no date of the file shows "
             "which; add {dates} mdy (month first) or {dates} dmy (day first)",
             column=name,

@@ -202,8 +202,8 @@ class PlayerNames:
         # Where a player's own name could not be read, it is not known whether this one fits.
         wrong = stated & (values == 0) & a.good & b.good
         for row in np.flatnonzero(wrong):
-            table.problems.add(
-                int(table.lines[row]),
+            table.note(
+                row,
                 "{column} {cell} is neither of the two players; write a, b or one of the two "
                 "names, or leave it empty",
                 column=name,

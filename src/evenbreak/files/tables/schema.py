@@ -134,7 +134,7 @@ class Column:
             good |= ~stated
         for row in np.flatnonzero(~good[codes]):
             fault = self.fault(distinct[codes[row]])
-            table.problems.add(int(table.lines[row]), "{column} {fault}", column=name, fault=fault)
+            table.note(row, "{column} {fault}", column=name, fault=fault)
         return Values(values[codes], good[codes], stated[codes])
 
 
@@ -206,8 +206,8 @@ class Number(Column):
         for row in np.flatnonzero(two_ways[codes]):
             text = distinct[codes[row]]
             number = float(text.replace(",", "."))
-            table.problems.add(
-                int(table.lines[row]),
+            table.note(
+                row,
                 "{column} {cell} may mean {thousands:.0f} or {number:g}; write the one you mean",
                 column=name,
                 cell=quoted(text),

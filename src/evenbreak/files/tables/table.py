@@ -127,6 +127,20 @@ class TextTable:
         again[np.unique(same, return_index=True)[1]] = False
         return again
 
+    def note(self, rows: Any, template: str, /, **values: Any) -> None:
+        """Note a problem in a row, in several, or in those of a mask.
+
+        The template and its values are those of `evenbreak.words.say`; of an array each row has
+        its own value.
+        """
+        mask = isinstance(rows, np.ndarray) and rows.dtype == bool
+        for row in np.flatnonzero(rows) if mask else np.atleast_1d(np.asarray(rows, dtype=int)):
+            own = {
+                name: value[row] if isinstance(value, np.ndarray) else value
+                for name, value in values.items()
+            }
+            self.problems.add(int(self.lines[row]), template, **own)
+
     def without(self, lines: Collection[int]) -> TextTable:
         """Return the table without the rows in some lines, and without its problems there."""
         kept = ~np.isin(self.lines, list(lines))
