@@ -146,7 +146,7 @@ def test_columns_that_are_not_used_are_named_in_a_warning():
 
 @pytest.mark.parametrize("wrong", [[("Ann", "Bo", 7, 5)], "season.csv", None])
 def test_only_frames_are_read(wrong):
-    with pytest.raises(InputError, match="give a DataFrame"):
+    with pytest.raises(InputError, match="must be a DataFrame"):
         Results.from_frame(wrong)
 
 

@@ -11,6 +11,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from evenbreak.errors import InputError
+from evenbreak.words import Parameter
 
 Kind = TypeVar("Kind")
 
@@ -123,10 +124,14 @@ def _fields(kind: Any, data: Any, name: str) -> Any:
         raise _not(data, name, "names and values")
     hints, prefix = _hints(kind), f"{name} " if name else ""
     if unknown := [key for key in data if key not in hints]:
-        raise InputError(f"{prefix}{reprlib.repr(unknown[0])} is not known; leave it out")
+        raise InputError(
+            "{prefix}{unknown} is not known; leave it out",
+            prefix=prefix,
+            unknown=reprlib.repr(unknown[0]),
+        )
     needed = [one.name for one in fields(kind) if one.default is MISSING is one.default_factory]
     if missing := [key for key in needed if key not in data]:
-        raise InputError(f"{prefix}{missing[0]} is missing; add it")
+        raise InputError("{prefix}{missing} is missing; add it", prefix=prefix, missing=missing[0])
     values = {key: _value(hints[key], one, f"{prefix}{key}") for key, one in data.items()}
     return kind(**values)
 
@@ -146,7 +151,9 @@ def _listed(data: Any, name: str) -> Sequence[Any]:
 
 def _not(data: Any, name: str, wanted: str) -> InputError:
     shown = "NaN" if isinstance(data, float) and math.isnan(data) else reprlib.repr(data)
-    return InputError(f"{name or 'it'} is {shown}; give {wanted}")
+    return InputError(
+        "{what} is {shown}; give {wanted}", what=Parameter(name or "it"), shown=shown, wanted=wanted
+    )
 
 
 @cache

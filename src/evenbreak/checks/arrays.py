@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, overload
 from evenbreak.checks.limits import Limits
 from evenbreak.checks.numbers import number_probability
 from evenbreak.errors import InputError
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -104,7 +105,12 @@ def floats(
         many = array.ndim > 0
         wrong = next(x for x in array.flat if not limits.hold(x, x))
         held = f"holds {wrong}" if many else f"is {values!r}"
-        raise InputError(f"{name} {held}; give {wanted or limits.numbers(many=many)}")
+        raise InputError(
+            "{name} {held}; give {what}",
+            name=Parameter(name),
+            held=held,
+            what=wanted or limits.numbers(many=many),
+        )
     return array
 
 
@@ -126,7 +132,9 @@ def whole_numbers(
     broken = array != array.round()
     if broken.any():
         held = f"holds {float(array[broken][0])!r}" if array.ndim else f"is {values!r}"
-        raise InputError(f"{name} {held}; give {wanted}")
+        raise InputError(
+            "{name} {held}; give {wanted}", name=Parameter(name), held=held, wanted=wanted
+        )
     return array
 
 
@@ -172,10 +180,19 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
     except (TypeError, ValueError, OverflowError):
         found = None
     if found is None:
-        raise InputError(f"{name} is {values!r}; give {_WANTED.get(kind.kind, 'numbers')}")
+        raise InputError(
+            "{name} is {values!r}; give {kind}",
+            name=Parameter(name),
+            values=values,
+            kind=_WANTED.get(kind.kind, "numbers"),
+        )
     if found.shape != (count,):
         raise InputError(
-            f"{name} has shape {found.shape}; give one value for each of {count} {each}"
+            "{name} has shape {found_shape}; give one value for each of {count} {each}",
+            name=Parameter(name),
+            found_shape=found.shape,
+            count=count,
+            each=each,
         )
     found.flags.writeable = False
     return found
@@ -192,9 +209,13 @@ def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
     found = tuple(values)
     for value in found:
         if not isinstance(value, str):
-            raise InputError(f"{name} holds {value!r}, which is not text; give names")
+            raise InputError(
+                "{name} holds {value!r}, which is not text; give names",
+                name=Parameter(name),
+                value=value,
+            )
     if len(set(found)) < len(found):
-        raise InputError(f"{name} holds a name twice; give each name once")
+        raise InputError("{name} holds a name twice; give each name once", name=Parameter(name))
     return found
 
 
@@ -223,7 +244,7 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         held = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items())
-        raise InputError(f"{held}; give shapes that broadcast") from None
+        raise InputError("{held}; give shapes that broadcast", held=held) from None
 
 
 def plain(array: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, TypeVar
 
 from evenbreak.errors import InputError
+from evenbreak.words import Parameter
 
 Kind = TypeVar("Kind")
 
@@ -35,7 +36,12 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
     evenbreak.errors.InputError: p is 0.5; give a Fraction
     """
     if not isinstance(value, kind):
-        raise InputError(f"{name} is {value!r}; give a {kind.__name__}")
+        raise InputError(
+            "{name} is {value!r}; give a {name_2}",
+            name=Parameter(name),
+            value=value,
+            name_2=kind.__name__,
+        )
     return value
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from evenbreak.checks.limits import Limits
 from evenbreak.errors import InputError
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -66,7 +67,12 @@ def number(
     """
     found, limits = _float(value), Limits(low, high, above, below)
     if not limits.hold(found, found):
-        raise InputError(f"{name} is {value!r}; give {wanted or limits.numbers()}")
+        raise InputError(
+            "{name} is {value!r}; give {what}",
+            name=Parameter(name),
+            value=value,
+            what=wanted or limits.numbers(),
+        )
     return found
 
 
@@ -93,7 +99,12 @@ def number_probability(value: Any, name: str) -> float:
     if not 0.0 <= found <= 1.0:
         many = isinstance(value, list | tuple) or hasattr(value, "ndim")
         problem = "; give one" if many else ", not a probability; give a"
-        raise InputError(f"{name} is {value!r}{problem} number from 0 to 1")
+        raise InputError(
+            "{name} is {value!r}{problem} number from 0 to 1",
+            name=Parameter(name),
+            value=value,
+            problem=problem,
+        )
     return found  # type: ignore[no-any-return]
 
 
@@ -122,7 +133,11 @@ def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]
     """
     listed = list(values) if hasattr(values, "__iter__") else []
     if not listed:
-        raise InputError(f"{name} is {values!r}; give a list of numbers from 0 to 1")
+        raise InputError(
+            "{name} is {values!r}; give a list of numbers from 0 to 1",
+            name=Parameter(name),
+            values=values,
+        )
     return tuple(number_probability(value, f"{each} {i}") for i, value in enumerate(listed, 1))
 
 
@@ -171,7 +186,12 @@ def whole(
             limits = (
                 f" from {at_least} to {at_most}" if at_least is not None else f", at most {at_most}"
             )
-        raise InputError(f"{name} is {value!r}; give {wanted or 'a whole number' + limits}")
+        raise InputError(
+            "{name} is {value!r}; give {what}",
+            name=Parameter(name),
+            value=value,
+            what=wanted or "a whole number" + limits,
+        )
     return found
 
 
@@ -193,7 +213,12 @@ def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) ->
     found = tuple(whole(one, f"{name} {i}", at_least=at_least) for i, one in enumerate(values, 1))
     for below, above in pairwise(found):
         if below >= above:
-            raise InputError(f"{name} {above} comes after {below}; give increasing numbers")
+            raise InputError(
+                "{name} {above} comes after {below}; give increasing numbers",
+                name=Parameter(name),
+                above=above,
+                below=below,
+            )
     return found
 
 
@@ -245,7 +270,9 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
     except ValueError:  # an array raises it too: its comparison is not one truth value
         *others, last = map(repr, choices)
         listed = f"{', '.join(others)} or {last}"
-        raise InputError(f"{name} is {value!r}; give {listed}") from None
+        raise InputError(
+            "{name} is {value!r}; give {listed}", name=Parameter(name), value=value, listed=listed
+        ) from None
 
 
 def _float(value: Any) -> float:

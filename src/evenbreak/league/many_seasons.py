@@ -137,8 +137,12 @@ class _Chunk:
             self.highest, self.lowest = int(rating.max()), int(rating.min())
         if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
-                f"weeks is {self.season.weeks}, but by week {week} a rating is beyond {_HIGHEST} "
-                f"points, or a player has played more than {_MANY} matches; play fewer weeks"
+                "weeks is {weeks}, but by week {week} a rating is beyond {highest} points, "
+                "or a player has played more than {many} matches; play fewer weeks",
+                weeks=self.season.weeks,
+                week=week,
+                highest=_HIGHEST,
+                many=_MANY,
             )
         self.count.week(week, rating, self.points, here)
 

@@ -87,14 +87,18 @@ class LeaguePlayers:
     def __post_init__(self) -> None:
         many = np.size(self.rating)
         if many < 2 or np.ndim(self.rating) != 1:
-            raise InputError(f"rating has {many} values; give one for each of two players or more")
+            raise InputError(
+                "{rating} has {many} values; give one for each of two players or more", many=many
+            )
         for name in _COLUMNS:
             object.__setattr__(self, name, _column(getattr(self, name), name, many))
         _refuse_leaving_early(self)
         if self.names is not None:
             names = tuple(self.names)
             if len(names) != many or len(set(names)) < many:
-                raise InputError(f"names is {names!r}; give {many} different names")
+                raise InputError(
+                    "{names} is {value!r}; give {many} different names", value=names, many=many
+                )
             object.__setattr__(self, "names", names)
 
     @classmethod
@@ -168,7 +172,10 @@ def _column(given: Any, name: str, many: int) -> NDArray[Any]:
         whole_numbers(given, name, wanted=wanted)
     if numbers.shape not in ((), (many,)):
         raise InputError(
-            f"{name} has the shape {numbers.shape}; give one value for each of {many} players"
+            "{name} has the shape {numbers_shape}; give one value for each of {many} players",
+            name=name,
+            numbers_shape=numbers.shape,
+            many=many,
         )
     # One number for everybody stays one number in memory, however many players there are.
     column = numbers.astype(np.int64 if whole else np.float64)  # a copy: the caller may change it
@@ -181,6 +188,8 @@ def _refuse_leaving_early(players: LeaguePlayers) -> None:
     if gone.size:
         leaves, joins = players.leaves[gone[0]], players.joins[gone[0]]
         raise InputError(
-            f"a player leaves in week {leaves} and joins in week {joins}; give a week not before "
-            "that, or 0 if the player stays"
+            "a player leaves in week {leaves} and joins in week {joins}; give a week not "
+            "before that, or 0 if the player stays",
+            leaves=leaves,
+            joins=joins,
         )

@@ -144,7 +144,7 @@ def reestimate(
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
         raise InputError("skill is not a list of two finite numbers or more; give one per player")
     if half_life is not None and not half_life > 0.0:
-        raise InputError(f"half_life is {half_life!r}; give weeks above 0, or None")
+        raise InputError("{half_life} is {value!r}; give weeks above 0, or None", value=half_life)
     plan = _Plan(
         skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),

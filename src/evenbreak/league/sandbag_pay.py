@@ -171,8 +171,10 @@ def sandbagging(
     after = _laws(down, law, most + 1)
     if after[-1] @ at_the_end(ladder) > MOST_HELD:
         raise InputError(
-            f"dumped is {most}, which takes the rating to the ladder's end at {-ladder.widest}; "
-            "give fewer, or a wider ladder"
+            "{dumped} is {most}, which takes the rating to the ladder's end at {widest}; "
+            "give fewer, or a wider ladder",
+            most=most,
+            widest=-ladder.widest,
         )
     p_honest = honest @ wins
     p_win = np.stack([_laws(step, one, many) @ wins for one in after])
@@ -335,7 +337,9 @@ def at_the_end(ladder: Ladder) -> Bools:
 def refuse_drift(ladder: Ladder) -> None:
     """Raise an error if the player's skill drifts on this ladder."""
     if ladder.drift:
-        raise InputError(f"the ladder's player drifts by {ladder.drift!r}; give one of drift 0")
+        raise InputError(
+            "the ladder's player drifts by {drift!r}; give one of drift 0", drift=ladder.drift
+        )
 
 
 def _laws(matrix: Floats, law: Floats, many: int) -> Floats:

@@ -203,7 +203,7 @@ def watch(
                 for name, may in tries
             }
         except AccuracyError as why:
-            raise AccuracyError(f"{names[player]!r}: {why}") from why
+            raise AccuracyError("{name!r}: {why}", name=names[player], why=why) from why
         won = np.array([result.won for result in results[player]])
         place = np.array(rows[player])
         of_any, established = np.logaddexp.reduce(list(log_e.values())) - math.log(len(log_e))
@@ -373,7 +373,11 @@ def played_nights(
     def by_results(list_: Roster, rows: Ints) -> RatingChanges:
         night = results.select(rows)
         for problem in night_problems(system, list_, night, chart=chart):
-            raise InputError(f"row {rows[problem.row]} of the results: {problem.message}")
+            raise InputError(
+                "row {row} of the results: {message}",
+                row=rows[problem.row],
+                message=problem.message,
+            )
         return apply_results(system, list_, night, chart=chart)
 
     nights, now = [], roster

@@ -73,7 +73,9 @@ class RoundRobin:
         """Return the rounds of a week (1 is the first); nothing is drawn."""
         if count != self.players:
             raise InputError(
-                f"players is {self.players}, but the league has {count}; give RoundRobin({count})"
+                "{players} is {value}, but the league has {count}; give RoundRobin({count})",
+                value=self.players,
+                count=count,
             )
         first = (week - 1) * self.matches_a_week
         return [self._round(first + k) for k in range(self.matches_a_week)]
@@ -163,12 +165,17 @@ class FixedSchedule:
             object.__setattr__(self, name, _whole_column(given, name, least))
         if not len(self.week) == len(self.a) == len(self.b):
             raise InputError(
-                f"week, a and b have {len(self.week)}, {len(self.a)} and {len(self.b)} values; "
-                "give one of each for every match"
+                "week, a and b have {n_week}, {n_a} and {n_b} values; give one of each for "
+                "every match",
+                n_week=len(self.week),
+                n_a=len(self.a),
+                n_b=len(self.b),
             )
         if (self.a == self.b).any():
             row = int(np.argmax(self.a == self.b))
-            raise InputError(f"match {row} has player {self.a[row]} twice; give two players")
+            raise InputError(
+                "match {row} has player {a} twice; give two players", row=row, a=self.a[row]
+            )
 
     def __len__(self) -> int:
         return len(self.week)
@@ -183,8 +190,10 @@ class FixedSchedule:
         most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
         if most >= count:
             raise InputError(
-                f"the schedule has a player {most}, but the league has players 0 to {count - 1}; "
-                "leave the matches out, or add the player"
+                "the schedule has a player {most}, but the league has players 0 to {count}; "
+                "leave the matches out, or add the player",
+                most=most,
+                count=count - 1,
             )
         return self._rounds.get(week, [])
 
@@ -235,7 +244,11 @@ def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
 def _whole_column(given: ArrayLike, name: str, least: int) -> Ints:
     numbers = whole_numbers(given, name, at_least=least)
     if numbers.ndim != 1:
-        raise InputError(f"{name} has shape {numbers.shape}; give one whole number for each match")
+        raise InputError(
+            "{name} has shape {numbers_shape}; give one whole number for each match",
+            name=name,
+            numbers_shape=numbers.shape,
+        )
     column = numbers.astype(np.int64)
     column.flags.writeable = False
     return column

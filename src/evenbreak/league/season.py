@@ -71,7 +71,7 @@ class Season:
 
     def __post_init__(self) -> None:
         if not isinstance(self.players, LeaguePlayers):
-            raise InputError(f"players is {self.players!r}; give LeaguePlayers")
+            raise InputError("{players} is {value!r}; give LeaguePlayers", value=self.players)
         put = object.__setattr__
         if not isinstance(self.system, System):
             put(self, "system", system_of(self.system))
@@ -137,7 +137,8 @@ def _check_schedule(schedule: Any, players: int) -> None:
         schedule.pairs(1, np.random.default_rng(0), players)
     elif not hasattr(schedule, "pairs"):
         raise InputError(
-            f"schedule is {schedule!r}; give RoundRobin, RandomPairing or FixedSchedule"
+            "{schedule} is {value!r}; give RoundRobin, RandomPairing or FixedSchedule",
+            value=schedule,
         )
 
 

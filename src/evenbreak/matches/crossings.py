@@ -197,7 +197,9 @@ def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = N
     if break_odds is None:
         return Rack(p1)
     if not 0.0 < break_odds < np.inf:
-        raise InputError(f"break_odds is {break_odds!r}; give a finite number above 0")
+        raise InputError(
+            "{break_odds} is {value!r}; give a finite number above 0", value=break_odds
+        )
     lost = break_odds * (1.0 - np.asarray(p1))
     return Rack(p1, lost / (lost + p1))
 

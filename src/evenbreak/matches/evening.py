@@ -138,7 +138,11 @@ def evening(
     between_matches = kind_or_usual(turnover, "turnover", Turnover)
     found = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
     if not 0 < len(found) <= _MOST_MATCHES:
-        raise InputError(f"lengths has {len(found):,} matches; give 1 to {_MOST_MATCHES:,}")
+        raise InputError(
+            "{lengths} has {n_found:,} matches; give 1 to {most_matches:,}",
+            n_found=len(found),
+            most_matches=_MOST_MATCHES,
+        )
     tables = min(whole(tables, "tables", at_least=1), len(found))
     pairs = _numbered(players, len(found))
     if runs is None and tables == 1:
@@ -154,11 +158,17 @@ def _chances(length: LengthLike, name: str) -> Floats:
     games, probability = np.asarray(length.games), np.asarray(length.probability)
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
-        raise InputError(f"{name} is not a length; give whole numbers of games, with a chance each")
+        raise InputError(
+            "{name} is not a length; give whole numbers of games, with a chance each", name=name
+        )
     if games.min() < 0 or games.max() > _LONGEST:
-        raise InputError(f"{name} has games outside 0 to {_LONGEST:,}; give numbers of games")
+        raise InputError(
+            "{name} has games outside 0 to {longest:,}; give numbers of games",
+            name=name,
+            longest=_LONGEST,
+        )
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
-        raise InputError(f"{name} has chances that do not sum to 1; give probabilities")
+        raise InputError("{name} has chances that do not sum to 1; give probabilities", name=name)
     counted = np.bincount(games, probability)
     chances: Floats = counted / counted.sum()
     return chances
@@ -170,12 +180,14 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
         return np.arange(2 * matches).reshape(matches, 2)
     if len(players) != matches:
         raise InputError(
-            f"players has {len(players)} pairs for {matches} matches; give one for each"
+            "{players} has {n_players} pairs for {matches} matches; give one for each",
+            n_players=len(players),
+            matches=matches,
         )
     number: dict[Hashable, int] = {}
     for one, other in players:
         if one == other:
-            raise InputError(f"players has {one!r} on both sides; give two players")
+            raise InputError("{players} has {one!r} on both sides; give two players", one=one)
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )

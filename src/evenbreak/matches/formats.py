@@ -87,7 +87,9 @@ class MatchFormat:
         for name in ("m", "n", "win_by"):
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
         if self.ahead and self.win_by > 1:
-            raise InputError(f"win_by is {self.win_by} in an n-ahead match; leave it out")
+            raise InputError(
+                "{win_by} is {value} in an n-ahead match; leave it out", value=self.win_by
+            )
         if self.breaks is not None:
             one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
 
@@ -190,8 +192,10 @@ def match_format(text: str) -> MatchFormat:
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
-                f"{text!r}: the best of {most} can end level; give an odd number, or write "
-                f"{_half(most)}"
+                "{text!r}: the best of {most} can end level; give an odd number, or write {most_2}",
+                text=text,
+                most=most,
+                most_2=_half(most),
             )
     words = _BEST_OF.sub(lambda found: _half(int(found[1])), words)
     breaks = None
@@ -202,13 +206,21 @@ def match_format(text: str) -> MatchFormat:
     for part in reversed(parts):
         kinds = [] if part is None else [part[kind] for kind in ("race", "ahead", "lead")]
         if part is None or kinds.count(None) < 2 or not (part["n"] or any(kinds)):
-            raise NotAFormatError(f"{text!r} is not a match format; write {_WAYS}")
+            raise NotAFormatError(
+                "{text!r} is not a match format; write {ways}", text=text, ways=_WAYS
+            )
         ahead = bool(part["ahead"] or part["lead"])
         m, n, win_by = (int(part[name] or part[other] or 1) for name, other in _NUMBERS)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:
-            raise InputError(f"{text!r} has a number that is not from 1 to {LONGEST}; correct it")
+            raise InputError(
+                "{text!r} has a number that is not from 1 to {longest}; correct it",
+                text=text,
+                longest=LONGEST,
+            )
         if ahead and win_by > 1:
-            raise InputError(f"{text!r}: 'ahead' does not go with 'win by'; leave one out")
+            raise InputError(
+                "{text!r}: 'ahead' does not go with 'win by'; leave one out", text=text
+            )
         innermost = found is None
         found = MatchFormat(m, n, ahead, win_by, found, breaks if innermost else None)
     assert found is not None  # noqa: S101  a split has at least one part

@@ -261,8 +261,10 @@ class MatchLength(Generic[ChanceT, MeanT]):
         ends = np.asarray(1.0 - self.p_never_ends)
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~found).any():
             raise AccuracyError(
-                f"the {q:g} quantile lies beyond {self.span} racks, where the distribution is cut "
-                "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles"
+                "the {q:g} quantile lies beyond {span} racks, where the distribution is cut "
+                "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles",
+                q=q,
+                span=self.span,
             )
         at = self.games[reached.argmax(axis=-1)]
         if chances.ndim == 1:

@@ -154,8 +154,12 @@ def live_odds(
         one_of(winner, f"winner of rack {i}", (1, 2))
         if state not in values.moves:
             raise InputError(
-                f"the match is over after {i - 1} of {len(winners)} racks, at "
-                f"{scores[0][0]}:{scores[0][1]}; leave out the other racks"
+                "the match is over after {i} of {n_winners} racks, at {score}:{score_2}; "
+                "leave out the other racks",
+                i=i - 1,
+                n_winners=len(winners),
+                score=scores[0][0],
+                score_2=scores[0][1],
             )
         state, scores = values.moves[state][winner - 1][0], _counted(match, scores, winner)
         states.append(state)
@@ -251,7 +255,9 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
-        raise InputError(f"set_score is {a}:{b}, where the set is over; count it in the score")
+        raise InputError(
+            "{set_score} is {a}:{b}, where the set is over; count it in the score", a=a, b=b
+        )
     if match.decided(*match.score) is not None:
         raise InputError("set_score is given, but the match is over; leave it out")
     return (*match.start[:-1], under_way.start)

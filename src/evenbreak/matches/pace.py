@@ -99,7 +99,11 @@ def pace_of(discipline: str) -> Pace:
         if there is none of this name.
     """
     if discipline not in PACES:
-        raise InputError(f"discipline is {discipline!r}; give one of {', '.join(PACES)}")
+        raise InputError(
+            "{discipline} is {value!r}; give one of {paces}",
+            value=discipline,
+            paces=", ".join(PACES),
+        )
     return PACES[discipline]
 
 

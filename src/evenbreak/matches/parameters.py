@@ -34,7 +34,9 @@ def checked_match(match: AnyMatch) -> AnyMatch:
     evenbreak.errors.InputError: match is Rack(p1=0.5, p2=None); give a Race or an Ahead...
     """
     if not isinstance(match, Match):
-        raise InputError(f"match is {match!r}; give a Race or an Ahead, or ask game_odds(game)")
+        raise InputError(
+            "match is {match!r}; give a Race or an Ahead, or ask game_odds(game)", match=match
+        )
     innermost = match.innermost_rack
     if isinstance(innermost, Rack):
         return match
@@ -148,7 +150,9 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
         final, winner_in = _absorbing(chain), lambda state: game.nodes[state].get("winner")
     else:
         raise InputError(
-            f"game is {game!r}; give an object with start, moves and winner, or a networkx.DiGraph"
+            "{game} is {value!r}; give an object with start, moves and winner, or a "
+            "networkx.DiGraph",
+            value=game,
         )
     _check_over(chain, final, winner_in)
     by_winner: dict[int | None, list[Hashable]] = {}
@@ -173,13 +177,14 @@ def rack_of_game(game: Game) -> Rack[float]:
     others = ends.by_winner.keys() - {1, 2, None}
     if others:
         raise GameError(
-            f"player {min(map(str, others))} can win the rack; give a game of two players"
+            "player {str} can win the rack; give a game of two players", str=min(map(str, others))
         )
     p, q = ends.p_win(1), ends.p_win(2)
     if not abs(p + q - 1.0) <= _CERTAIN:
         raise GameError(
-            f"the rack has no winner with probability {1.0 - p - q:.6g}; give a game that player 1 "
-            "or player 2 wins in the end"
+            "the rack has no winner with probability {p:.6g}; give a game that player 1 or "
+            "player 2 wins in the end",
+            p=1.0 - p - q,
         )
     return Rack(p / (p + q), q1=q / (p + q))
 
@@ -197,8 +202,10 @@ def _check_over(
     for state in chain.states:
         if state not in over and (winner := winner_in(state)) is not None:
             raise GameError(
-                f"player {winner} has won in {state!r}, but there are moves from it; give no moves "
-                "from a state in which the game is over, and no winner in any other"
+                "player {winner} has won in {state!r}, but there are moves from it; give no "
+                "moves from a state in which the game is over, and no winner in any other",
+                winner=winner,
+                state=state,
             )
 
 
@@ -209,6 +216,8 @@ def _player(winner: Any, state: Hashable) -> int | None:
         return whole(winner, "winner", at_least=1)
     except InputError:
         raise GameError(
-            f"the winner in {state!r} is {winner!r}; give the number of a player, 1, 2, ..., or "
-            "None for nobody"
+            "the winner in {state!r} is {winner!r}; give the number of a player, 1, 2, ..., "
+            "or None for nobody",
+            state=state,
+            winner=winner,
         ) from None

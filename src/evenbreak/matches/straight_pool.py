@@ -216,8 +216,13 @@ def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> 
     innings = (points * (1 - p) + p) / (safety * p)
     if innings > LONGEST:
         raise InputError(
-            f"p{number} is {float(p):g}: {points} points take {float(innings):.3g} innings on "
-            f"average and {LONGEST:,} are the most here; give a larger chance or fewer points"
+            "p{number} is {p:g}: {points} points take {innings:.3g} innings on average and "
+            "{longest:,} are the most here; give a larger chance or fewer points",
+            number=number,
+            p=float(p),
+            points=points,
+            innings=float(innings),
+            longest=LONGEST,
         )
 
 

@@ -125,7 +125,9 @@ class Beginning:
         for name in ("standard_error", "prior_sd"):
             values = getattr(self, name)
             if (values <= 0.0).any() or np.isinf(values).any():
-                raise InputError(f"{name} is not above 0 somewhere; give points, or NaN if unknown")
+                raise InputError(
+                    "{name} is not above 0 somewhere; give points, or NaN if unknown", name=name
+                )
         object.__setattr__(self, "players", known)
         object.__setattr__(self, "scale", scale_of(scale))
         object.__setattr__(self, "as_of", None if as_of is None else day_of(as_of))

@@ -15,6 +15,8 @@ def check_results(results: object) -> None:
     """
     if not hasattr(results, "won_only"):
         raise InputError(
-            f"this is {type(results).__name__} {results!r:.60}, not Results; give "
-            "Results.from_frame(frame), or read_results(path).results for a file"
+            "this is {name} {results!r:.60}, not Results; give Results.from_frame(frame), or "
+            "read_results(path).results for a file",
+            name=type(results).__name__,
+            results=results,
         )

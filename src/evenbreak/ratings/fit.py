@@ -205,7 +205,9 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
         return number(anchor, "anchor", wanted="a finite number of points"), {}
     for name in anchor:
         if name not in players:
-            raise InputError(f"anchor {name!r} is not in the results; give a name that is")
+            raise InputError(
+                "anchor {name!r} is not in the results; give a name that is", name=name
+            )
     return scale.centre, {
         name: number(points, f"anchor of {name!r}", wanted="a finite number of points")
         for name, points in anchor.items()

@@ -425,14 +425,15 @@ class Ratings:
         first, second = self._position(player), self._position(opponent)
         if self.component[first] != self.component[second]:
             raise InputError(
-                f"{player!r} and {opponent!r} are not connected through opponents; add results "
-                "that connect them"
+                "{a!r} and {b!r} are not connected through opponents; add results that do",
+                a=player,
+                b=opponent,
             )
         return first, second
 
     def _position(self, player: str) -> int:
         if player not in self.players:
-            raise InputError(f"player {player!r} is not rated; write the name as the results do")
+            raise InputError("{name!r} is not rated; write names as the results do", name=player)
         return self.players.index(player)
 
 

@@ -19,6 +19,7 @@ from evenbreak.checks import column, names
 from evenbreak.errors import InputError
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.results_frame import FORMATS, FrameReader, columns_of
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -141,7 +142,7 @@ class Results:
             object.__setattr__(self, name, values)
             limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
             if limit is not None and rows and not (0 <= values.min() <= values.max() < limit):
-                raise InputError(f"{name} holds a code outside 0..{limit - 1}; give codes in range")
+                raise InputError("{name} must hold codes below {n}", name=Parameter(name), n=limit)
         self._refuse_unknown()
 
     def _refuse_unknown(self) -> None:
@@ -151,7 +152,9 @@ class Results:
         for name in ("race_a", "race_b", "winner"):
             values = getattr(self, name)
             if (self.unscored if values is None else self.unscored & (values <= 0)).any():
-                raise InputError(f"unscored marks a match without {name}; give it, or the scores")
+                raise InputError(
+                    "{unscored} marks a match without {name}; give it, or the scores", name=name
+                )
         if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
             raise InputError("unscored marks a match with games in its score; unmark it")
 
@@ -211,7 +214,7 @@ class Results:
         evenbreak.errors.DataError: row 1: score_b is 6.5; give a whole number, 0 or more
         """
         if not all(hasattr(frame, name) for name in ("columns", "index", "iloc")):
-            raise InputError(f"frame is {type(frame).__name__} {frame!r:.60}; give a DataFrame")
+            raise InputError("{frame} must be a DataFrame; it is {value!r:.60}", value=frame)
         reader = FrameReader(frame)
         columns = columns_of(reader)
         reader.raise_any()

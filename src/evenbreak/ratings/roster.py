@@ -119,7 +119,7 @@ class Roster:
         for name in ("games", "matches"):
             if (getattr(self, name) < NOT_STATED).any():
                 raise InputError(
-                    f"{name} is negative somewhere; give 0 or more, NOT_STATED if unknown"
+                    "{name} is negative somewhere; give 0 or more, NOT_STATED if unknown", name=name
                 )
 
     def __len__(self) -> int:
@@ -137,7 +137,8 @@ class Roster:
             return self._places[player]
         except KeyError:
             raise InputError(
-                f"player {player!r} is not in the roster; write the name as the roster does"
+                "player {player!r} is not in the roster; write the name as the roster does",
+                player=player,
             ) from None
 
     @cached_property
@@ -173,9 +174,12 @@ class Roster:
         (array([92., 80.]), array([ 9.5, 30. ]))
         """
         if not math.isfinite(rating):
-            raise InputError(f"rating is {rating!r}; give a finite number of points")
+            raise InputError("{rating} is {value!r}; give a finite number of points", value=rating)
         if not 0.0 <= standard_error < math.inf:
-            raise InputError(f"standard_error is {standard_error!r}; give 0 or more points")
+            raise InputError(
+                "{standard_error} is {value!r}; give 0 or more points",
+                value=standard_error,
+            )
         unrated = np.isnan(self.rating)
         games = np.where(unrated, 0, self.games)
         open_error = np.isnan(self.standard_error)

@@ -68,10 +68,11 @@ class Scale:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.points_per_doubling) and self.points_per_doubling > 0):
             raise InputError(
-                f"points_per_doubling is {self.points_per_doubling!r}; give a number above 0"
+                "{points_per_doubling} is {value!r}; give a number above 0",
+                value=self.points_per_doubling,
             )
         if not math.isfinite(self.centre):
-            raise InputError(f"centre is {self.centre!r}; give a finite number")
+            raise InputError("{centre} is {value!r}; give a finite number", value=self.centre)
 
     @property
     def text(self) -> str:
@@ -237,8 +238,12 @@ def scale_of(text_or_number: Any) -> Scale:
     if not _FEWEST_POINTS <= points <= _MOST_POINTS:
         listed = ", ".join(SCALES)
         raise InputError(
-            f"scale is {text_or_number!r}; give {listed}, or the points that double the odds, "
-            f"from {_FEWEST_POINTS:g} to {_MOST_POINTS:,.0f}"
+            "scale is {text_or_number!r}; give {listed}, or the points that double the odds, "
+            "from {fewest_points:g} to {most_points:,.0f}",
+            text_or_number=text_or_number,
+            listed=listed,
+            fewest_points=_FEWEST_POINTS,
+            most_points=_MOST_POINTS,
         )
     return Scale(f"{points:g} points", points)
 
@@ -255,15 +260,15 @@ def _numbers(value: float | Many, name: str) -> float | Floats:
         except (TypeError, ValueError):
             number = math.nan
         if math.isnan(number):
-            raise InputError(f"{name} is {value!r}; give a number")
+            raise InputError("{name} is {value!r}; give a number", name=name, value=value)
         return number
     if isinstance(value, (str, bytes)):
-        raise InputError(f"{name} is {value!r}; give a number, not text")
+        raise InputError("{name} is {value!r}; give a number, not text", name=name, value=value)
     import numpy as np
 
     array = np.asarray(value, dtype=float)
     if np.isnan(array).any():
-        raise InputError(f"{name} holds a value that is not a number; give numbers")
+        raise InputError("{name} holds a value that is not a number; give numbers", name=name)
     return float(array) if array.ndim == 0 else array
 
 
@@ -313,10 +318,22 @@ def unstated_scale(
         return SCALES[possible[0]]
     where = f"{source}: " if source else ""
     if low == high:
-        raise InputError(f"{where}the rating {high:g} does not show its scale; {remedy}")
+        raise InputError(
+            "{where}the rating {high:g} does not show its scale; {remedy}",
+            where=where,
+            high=high,
+            remedy=remedy,
+        )
     raise InputError(
-        f"{where}the ratings from {low:g} to {high:g} do not show their scale: {names[first]} wins "
-        f"a game against {names[last]} {_readings(high - low, SCALES)}; {remedy}"
+        "{where}the ratings from {low:g} to {high:g} do not show their scale: {name} wins a "
+        "game against {name_2} {high_2}; {remedy}",
+        where=where,
+        low=low,
+        high=high,
+        name=names[first],
+        name_2=names[last],
+        high_2=_readings(high - low, SCALES),
+        remedy=remedy,
     )
 
 
@@ -366,13 +383,25 @@ def refuse_contradicted(
     if low == high:
         looks = " or ".join(NAMES[name] for name in like or set(USUAL) - {scale.name})
         raise InputError(
-            f"the rating {high:g} does not look like one of {title}, the scale of {whose}, but "
-            f"like one of {looks}; {remedy}"
+            "the rating {high:g} does not look like one of {title}, the scale of {whose}, "
+            "but like one of {looks}; {remedy}",
+            high=high,
+            title=title,
+            whose=whose,
+            looks=looks,
+            remedy=remedy,
         )
     raise InputError(
-        f"the ratings from {low:g} to {high:g} do not look like {title} ratings, the scale of "
-        f"{whose}: {names[first]} wins a game against {names[last]} "
-        f"{_readings(high - low, [scale.name, *(like or set(USUAL) - {scale.name})])}; {remedy}"
+        "the ratings from {low:g} to {high:g} do not look like {title} ratings, the scale of "
+        "{whose}: {name} wins a game against {name_2} {high_2}; {remedy}",
+        low=low,
+        high=high,
+        title=title,
+        whose=whose,
+        name=names[first],
+        name_2=names[last],
+        high_2=_readings(high - low, [scale.name, *(like or set(USUAL) - {scale.name})]),
+        remedy=remedy,
     )
 
 

@@ -62,7 +62,7 @@ def matrix_game(payoff: ArrayLike) -> MatrixGame:
     given = floats(payoff, "payoff")
     if given.ndim < 2 or 0 in given.shape[-2:]:
         raise InputError(
-            "payoff has shape {given_shape}; give a row and a column for each choice",
+            "{payoff} has shape {given_shape}; give a row and a column for each choice",
             given_shape=given.shape,
         )
     games = given.reshape(-1, *given.shape[-2:])

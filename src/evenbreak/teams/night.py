@@ -79,7 +79,7 @@ class TeamNight:
         each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
         if len(each) != len(given):
             raise InputError(
-                "sizes has {n_each} sets and laws {n_given}; give one each",
+                "{sizes} has {n_each} sets and laws {n_given}; give one each",
                 n_each=len(each),
                 n_given=len(given),
             )

@@ -11,10 +11,11 @@ How to say a sentence:
   `say_as("heading", "race")` where one English word has several meanings.
 - `listed(names)` is "a, b and c"; `joined(sentences, " ")` puts sentences one after another.
   `+`, `" ".join` and f-strings give plain text, which stays English.
-- `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field),
+- `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field), as does a name
+  in braces that has no value: `say("{win_by} is {value}", value=3)`;
   `Command("tournament result", "W1.2")` a command (or what a page has in its place),
   `FilePath(path)` a file.
-- Errors take the same: `raise InputError("{name} must be above 0.", name=Parameter("scale"))`.
+- Errors take the same: `raise InputError("{scale} is {value}; ...", value=scale)`.
 - A face says it: `in_face(text, face)`; plain text stays as it is. Never parse a sentence.
 """
 

@@ -13,6 +13,13 @@ from evenbreak.words.faces import PYTHON, Face
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
+class _Values(dict[str, Any]):
+    """The values of a sentence by name; a name without a value is that of a parameter."""
+
+    def __missing__(self, name: str) -> Parameter:
+        return Parameter(name)
+
+
 class _Wording(NamedTuple):
     """A template as the catalogues know it: what it means, and how it is said of several."""
 
@@ -57,8 +64,9 @@ class Sentence(str):
     def __new__(cls, wording: _Wording, values: Mapping[str, Any] = NOTHING) -> Sentence:
         """Return the sentence; its text is that of `PYTHON`."""
         template = wording.said(PYTHON)
-        sentence = super().__new__(cls, template.format_map(values) if values else template)
-        sentence.wording, sentence.values = wording, values
+        filled = _Values(values)
+        sentence = super().__new__(cls, template.format_map(filled) if values else template)
+        sentence.wording, sentence.values = wording, filled
         return sentence
 
     @property
@@ -241,7 +249,8 @@ def in_face(text: Any, face: Face) -> Any:
 def say(template: str, /, **values: Any) -> Sentence:
     """Return a sentence, with what it holds filled in.
 
-    Without values the template is the text: nothing in it is a field.
+    A name that has no value is that of a parameter: `say("{games} is {n}", n=3)`. Without any value
+    the template is the text as it stands.
 
     >>> sentence = say("{player} goes to {match}.", player="Player and Son", match="W2.1")
     >>> sentence, sentence.template, dict(sentence.values)["player"]

@@ -186,7 +186,7 @@ def test_two_charts_are_one_too_many():
 
 
 def test_a_skill_that_outruns_its_rating_has_no_width():
-    with pytest.raises(AccuracyError, match="give widest yourself"):
+    with pytest.raises(AccuracyError, match="less day_sd, match_sd or drift"):
         Ladder(chart("npl_10"), drift=1.0)
 
 
@@ -203,7 +203,7 @@ def test_errors_that_lie_on_the_ends_are_refused():
     far = opponents_of([500, 550, 600], 80)
     with pytest.raises(AccuracyError, match="opponents nearer the player's skill, or a widest"):
         Ladder("npl", opponents=far, widest=60).law()
-    with pytest.raises(AccuracyError, match="too far from the player's skill"):
+    with pytest.raises(AccuracyError, match="give a skill nearer to theirs"):
         Ladder("npl", opponents=far)
 
 

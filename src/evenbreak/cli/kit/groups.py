@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from evenbreak.cli.kit.said import runs
+
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
@@ -62,6 +64,7 @@ class LazyGroup(click.Group):
             from evenbreak.cli.kit.completion import complete_files
 
             complete_files(command)
+        runs(command)
         return command
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:

@@ -4,27 +4,39 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
-from evenbreak.files.catalogues import face_in
+import click
+
 from evenbreak.words import Face, in_face
 
+_running: list[click.Command] = []
 
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
+
+def runs(command: click.Command) -> None:
+    """Keep which command runs: a sentence calls a parameter by its option there."""
+    _running[:] = [command]
+
+
+def _spelled(name: str) -> str:
+    """Return the option of the command that runs for a parameter; its name if there is none."""
+    for param in _running[0].params if _running else ():
+        if param.name == name and isinstance(param, click.Option):
+            return max(param.opts, key=len)
+    return name
 
 
 @cache
 def _terminal() -> Face:
-    return replace(face_in("en"), parameter=_option)
+    from evenbreak.files.catalogues import face_in
+
+    return face_in("en")
 
 
-def said(text: str, spelled: Callable[[str], str] | None = None) -> str:
+def said(text: str, spelled: Callable[[str], str] = _spelled) -> str:
     """Return a text as the terminal says it; `spelled` returns the option of a parameter.
 
     >>> from evenbreak.words import Parameter, say
-    >>> said(say("{scale} must be above 0", scale=Parameter("prior_scale")))
-    '--prior-scale must be above 0'
+    >>> said(say("{scale} must be above 0", scale=Parameter("scale")), lambda name: f"--{name}")
+    '--scale must be above 0'
     """
-    shown: str = in_face(
-        text, _terminal() if spelled is None else replace(_terminal(), parameter=spelled)
-    )
+    shown: str = in_face(text, replace(_terminal(), parameter=spelled))
     return shown

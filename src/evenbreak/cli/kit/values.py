@@ -10,7 +10,9 @@ from typing import Any, NoReturn
 
 import click
 
+from evenbreak.cli.kit.said import said
 from evenbreak.matches.formats import BETWEEN, LONGEST
+from evenbreak.words import say
 
 MOST_BALLS = 100_000
 """The most balls that an option can name."""
@@ -179,6 +181,7 @@ def meant(value: str, low: float, high: float) -> str:
     return ""
 
 
-def refuse(message: str) -> NoReturn:
-    """End the command with exit code 2; the message says how to correct it."""
+def refuse(template: str, /, **values: Any) -> NoReturn:
+    """End the command with exit code 2; the message says how to correct it, as errors do."""
+    message = said(say(template, **values) if values else template)
     raise click.UsageError(message, ctx=click.get_current_context(silent=True))

@@ -174,8 +174,9 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     best = _best_fit(even, cuts)
     if scale is None and best is None:
         raise InputError(
-            f"scale is missing, and chart {chart.name!r} does not determine one; give npl, fargo, "
-            "elo, or the points that double the odds"
+            "{scale} is missing, and chart {chart!r} does not determine one; give npl, "
+            "fargo, elo, or the points that double the odds",
+            chart=chart.name,
         )
     used = _fitted(best) if best and scale is None else scale_of(scale)
     return ChartAudit(
@@ -219,12 +220,14 @@ def even_doublings(m: Any, n: Any) -> Any:
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
     rows = sorted(chart.rows, key=lambda row: row.difference_from)
     if not rows:
-        raise InputError(f"chart {chart.name!r} has no rows; give one for each range")
+        raise InputError("chart {chart!r} has no rows; give one for each range", chart=chart.name)
     for row in rows:
         if row.difference_to is not None and row.difference_to < row.difference_from:
             raise InputError(
-                f"a row goes from {row.difference_from} to {row.difference_to}; "
-                "give an end that is not before its start"
+                "a row goes from {difference_from} to {difference_to}; give an end that is "
+                "not before its start",
+                difference_from=row.difference_from,
+                difference_to=row.difference_to,
             )
     return rows
 
@@ -350,14 +353,18 @@ def win_matrix(
     import pandas as pd
 
     if not isinstance(ratings, Ratings):
-        raise InputError(f"ratings is {ratings!r:.60}; give what fit(results) returns")
+        raise InputError(
+            "{ratings} is {value!r:.60}; give what fit(results) returns", value=ratings
+        )
     named = list(ratings.players if players is None else players)
     if len(set(named)) < len(named):
         raise InputError("players holds a name twice; give each name once")
     try:
         m, n = (whole(games, "race", at_least=1) for games in race)
     except (TypeError, ValueError):
-        raise InputError(f"race is {race!r}; give two whole numbers such as (7, 5)") from None
+        raise InputError(
+            "{race} is {value!r}; give two whole numbers such as (7, 5)", value=race
+        ) from None
     covariance = ratings.covariance(named)
     position = {name: place for place, name in enumerate(ratings.players)}
     places = [position[name] for name in named]

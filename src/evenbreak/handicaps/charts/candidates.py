@@ -206,7 +206,8 @@ def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
         more = "more races" if rows is None else "more races, or more rows"
         raise NoChartError(
             "no chart within these limits has races that get harder as the difference grows; "
-            f"allow longer matches or {more}"
+            "allow longer matches or {more}",
+            more=more,
         )
     for d in range(differences - 1, 0, -1):
         if here >= evens and (rows is None or left > 0):
@@ -239,7 +240,9 @@ def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
         except InputError:  # no even race is that long
             continue
     if not groups:
-        raise InputError(f"spread is {spread}, which leaves no even race; give 1 or more")
+        raise InputError(
+            "{spread} is {value}, which leaves no even race; give 1 or more", value=spread
+        )
     return groups
 
 

@@ -224,8 +224,9 @@ def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
         return [ChartRow(*row) for row in rows]
     except TypeError:
         raise InputError(
-            f"rows is {rows!r}; give rows of four: difference_from, difference_to, "
-            "stronger_needs, weaker_needs"
+            "{rows} is {value!r}; give rows of four: difference_from, difference_to, "
+            "stronger_needs, weaker_needs",
+            value=rows,
         ) from None
 
 
@@ -260,7 +261,9 @@ def chart(name: str) -> Chart:
     ChartRow(difference_from=7, difference_to=18, stronger_needs=4, weaker_needs=3)
     """
     if name not in list(CHARTS):
-        raise InputError(f"chart is {name!r}; give one of {', '.join(CHARTS)}")
+        raise InputError(
+            "chart is {name!r}; give one of {charts}", name=name, charts=", ".join(CHARTS)
+        )
     return _read(name)
 
 

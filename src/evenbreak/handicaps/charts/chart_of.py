@@ -106,6 +106,10 @@ def _found(given: Any, cls: type[AnyChart]) -> AnyChart:
     )
     shown = given.name if isinstance(given, Chart | LevelChart | PointsChart) else given
     raise InputError(
-        f"chart is {shown!r}{''.join(others)}; give {kind.words}: {', '.join(kind.names)}, or a "
-        f"{cls.__name__} of your own"
+        "chart is {shown!r}{others}; give {words}: {names}, or a {name} of your own",
+        shown=shown,
+        others="".join(others),
+        words=kind.words,
+        names=", ".join(kind.names),
+        name=cls.__name__,
     )

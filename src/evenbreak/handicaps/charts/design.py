@@ -160,7 +160,10 @@ def fixed_length_chart(games: Any, scale: Any = DEFAULT_SCALE) -> Chart:
     longest = whole(games, "games", at_least=1, at_most=_LONGEST)
     if longest % 2 == 0:
         raise InputError(
-            f"games is {longest}, which leaves no even race for equal players; give "
-            f"{longest - 1} or {longest + 1}"
+            "{games} is {longest}, which leaves no even race for equal players; give {fewer} "
+            "or {more}",
+            longest=longest,
+            fewer=longest - 1,
+            more=longest + 1,
         )
     return nearest_chart(scale, RaceLimits((longest, longest)), name=f"fixed_{longest}")

@@ -182,7 +182,11 @@ def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple
     ((7, 13), (7, 13))
     """
     if (games is None) == (race_to is None):
-        raise InputError(f"games is {games!r} and race_to is {race_to!r}; give exactly one of them")
+        raise InputError(
+            "{games} is {value!r} and race_to is {race_to!r}; give exactly one of them",
+            value=games,
+            race_to=race_to,
+        )
     if games is None:
         needs = whole(race_to, "race_to", at_least=1)
         return needs, 2 * needs - 1
@@ -261,10 +265,10 @@ def games_range(games: Any) -> tuple[int, int]:
     (5, 7)
     """
     if not isinstance(games, tuple | list) or len(games) != 2:
-        raise InputError(f"games is {games!r}; give the pair (lo, hi)")
+        raise InputError("{games} is {value!r}; give the pair (lo, hi)", value=games)
     low, high = (whole(limit, "games", at_least=1) for limit in games)
     if low > high:
-        raise InputError(f"games is {games!r}; give the smaller number first")
+        raise InputError("{games} is {value!r}; give the smaller number first", value=games)
     return low, high
 
 

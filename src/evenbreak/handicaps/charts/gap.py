@@ -232,8 +232,8 @@ class Gap:
     def _of_one_pair(self) -> float:
         if self.difference.ndim:
             raise InputError(
-                f"difference has shape {self.difference.shape}; give a single number, the "
-                "difference of one pair"
+                "difference has shape {shape}; give a single number, the difference of one pair",
+                shape=self.difference.shape,
             )
         return float(self.difference)
 
@@ -336,8 +336,12 @@ class Gap:
         else:
             if (many := (high * (high + 1) - low * (low - 1)) // 2) > MOST_RACES:
                 raise InputError(
-                    f"games {low}..{high} offers {many:,} races, and {MOST_RACES:,} are the most; "
-                    "give fewer games"
+                    "games {low}..{high} offers {many:,} races, and {most_races:,} are the "
+                    "most; give fewer games",
+                    low=low,
+                    high=high,
+                    many=many,
+                    most_races=MOST_RACES,
                 )
             longest = np.repeat(np.arange(low, high + 1), np.arange(low, high + 1))
             m = np.concatenate([np.arange(1, games + 1) for games in range(low, high + 1)])

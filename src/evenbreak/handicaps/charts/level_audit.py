@@ -226,8 +226,9 @@ def level_scale(chart: LevelChart | str) -> LevelScale:
     ratings, levels = np.array(report.ratings), report.levels
     if ratings[-1] <= 0.0:
         raise InputError(
-            f"chart {report.name!r} has the same races for its lowest and its highest level, so "
-            "it does not say how far its levels lie apart; give a scale"
+            "chart {report!r} has the same races for its lowest and its highest level, so it "
+            "does not say how far its levels lie apart; give a scale",
+            report=report.name,
         )
     of_a_level = ratings[-1] / (levels[-1] - levels[0])
     return LevelScale(

@@ -113,7 +113,9 @@ class LevelChart:
         wrong = known[place] != array
         if wrong.any():
             held = f"holds {array[wrong].flat[0]:g}" if array.ndim else f"is {levels!r}"
-            raise InputError(f"{name} {held}; give {self._wanted}")
+            raise InputError(
+                "{name} {held}; give {wanted}", name=name, held=held, wanted=self._wanted
+            )
         return place
 
 
@@ -122,8 +124,9 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
-            f"needs is not a square for {len(levels)} levels; give a row for each level, with "
-            "the games needed against each level"
+            "{needs} is not a square for {n_levels} levels; give a row for each level, with "
+            "the games needed against each level",
+            n_levels=len(levels),
         )
     square = tuple(
         tuple(
@@ -136,8 +139,12 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
         for j, lower in enumerate(levels[:i]):
             if square[i][j] < square[j][i]:
                 raise InputError(
-                    f"level {higher} needs {square[i][j]} games against level {lower}, which "
-                    f"needs {square[j][i]}; the higher level must need at least as many"
+                    "level {higher} needs {square} games against level {lower}, which needs "
+                    "{square_2}; the higher level must need at least as many",
+                    higher=higher,
+                    square=square[i][j],
+                    lower=lower,
+                    square_2=square[j][i],
                 )
     return square
 
@@ -160,7 +167,11 @@ def level_chart(name: str) -> LevelChart:
     (2, 3, 4, 5, 6, 7)
     """
     if name not in list(LEVEL_CHARTS):
-        raise InputError(f"level chart is {name!r}; give {' or '.join(LEVEL_CHARTS)}")
+        raise InputError(
+            "level chart is {name!r}; give {level_charts}",
+            name=name,
+            level_charts=" or ".join(LEVEL_CHARTS),
+        )
     return _read(name)
 
 
@@ -210,7 +221,9 @@ class PointsChart:
         points = increasing(self.points, "points", at_least=1)
         if not levels or len(levels) != len(points):
             raise InputError(
-                f"there are {len(levels)} levels and {len(points)} points; give one for each"
+                "there are {n_levels} levels and {n_points} points; give one for each",
+                n_levels=len(levels),
+                n_points=len(points),
             )
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "points", points)
@@ -232,7 +245,9 @@ class PointsChart:
         wanted = f"a level of the chart: {', '.join(map(str, self.levels))}"
         found = whole(level, name, at_least=None, wanted=wanted)
         if found not in self.levels:
-            raise InputError(f"{name} is {level!r}; give {wanted}")
+            raise InputError(
+                "{name} is {level!r}; give {wanted}", name=name, level=level, wanted=wanted
+            )
         return self.points[self.levels.index(found)]
 
 
@@ -255,7 +270,11 @@ def points_chart(name: str) -> PointsChart:
     (14, 19, 25, 31, 38, 46, 55, 65, 75)
     """
     if name not in list(POINTS_CHARTS):
-        raise InputError(f"chart of points is {name!r}; give {' or '.join(POINTS_CHARTS)}")
+        raise InputError(
+            "chart of points is {name!r}; give {points_charts}",
+            name=name,
+            points_charts=" or ".join(POINTS_CHARTS),
+        )
     return _read_points(name)
 
 

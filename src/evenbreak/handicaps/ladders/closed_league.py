@@ -85,7 +85,8 @@ class ClosedPair:
         object.__setattr__(self, "skill_difference", float(self.skill_difference))
         if not np.isfinite(self.skill_difference):
             raise InputError(
-                f"skill_difference is {self.skill_difference!r}; give a finite number of points"
+                "{skill_difference} is {value!r}; give a finite number of points",
+                value=self.skill_difference,
             )
         begun = error_on(self.table.widest, self.start, "rating difference")
         object.__setattr__(self, "start", begun)
@@ -109,7 +110,12 @@ class ClosedPair:
         """
         size = self.table.widest
         if not -size <= state <= size:
-            raise InputError(f"state is {state!r}; give a rating difference from {-size} to {size}")
+            raise InputError(
+                "{state} is {value!r}; give a rating difference from {size} to {size_2}",
+                value=state,
+                size=-size,
+                size_2=size,
+            )
         apart = self.table.moves[state + size] @ [1, -1]
         led_to = np.where(np.abs(state + apart) > size, state, state + apart)
         nexts, place = np.unique(led_to, return_inverse=True)
@@ -143,8 +149,9 @@ class ClosedPair:
         """
         if not self.system.conserving:
             raise InputError(
-                f"system is {self.system.name}, under which the sum of two ratings changes; use "
-                "law(), the distribution of their difference"
+                "{system} is {name}, under which the sum of two ratings changes; use law(), "
+                "the distribution of their difference",
+                name=self.system.name,
             )
         law = self.law()
         errors = tuple((float(x) - self.skill_difference) / 2.0 for x in law.values)
@@ -191,8 +198,9 @@ def in_step_law(
     unit = int(np.gcd.reduce(steps))
     if not by.conserving or unit == 0 or not (steps // unit % 2).all():
         raise InputError(
-            f"system is {by.name}, whose players do not stay in step; give one that moves both "
-            "players of a match by the same odd number of points, or use a Ladder"
+            "{system} is {by}, whose players do not stay in step; give one that moves both "
+            "players of a match by the same odd number of points, or use a Ladder",
+            by=by.name,
         )
     chances = table.chances(0.5)
     moved = np.stack([np.where(table.moves[..., 0] == step, chances, 0).sum(1) for step in steps])
@@ -209,4 +217,6 @@ def in_step_law(
         if np.abs(after - law).max() <= _SETTLED:
             return Distribution(tuple(errors.tolist()), tuple(after.tolist()))
         law = after
-    raise AccuracyError(f"the errors still change after {_ROUNDS} rounds; give another chart")
+    raise AccuracyError(
+        "the errors still change after {rounds} rounds; give another chart", rounds=_ROUNDS
+    )

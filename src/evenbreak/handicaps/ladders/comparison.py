@@ -299,8 +299,11 @@ def lag(ladder: Ladder) -> Lag:
     share = float(law.probability[0] + law.probability[-1])
     if share > _AT_THE_ENDS:
         raise AccuracyError(
-            f"the rating error is at the ladder's ends {share:.2g} of the time: the steps do not "
-            f"keep up with a drift of {ladder.drift:g} a match, or the ladder is too narrow; give "
-            f"a widest above {ladder.widest}"
+            "the rating error is at the ladder's ends {share:.2g} of the time: the steps do "
+            "not keep up with a drift of {drift:g} a match, or the ladder is too narrow; "
+            "give a widest above {widest}",
+            share=share,
+            drift=ladder.drift,
+            widest=ladder.widest,
         )
     return Lag(ladder.drift, law.mean, law.sd)

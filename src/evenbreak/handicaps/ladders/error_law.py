@@ -107,8 +107,10 @@ def long_run(night: NightModel, error: Floats | None, drift: float, *, conservin
         begun = again
     if changes[-1] > _SETTLED:
         raise AccuracyError(
-            f"the rating errors still change by {changes[-1]:.3g} after {_ROUNDS} rounds; give the "
-            "opponents' error, or opponents=NATURAL, who are correctly rated"
+            "the rating errors still change by {change:.3g} after {rounds} rounds; give the "
+            "opponents' error, or opponents=NATURAL, who are correctly rated",
+            change=changes[-1],
+            rounds=_ROUNDS,
         )
     league = _average_over_night(night, chances, pace, exact, tuple(changes[1:]))
     met = (league.law + league.law[::-1]) / 2.0

@@ -61,7 +61,12 @@ class ErrorWalk:
         """
         half = len(self.kernel) // 2
         if not -half <= state <= half:
-            raise InputError(f"state is {state!r}; give a rating error from {-half} to {half}")
+            raise InputError(
+                "{state} is {value!r}; give a rating error from {half} to {half_2}",
+                value=state,
+                half=-half,
+                half_2=half,
+            )
         after: dict[int, float] = {}
         for step, chance in zip(
             self.steps.tolist(), self.kernel[state + half].tolist(), strict=True
@@ -144,8 +149,9 @@ class RatingLadder(ErrorWalk):
         wins = number_probabilities(self.wins, "wins", "win chance")
         if len(wins) < 3 or len(wins) % 2 == 0:
             raise InputError(
-                f"wins has {len(wins)} chances; give one for each error from -widest to widest, "
-                "an odd number, three or more"
+                "{wins} has {n_wins} chances; give one for each error from -widest to "
+                "widest, an odd number, three or more",
+                n_wins=len(wins),
             )
         object.__setattr__(self, "wins", wins)
 

@@ -135,17 +135,21 @@ class Ladder(ErrorWalk):
     ) -> None:
         by, chart = _system_and_chart(system, chart)
         if not isinstance(opponents, Opponents):
-            raise InputError(f"opponents is {opponents!r}; give Opponents, such as NATURAL")
+            raise InputError(
+                "opponents is {opponents!r}; give Opponents, such as NATURAL", opponents=opponents
+            )
         doubling = by.scale.points_per_doubling
         if doubling < 1.0:
             raise InputError(
-                f"points_per_doubling is {doubling:g} on the system's scale; ratings are whole "
-                "points, so give a scale of 1 or more"
+                "points_per_doubling is {doubling:g} on the system's scale; ratings are "
+                "whole points, so give a scale of 1 or more",
+                doubling=doubling,
             )
         if opponents.farthest > _MOST_SPREAD * doubling:
             raise InputError(
-                f"spread of the opponents goes to {opponents.farthest} points; give "
-                f"{_MOST_SPREAD * doubling:.0f} or less"
+                "spread of the opponents goes to {farthest} points; give {most_spread:.0f} or less",
+                farthest=opponents.farthest,
+                most_spread=_MOST_SPREAD * doubling,
             )
         values = {
             "system": by,
@@ -222,9 +226,12 @@ class Ladder(ErrorWalk):
         held = _at_the_ends(law)
         if held > _MOST_HELD:
             raise AccuracyError(
-                f"the rating error is at the ends of the ladder, {self.widest} points off, with a "
-                f"chance of {held:.2g}: the steps do not keep up with what drives it away, or the "
-                f"ladder is too narrow; give {_remedy(self)}"
+                "the rating error is at the ends of the ladder, {widest} points off, with a "
+                "chance of {held:.2g}: the steps do not keep up with what drives it away, or "
+                "the ladder is too narrow; give {self}",
+                widest=self.widest,
+                held=held,
+                self=_remedy(self),
             )
         return self._distribution(law)
 
@@ -256,7 +263,9 @@ class Ladder(ErrorWalk):
 def _system_and_chart(system: Any, chart: Any) -> tuple[System, Chart]:
     if isinstance(system, Chart):
         if chart is not None:
-            raise InputError(f"chart is {chart!r}; a Chart was given as the system already")
+            raise InputError(
+                "chart is {chart!r}; a Chart was given as the system already", chart=chart
+            )
         return system_of("npl"), system
     by = system_of(system)
     return by, by.usual_chart() if chart is None else chart_of(chart)
@@ -293,8 +302,9 @@ def _usual_width(
     """Return the narrowest usual width with next to nothing at its ends."""
     if _same_everywhere(system, chart):
         raise SameRaceError(
-            f"chart {chart.name} has the same race at every difference, so nothing brings a wrong "
-            "rating back; give a chart whose races differ"
+            "chart {chart} has the same race at every difference, so nothing brings a wrong "
+            "rating back; give a chart whose races differ",
+            chart=chart.name,
         )
     for doublings in _DOUBLINGS:
         widest = round(doublings * system.scale.points_per_doubling)
@@ -313,10 +323,13 @@ def _usual_width(
                 return widest
     if opponents.farthest:
         raise AccuracyError(
-            f"the rating error goes beyond {widest} points, or does not settle: the opponents are "
-            "too far from the player's skill for the chart's races; give opponents nearer to it"
+            "the rating error goes beyond {widest} points, or does not settle: the opponents "
+            "are too far from the player's skill for the chart's races; give opponents "
+            "nearer to it",
+            widest=widest,
         )
     raise AccuracyError(
-        f"the rating error goes beyond {widest} points: the steps are too long for the scale, "
-        "form varies too much, or the skill drifts away from the rating; give widest yourself"
+        "the rating error goes beyond {widest} points: the steps are too long for the scale, "
+        "form varies too much, or the skill drifts away from the rating; give widest yourself",
+        widest=widest,
     )

@@ -23,10 +23,12 @@ _NOTHING = Distribution((0,), (1.0,))
 
 def _in_whole_points(law: Distribution, name: str) -> None:
     if not isinstance(law, Distribution):
-        raise InputError(f"{name} is {law!r}; give a Distribution of whole points")
+        raise InputError(
+            "{name} is {law!r}; give a Distribution of whole points", name=name, law=law
+        )
     for value in law.values:
         if value != int(value):
-            raise InputError(f"{name} holds {value!r}; give whole points")
+            raise InputError("{name} holds {value!r}; give whole points", name=name, value=value)
 
 
 def farthest(law: Distribution) -> int:

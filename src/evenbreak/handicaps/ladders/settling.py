@@ -136,14 +136,20 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         passage = first_passage(chain_of_errors(ladder), left / remaining, target)
         if not passage.certain or passage.mean is None or passage.variance is None:
             raise InputError(
-                f"within is {band}, and steps of {ladder.steps.max()} from an error of {error} may "
-                "never come so near; give a wider band"
+                "{within} is {band}, and steps of {max} from an error of {error} may never "
+                "come so near; give a wider band",
+                band=band,
+                max=ladder.steps.max(),
+                error=error,
             )
         later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
         if tail * remaining > _TAIL:
             raise AccuracyError(
-                f"from an error of {error} a rating {_too_long(passage.mean)} to come within "
-                f"{band}; give a wider band, a nearer start, or less drift"
+                "from an error of {error} a rating {mean} to come within {band}; give a "
+                "wider band, a nearer start, or less drift",
+                error=error,
+                mean=_too_long(passage.mean),
+                band=band,
             )
         gone = len(chances) - 1
         mean += remaining * (gone + passage.mean)
@@ -164,8 +170,9 @@ def _too_long(mean: float) -> str:
 def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
     if not ladder.system.newcomer_steps:
         raise InputError(
-            f"newcomer is True, but in the system {ladder.system.name} newcomers move like "
-            "everybody else; leave it out"
+            "newcomer is True, but in the system {name} newcomers move like everybody else; "
+            "leave it out",
+            name=ladder.system.name,
         )
     return ladder.system.newcomer_steps
 
@@ -232,7 +239,8 @@ def ladder_gap(ladder: Ladder) -> float:
     gap = 1.0 - float(np.abs(values).max(initial=0.0))
     if gap < 1e-9:
         raise AccuracyError(
-            f"the gap is {gap:.1e}, which rounding hides; follow the ladder with ladder_mixing"
+            "the gap is {gap:.1e}, which rounding hides; follow the ladder with ladder_mixing",
+            gap=gap,
         )
     return gap
 
@@ -277,7 +285,7 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     (10, 97, 245)
     """
     if not 0.0 < eps < 1.0:
-        raise InputError(f"eps is {eps!r}; give a number between 0 and 1")
+        raise InputError("{eps} is {value!r}; give a number between 0 and 1", value=eps)
     place = error_on(ladder.widest, start) + ladder.widest
     chain = chain_of_errors(ladder)
     now = np.eye(len(chain))[place]
@@ -292,6 +300,8 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
             return matches
         average = matrix @ average
     raise AccuracyError(
-        f"the error is not within {eps:g} of the long run after {_MOST_MATCHES} matches; give a "
-        "larger eps"
+        "the error is not within {eps:g} of the long run after {most_matches} matches; give "
+        "a larger eps",
+        eps=eps,
+        most_matches=_MOST_MATCHES,
     )

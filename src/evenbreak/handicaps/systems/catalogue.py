@@ -85,12 +85,22 @@ def system_of(name: Any) -> System:
     family = FAMILIES.get(word)
     if family is None:
         *listed, last = (known.grammar for known in FAMILIES.values())
-        raise InputError(f"system is {name!r}; give {', '.join(listed)} or {last}")
+        raise InputError(
+            "system is {name!r}; give {listed} or {last}",
+            name=name,
+            listed=", ".join(listed),
+            last=last,
+        )
     fewest, most = family.numbers
     if not fewest <= len(numbers) <= most or not all(_NUMBER.fullmatch(each) for each in numbers):
         whole = ", in whole numbers" if most else ""
-        raise InputError(f"system is {name!r}; write it as {family.grammar}{whole}")
+        raise InputError(
+            "system is {name!r}; write it as {grammar}{whole}",
+            name=name,
+            grammar=family.grammar,
+            whole=whole,
+        )
     try:
         return family.make(*map(int, numbers))
     except InputError as error:
-        raise InputError(f"system is {name!r}: {error}") from None
+        raise InputError("system is {name!r}: {error}", name=name, error=error) from None

@@ -173,7 +173,9 @@ def match_table(
     [[2, -2], [-2, 2]]
     """
     if not isinstance(system, System):
-        raise InputError(f"system is {system!r}; give a System, such as system_of('npl')")
+        raise InputError(
+            "{system} is {value!r}; give a System, such as system_of('npl')", value=system
+        )
     by = system.usual_chart() if chart is None else chart_of(chart)
     given = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
     size = whole(given, "widest", at_least=1)

@@ -127,7 +127,9 @@ def apply_results(
     problems = night_problems(system, roster, results, chart=chart)
     if problems:
         first = problems[0]
-        raise InputError(f"row {first.row} of the results: {first.message}")
+        raise InputError(
+            "row {row} of the results: {message}", row=first.row, message=first.message
+        )
     night = night_table(roster, results, chart)
     matches = tuple(_match_changes(system, roster, night))
     change, games = np.zeros(len(roster)), np.zeros(len(roster), dtype=np.int64)

@@ -96,8 +96,10 @@ class System:
         pair = isinstance(points, tuple | list) and len(points) == 2
         if not pair or not all(isinstance(point, Integral) for point in points):
             raise InputError(
-                f"the rule of the system {self.name} returned {points!r}; let it return a pair, "
-                "the whole points of the winner and of the loser, such as (1, -1)"
+                "the rule of the system {name} returned {points!r}; let it return a pair, "
+                "the whole points of the winner and of the loser, such as (1, -1)",
+                name=self.name,
+                points=points,
             )
         return int(points[0]), int(points[1])
 
@@ -132,7 +134,7 @@ class System:
         if self.own_chart is not None:
             return self.own_chart
         if not self.charts:
-            raise InputError(f"the system {self.name} has no chart of its own; give one")
+            raise InputError("the system {name} has no chart of its own; give one", name=self.name)
         return chart(self.charts[0])
 
     def known_charts(self) -> tuple[Chart, ...]:

@@ -109,7 +109,9 @@ def team_handicap(
     )
     if not lost < won:
         raise InputError(
-            f"points_lost is {lost:g} and points_won {won:g}; give fewer points to the loser"
+            "{points_lost} is {lost:g} and points_won {won:g}; give fewer points to the loser",
+            lost=lost,
+            won=won,
         )
     pairs, many = whole(match_ups, "match_ups", at_least=1), whole(games, "games", at_least=1)
     apart = number(average_1, "average_1") - number(average_2, "average_2")

@@ -162,8 +162,10 @@ def walk_forward(
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
     if len(days) < 2:
         raise InputError(
-            f"the results have games on {len(days)} date{'s' * (len(days) != 1)}; give two or more "
-            "in the column date, so that earlier dates can predict later ones"
+            "the results have games on {n_days} date{what}; give two or more in the column "
+            "date, so that earlier dates can predict later ones",
+            n_days=len(days),
+            what="s" * (len(days) != 1),
         )
     a, b = season.player_a, season.player_b
     levels = levels or Levels()

@@ -267,12 +267,12 @@ def season_chances(
     for many in places:
         if not 1 <= whole(many, "places") <= len(season.teams):
             raise InputError(
-                "places has {many} for {n_teams} teams", many=many, n_teams=len(season.teams)
+                "{places} has {many} for {n_teams} teams", many=many, n_teams=len(season.teams)
             )
     for match in matches:
         if not 0 <= whole(match, "matches") < len(season.to_come):
             raise InputError(
-                "matches has {match}; {n_to_come} are to come",
+                "{matches} has {match}; {n_to_come} are to come",
                 match=match,
                 n_to_come=len(season.to_come),
             )

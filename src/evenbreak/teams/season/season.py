@@ -145,7 +145,7 @@ class TeamSeason:
             law = law[None]
         if law.ndim != 3 or law.shape[1:] != (len(left), len(ends)):
             raise InputError(
-                "chances has shape {law_shape}; give (layers, {n_left} matches, {n_ends} scores)",
+                "{chances} has shape {law_shape}; give (layers, {n_left} matches, {n_ends} scores)",
                 law_shape=law.shape,
                 n_left=len(left),
                 n_ends=len(ends),

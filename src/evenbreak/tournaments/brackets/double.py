@@ -97,8 +97,8 @@ def drop_orders(
         if drops not in DROPS:
             listed = ", ".join(repr(name) for name in DROPS)
             raise InputError(
-                "drops is {drops!r}; give {listed}, or the orders themselves",
-                drops=drops,
+                "{drops} is {value!r}; give {listed}, or the orders themselves",
+                value=drops,
                 listed=listed,
             )
         masks = [*_MASKS[drops].get(pod or size, ()), *[0] * len(counts)]
@@ -109,14 +109,14 @@ def drop_orders(
     given = [list(order) for order in drops]
     if len(given) > len(counts):
         raise InputError(
-            "drops has {n_given} orders; give {n_counts} at most",
+            "{drops} has {n_given} orders; give {n_counts} at most",
             n_given=len(given),
             n_counts=len(counts),
         )
     for number, (order, count) in enumerate(zip(given, counts, strict=False), 1):
         if sorted(order) != list(range(1, count + 1)):
             raise InputError(
-                "drops has {order} for its round {number}; give 1 to {count}, each once",
+                "{drops} has {order} for its round {number}; give 1 to {count}, each once",
                 order=order,
                 number=number,
                 count=count,

@@ -51,7 +51,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     """
     if isinstance(players, str):
         raise InputError(
-            "players is {players!r}; give a list of names, or how many there are", players=players
+            "{players} is {value!r}; give a list of names, or how many there are", value=players
         )
     if isinstance(players, Sequence):
         names = tuple(str(player) for player in players)
@@ -59,7 +59,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
         names = tuple(str(k) for k in range(1, whole(players, "players") + 1))
     if not fewest <= len(names) <= MOST:
         raise InputError(
-            "players has {n_names} names; give {fewest} to {most}",
+            "{players} has {n_names} names; give {fewest} to {most}",
             n_names=len(names),
             fewest=fewest,
             most=MOST,
@@ -68,7 +68,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     for name in names:
         if name in seen:
             raise InputError(
-                "players has {name!r} twice; give each player a name of their own", name=name
+                "{players} has {name!r} twice; give each player a name of their own", name=name
             )
         seen.add(name)
     return names

@@ -169,13 +169,13 @@ def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int 
     seated = [player for player in listed if player is not None]
     if sorted(seated) != list(range(players)):
         raise InputError(
-            "lines is {lines!r}; give each position from 0 to {players} once",
-            lines=lines,
+            "{lines} is {value!r}; give each position from 0 to {players} once",
+            value=lines,
             players=players - 1,
         )
     if len(listed) != bracket_size(len(listed)):
         raise InputError(
-            "lines has {n_listed} entries; give 2, 4, 8, 16, ... of them", n_listed=len(listed)
+            "{lines} has {n_listed} entries; give 2, 4, 8, 16, ... of them", n_listed=len(listed)
         )
     return listed
 
@@ -287,7 +287,7 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
     """
     if len(clubs) != len(players):
         raise InputError(
-            "clubs has {n_clubs} values; give one for each of {n_players}",
+            "{clubs} has {n_clubs} values; give one for each of {n_players}",
             n_clubs=len(clubs),
             n_players=len(players),
         )

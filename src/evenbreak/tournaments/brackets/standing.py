@@ -126,7 +126,7 @@ def _check_names(bracket: Bracket, results: dict[str, str | Sequence[str]]) -> N
         if name not in known:
             listed = some_of(list(bracket.by_name))
             raise InputError(
-                "results has match {name!r}; give one of {listed}", name=name, listed=listed
+                "{results} has match {name!r}; give one of {listed}", name=name, listed=listed
             )
 
 

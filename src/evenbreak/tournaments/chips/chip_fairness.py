@@ -137,8 +137,8 @@ def fairest_chips(
     low, high = whole(fewest, "fewest", at_least=1), whole(most, "most", at_least=1)
     if low > high or len(rated) < 2:
         raise InputError(
-            "fewest is {fewest!r} and most {most!r}; give fewer first, two players",
-            fewest=fewest,
+            "{fewest} is {value!r} and most {most!r}; give fewer first, two players",
+            value=fewest,
             most=most,
         )
     row = _rows_of(rated, bands)

@@ -109,7 +109,8 @@ def play_evenings(
     for name in names:
         if name not in laws:
             raise InputError(
-                "laws has no match {name!r}; give the odds of every match (`pair_odds`)", name=name
+                "{laws} has no match {name!r}; give the odds of every match (`pair_odds`)",
+                name=name,
             )
     rng = np.random.default_rng(seed)
     evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)

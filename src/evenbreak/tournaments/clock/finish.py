@@ -327,7 +327,7 @@ def finish(
     if where.assumed:
         name = next(iter(where.assumed))
         raise InputError(
-            "results has {name!r}; give results of matches whose players are known", name=name
+            "{results} has {name!r}; give results of matches whose players are known", name=name
         )
     clock = number(now, "now", low=0.0)
     speed = learned_pace(pace, played)
@@ -381,8 +381,8 @@ def _tables(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
         free = np.zeros(whole(tables, "tables", at_least=1))
     if len(free) < max(busy, 1):
         raise InputError(
-            "tables is {tables!r}, with {busy} matches under way; give more tables",
-            tables=tables,
+            "{tables} is {value!r}, with {busy} matches under way; give more tables",
+            value=tables,
             busy=busy,
         )
     return np.maximum(free, clock)

@@ -152,7 +152,7 @@ class _Auction:
             raise InputError("fair shares sum to {total:g}; give shares that sum to 1", total=total)
         for name in bids:
             if name not in shares:
-                raise InputError("sold has {name!r}, who is not among the players", name=name)
+                raise InputError("{sold} has {name!r}, who is not among the players", name=name)
         total = sum(number(bid, f"bid for {name}", low=0.0) for name, bid in bids.items())
         return cls(total, {name: part * s for name, s in shares.items() if name not in bids})
 

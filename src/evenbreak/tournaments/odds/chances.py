@@ -108,7 +108,7 @@ def chances_of(
         seats = now.seats.get(bracket.match(name).name, (None, None))
         if name in now.winners or None in seats:
             raise InputError(
-                "live has match {name!r}; give matches whose players are known", name=name
+                "{live} has match {name!r}; give matches whose players are known", name=name
             )
         one, other = seats
         table = tables[name].copy()
@@ -125,7 +125,7 @@ def _given(win: Wins, name: str) -> Any:
         return win
     if name not in win:
         raise InputError(
-            "win has no chances for match {name!r}; give them for every match", name=name
+            "{win} has no chances for match {name!r}; give them for every match", name=name
         )
     return win[name]
 

@@ -247,7 +247,7 @@ def fairest_rounds(
     search = _Search(bracket, ratings, scale, whole(tries, "tries", at_least=1), games_mean)
     missing = {round_of(match) for match in bracket.matches} - set(games) & set(lengths)
     if missing:
-        raise InputError("games has no race for {missing}", missing=min(missing))
+        raise InputError("{games} has no race for {missing}", missing=min(missing))
     rounds = sorted({round_of(match) for match in bracket.matches})
     best = {one: games[one] for one in games if one in rounds}
     while not search.over:

@@ -154,9 +154,9 @@ def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
     given = np.asarray(payouts, dtype=float)
     if given.ndim != 1 or len(given) > len(bracket.players) or not np.isfinite(given).all():
         raise InputError(
-            "payouts is {payouts!r}; give an amount for each paid place, at most {n_players} "
+            "{payouts} is {value!r}; give an amount for each paid place, at most {n_players} "
             "of them",
-            payouts=payouts,
+            value=payouts,
             n_players=len(bracket.players),
         )
     paid[: len(given)] = given

@@ -105,7 +105,7 @@ def over_ratings(
     if now.assumed:
         name = next(iter(now.assumed))
         raise InputError(
-            "results has {name!r}; give results of matches whose players are known", name=name
+            "{results} has {name!r}; give results of matches whose players are known", name=name
         )
     mean = column(ratings, "ratings", len(bracket.players), "players")
     remaining = now.remaining
@@ -176,8 +176,8 @@ def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Ge
         root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
     else:
         raise InputError(
-            "spread has shape {given_shape}; give a standard deviation for each of {players} "
-            "players, or their covariance matrix",
+            "{spread} has shape {given_shape}; give a standard deviation for each of "
+            "{players} players, or their covariance matrix",
             given_shape=given.shape,
             players=players,
         )
