@@ -5,10 +5,9 @@ from functools import cache
 
 import numpy as np
 
-from evenbreak.answers.league.players import most_active
 from evenbreak.answers.league.roster_matchups import OfferedRaces, all_pairs
 from evenbreak.answers.league.round import Round
-from evenbreak.answers.league.sheet import Sheet
+from evenbreak.answers.league.sheet import Sheet, most_active
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps import chart

@@ -1,6 +1,4 @@
 from .league.matchups import matchups_answer as matchups_answer
-from .league.players import find_players as find_players
-from .league.players import most_active as most_active
 from .league.rate import rate_answer as rate_answer
 from .league.rating_changes import rating_changes_answer as rating_changes_answer
 from .league.rating_changes import rating_changes_of_season as rating_changes_of_season
@@ -13,7 +11,9 @@ from .league.season_tables import standings_frame as standings_frame
 from .league.season_tables import truth_frame as truth_frame
 from .league.season_tables import weeks_frame as weeks_frame
 from .league.sheet import Sheet as Sheet
+from .league.sheet import find_players as find_players
 from .league.sheet import matchups_frame as matchups_frame
+from .league.sheet import most_active as most_active
 from .league.sheet import summary_frame as summary_frame
 from .league.validate import validate_answer as validate_answer
 from .league.why import why_answer as why_answer

@@ -165,9 +165,8 @@ class League:
 
     def _rated(self, asked: int) -> Sheet:
         """Return the sheet; the steps are told to whoever looks meanwhile."""
-        from evenbreak.answers.league.players import most_active
         from evenbreak.answers.league.roster_matchups import OfferedRaces
-        from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet
+        from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, most_active
         from evenbreak.files.results.results_file import read_seasons
         from evenbreak.ratings.usual import usual_ratings
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak.answers.kit.scales import league_doubts
 from evenbreak.answers.kit.wording import some_of
-from evenbreak.answers.league.players import starters_words
+from evenbreak.answers.league.prior import starters_words
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, read_team

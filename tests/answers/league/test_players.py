@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.league.players import find_players, most_active
+from evenbreak.answers.league.sheet import find_players, most_active
 from evenbreak.errors import InputError
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results

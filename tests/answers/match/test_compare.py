@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.answers.match.formats import Compared, compare_answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.games import Rack
 from evenbreak.matches import crossings, even_probability, match_format, match_odds
 

@@ -1,5 +1,4 @@
-from evenbreak.answers.match.odds import fair_answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers, fair_answer
 from evenbreak.games import Rack
 from evenbreak.handicaps import fair_races
 

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.answers.match.live import live_answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.games import Race, Rack
 from evenbreak.matches import live_odds
 

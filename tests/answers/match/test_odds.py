@@ -1,7 +1,6 @@
 import pytest
 
-from evenbreak.answers.match.odds import match_words, odds_answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers, match_words, odds_answer
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 from evenbreak.matches import match_odds
 

@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.games import Rack, alternate_breaks
 from evenbreak.ratings import scale_of
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.equipment import break_cue_answer
+from evenbreak.answers.physics.strike import break_cue_answer
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics.units import OUNCE
 

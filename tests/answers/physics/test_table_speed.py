@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.answers.physics.equipment import cloth_class, table_speed_answer
+from evenbreak.answers.physics.strike import cloth_class, table_speed_answer
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.physics.units import INCH
 

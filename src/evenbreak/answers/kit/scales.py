@@ -1,4 +1,4 @@
-"""Scales in words: one that ratings come from, and one that a league's own ratings are put on."""
+"""Scales in words, doubts about a scale, and how much players vary from match to match."""
 
 from __future__ import annotations
 

@@ -1,15 +1,18 @@
-"""What was assumed about players before any result, how that was chosen, and what it is worth."""
+"""What ratings start from: the prior, levels and groups, and players without a rating."""
 
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Show, Table
-from evenbreak.answers.kit.wording import count_of, decimals, listed
+from evenbreak.answers.kit.wording import count_of, decimals, listed, some_of
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
 from evenbreak.ratings.prior import Evidence, PriorChoice
+from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
 
 _ONE = decimals(1)
@@ -224,3 +227,60 @@ def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
         f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
         f"{_ONE(scale.points(choice.prior_sd))} points is used."
     )
+
+
+def starters_words(listed: Roster, filled: Roster) -> str:
+    """Return who has no rating on the list and what they are taken as; '' if nobody.
+
+    >>> listed = Roster(["Ann", "Bo"], [600, np.nan])
+    >>> starters_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
+    '1 player has no rating (Bo) and is taken as 500 ± 100.'
+    """
+    new = np.flatnonzero(np.isnan(listed.rating))
+    said = [games_words(listed, filled)]
+    if new.size:
+        names = some_of([listed.players[place] for place in new])
+        rating, error = filled.rating[new[0]], filled.standard_error[new[0]]
+        off = "" if np.isnan(error) else f" ± {error:g}"
+        have, verb = ("has", "is") if new.size == 1 else ("have", "are")
+        said.insert(
+            0,
+            f"{count_of(int(new.size), 'player')} {have} no rating ({names}) and {verb} taken as "
+            f"{rating:g}{off}.",
+        )
+    return " ".join(filter(None, said))
+
+
+def games_words(listed: Roster, filled: Roster) -> str:
+    """Return whose error comes from the games behind their rating; '' if nobody's does.
+
+    >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, 12])
+    >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
+    'The errors of 2 ratings come from their games, such as ± 83 for Bo after 12.'
+    >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, NOT_STATED])
+    >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
+    'The error of 1 rating comes from its games: ± 17 for Ann after 300. The games of 1 rating (Bo)
+    are not stated: it is taken to be as uncertain as that of a new player, ± 100.'
+    """
+    rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error)
+    by_games = np.flatnonzero(rated & (listed.games != NOT_STATED))
+    said = []
+    if by_games.size:
+        least = by_games[listed.games[by_games].argmin()]
+        name = listed.players[least]
+        error = filled.standard_error[filled.position(name)]
+        said.append(
+            f"The {'errors' if by_games.size > 1 else 'error'} of "
+            f"{count_of(by_games.size, 'rating')} "
+            f"{'come from their games, such as' if by_games.size > 1 else 'comes from its games:'} "
+            f"± {error:.{0 if error >= 10 else 1}f} for {name} after {listed.games[least]:,}."
+        )
+    silent = [listed.players[k] for k in np.flatnonzero(rated & (listed.games == NOT_STATED))]
+    error = filled.standard_error[filled.position(silent[0])] if silent else np.nan
+    if not np.isnan(error):
+        said.append(
+            f"The games of {count_of(len(silent), 'rating')} ({some_of(silent)}) are not stated: "
+            f"{'they are' if silent[1:] else 'it is'} taken to be as uncertain as that of a new "
+            f"player, ± {error:.4g}."
+        )
+    return " ".join(said)

@@ -9,7 +9,7 @@ from evenbreak.answers.kit.by_way import by_way
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import chance, count_of, listed, percent
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.games.rack import Rack
 from evenbreak.matches.crossings import Crossing, Crossings

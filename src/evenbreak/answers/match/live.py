@@ -8,8 +8,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.wording import percent
-from evenbreak.answers.match.odds import match_words
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers, match_words
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
 from evenbreak.matches.live import LiveOdds, Standing

@@ -11,7 +11,7 @@ import numpy as np
 from evenbreak.answers.kit.remarks import Remark, file_name
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, some_of
-from evenbreak.answers.league.players import games_words
+from evenbreak.answers.league.prior import games_words
 from evenbreak.arrays import Floats
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart

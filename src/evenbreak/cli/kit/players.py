@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.values import number_of, refuse
 from evenbreak.games.rack import Rack
@@ -40,8 +40,9 @@ def _named(
     names: tuple[str, ...], path: str, scale: Scale | None, form: float | None
 ) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
-    from evenbreak.answers.league.players import find_players, games_words
+    from evenbreak.answers.league.prior import games_words
     from evenbreak.answers.league.roster_matchups import cannot_be_compared
+    from evenbreak.answers.league.sheet import find_players
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
     from evenbreak.cli.kit.terminal import say
     from evenbreak.files.lists.roster import read_roster

@@ -8,7 +8,7 @@ from typing import Any
 
 from evenbreak import matches
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.plot import write_plot

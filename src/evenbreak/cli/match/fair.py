@@ -3,7 +3,7 @@
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.players import players_of, refuse_uncertain
 from evenbreak.cli.kit.values import refuse

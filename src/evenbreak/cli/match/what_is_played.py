@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from evenbreak.answers.match.two_players import TwoPlayers
+from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.players import players_of
 from evenbreak.cli.kit.values import refuse
 from evenbreak.games.match import Match

@@ -35,7 +35,7 @@ def command(forearm: float, ball: float | None, stick: float | None, units: Unit
     The best cue passes the largest share of the stroke's energy, that of arm and cue
     together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.
     """
-    from evenbreak.answers.physics.equipment import break_cue_answer
+    from evenbreak.answers.physics.strike import break_cue_answer
     from evenbreak.answers.physics.units import unit_doubts
 
     weight = units.mass

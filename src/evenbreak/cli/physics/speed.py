@@ -39,7 +39,7 @@ def command(
     Roll a ball off the foot cushion so that it just reaches the head cushion, time it from
     cushion to cushion, and average a few tries. A table speed of 80 to 100 is normal.
     """
-    from evenbreak.answers.physics.equipment import table_speed_answer
+    from evenbreak.answers.physics.strike import table_speed_answer
     from evenbreak.physics import Ball, PoolTable
 
     unit = units.length

@@ -71,7 +71,7 @@ def command(
     TEAMS.csv has the columns team, player and rating, and for caps a column level. Every team meets
     every other; each night is solved exactly, with both captains at their best.
     """
-    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.round import LeagueRules, team_rules_answer
 
     lists = files.read_squads(roster)

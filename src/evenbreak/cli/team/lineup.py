@@ -139,7 +139,7 @@ def command(
     taken to choose as well as they can. After each nomination, ask again with --used, --score and
     --named.
     """
-    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import lineup_answer
     from evenbreak.teams.meeting import SEALED, Meeting
 

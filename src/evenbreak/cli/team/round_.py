@@ -60,7 +60,7 @@ def command(
     All games of all matches are added up. The files have the columns player and rating.
     """
     from evenbreak.answers.kit.wording import count_of
-    from evenbreak.answers.league.players import starters_words
+    from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import race_words
     from evenbreak.answers.team.round import team_round_answer
 

@@ -48,7 +48,7 @@ def _unrated(entered: Entered, state: Evening) -> list[str]:
     """Return what is assumed of players without a rating, as a sentence if there are any."""
     import numpy as np
 
-    from evenbreak.answers.league.players import games_words
+    from evenbreak.answers.league.prior import games_words
     from evenbreak.answers.tournament.tournament import unrated_words
 
     read = entered.file.roster

@@ -12,7 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.kit.scales import chart_doubts, league_doubts
-from evenbreak.answers.league.players import games_words
+from evenbreak.answers.league.prior import games_words
 from evenbreak.answers.tournament.moves import entry_words
 from evenbreak.answers.tournament.tournament import unrated_words
 from evenbreak.errors import EvenbreakError

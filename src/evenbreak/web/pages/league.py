@@ -133,7 +133,7 @@ def matches_csv(state: Evening, event: str) -> bytes:
 
 async def player(request: Request) -> Response:
     """Show a player's rating and matches and, against another, the fairest race and why."""
-    from evenbreak.answers.league.players import find_players
+    from evenbreak.answers.league.sheet import find_players
 
     sheet = _sheet(request)
     name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
