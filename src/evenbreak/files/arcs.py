@@ -84,12 +84,12 @@ class ArcsFile(NamedTuple):
         if start is None:
             start = self.start or self.states[0]
         elif start not in self.states:
-            known = ", ".join(map(quoted, self.states[:5]))
+            first_states = ", ".join(map(quoted, self.states[:5]))
             raise refusal(
                 self.source,
                 "start {start} is not a state; the first states are {states}",
                 start=quoted(start),
-                states=known,
+                states=first_states,
             )
         return chain_from_arrays(
             self.states, self.sources, self.targets, self.probabilities, start=start

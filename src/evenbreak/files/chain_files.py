@@ -196,15 +196,15 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
 
 def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
     """Return the players who have won, without the states in which nobody has."""
-    found = {}
+    players = {}
     for state, winner in winners.items():
         if winner is None or winner == "":
             continue
         try:
-            found[state] = int(str(winner))
+            players[state] = int(str(winner))
         except ValueError:
-            found[state] = 0
-        if found[state] < 1:
+            players[state] = 0
+        if players[state] < 1:
             raise refusal(
                 source,
                 "state {state} has winner {winner}; give the number of the player who has won "
@@ -212,7 +212,7 @@ def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
                 state=quoted(state),
                 winner=quoted(str(winner)),
             )
-    return found
+    return players
 
 
 def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -> ArcsFile:
@@ -286,18 +286,22 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
             "cannot be read as a Matrix Market file ({reason}); check the file",
             reason=reason,
         ) from None
-    found = coo_array(read)
-    if found.dtype.kind not in "iuf" or found.shape[0] != found.shape[1] or not found.shape[0]:
-        kind = "complex " if found.dtype.kind == "c" else ""
-        size = " x ".join(map(str, found.shape))
+    entries_read = coo_array(read)
+    if (
+        entries_read.dtype.kind not in "iuf"
+        or entries_read.shape[0] != entries_read.shape[1]
+        or not entries_read.shape[0]
+    ):
+        kind = "complex " if entries_read.dtype.kind == "c" else ""
+        size = " x ".join(map(str, entries_read.shape))
         raise refusal(
             source,
             "holds a {kind}matrix of {size}; give a square one of real numbers",
             kind=kind,
             size=size,
         )
-    matrix: csc_array[np.float64] = csc_array(found.astype(np.float64))
-    if issparse(read) and matrix.nnz < found.nnz:
+    matrix: csc_array[np.float64] = csc_array(entries_read.astype(np.float64))
+    if issparse(read) and matrix.nnz < entries_read.nnz:
         raise refusal(source, "lists an entry twice; keep one of the two")
     return matrix
 

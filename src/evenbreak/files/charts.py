@@ -339,7 +339,7 @@ def chart_table(
         return list(POINTS.columns), list(zip(chart.levels, chart.points, strict=True))
     levels = chart.levels
     return list(LEVELS.columns), [
-        (own, other, *chart.race(own, other)) for own in levels for other in levels
+        (own, opponent, *chart.race(own, opponent)) for own in levels for opponent in levels
     ]
 
 

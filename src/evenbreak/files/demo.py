@@ -73,7 +73,7 @@ def write_demo_evening(path: str | Path, now: datetime) -> Evening:
     def moved(at: str) -> str:
         return (end - (last - datetime.fromisoformat(at))).isoformat(timespec="seconds")
 
-    return new_tournament(path, [replace(one, at=moved(one.at)) for one in events])
+    return new_tournament(path, [replace(event, at=moved(event.at)) for event in events])
 
 
 def _place(name: str) -> Path:

@@ -45,8 +45,8 @@ def _rows(data: Mapping[str, Any], name: str) -> Any:
 
 def tournament(data: Mapping[str, Any]) -> SavedTournament:
     """Return the tournament."""
-    names = {one["id"]: name_of(one, "a participant") for one in _rows(data, "participant")}
-    stages = {one.get("id"): one.get("name") for one in _rows(data, "stage") or ()}
+    names = {row["id"]: name_of(row, "a participant") for row in _rows(data, "participant")}
+    stages = {row.get("id"): row.get("name") for row in _rows(data, "stage") or ()}
 
     def saved(match: Mapping[str, Any]) -> SavedMatch:
         event = stages.get(match.get("stage_id"))
@@ -87,7 +87,7 @@ def _placed(
     if len(stages) != 1:
         raise ExportError("has {n} stages; give a tournament of one stage", n=len(stages))
     group_of, round_of = (
-        {one["id"]: int(one["number"]) for one in _rows(data, name) or ()}
+        {row["id"]: int(row["number"]) for row in _rows(data, name) or ()}
         for name in ("group", "round")
     )
     spots: dict[_Spot, tuple[SavedMatch, Any]] = {

@@ -77,7 +77,11 @@ def _played(
         raise ExportError(
             "({a}, {b}) has the score {score!r}, which cannot be read", a=a, b=b, score=text
         )
-    scores = [(int(one[1]), int(one[2])) for one in sets if one is not None]
+    scores = [
+        (int(score_of_set[1]), int(score_of_set[2]))
+        for score_of_set in sets
+        if score_of_set is not None
+    ]
     if match.get("forfeited") or any(min(score) < 0 for score in scores):
         return (Played(a, b, event=event, forfeit=True, remarks=(Remark.FORFEIT,)),)
     played = [score for score in scores if any(score)]

@@ -66,10 +66,10 @@ def export_of(content: bytes, source: str) -> Export | None:
         as `saved_in` does, or if the file has no match that was played, or matches that
         contradict themselves.
     """
-    found = saved_in(content, source)
-    if found is None:
+    parsed = saved_in(content, source)
+    if parsed is None:
         return None
-    saved, warnings = found
+    saved, warnings = parsed
     problems = [
         warning(source, number, match_problem(number, match.problem))
         for number, match in enumerate(saved.matches, 1)

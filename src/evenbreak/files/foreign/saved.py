@@ -239,7 +239,7 @@ def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: 
     remarks = (Remark.NO_DATE,) if stated and not days else ()
     date = days[0] if days else ""
     return SavedMatch(
-        key, tuple(one._replace(date=date, remarks=(*one.remarks, *remarks)) for one in played)
+        key, tuple(part._replace(date=date, remarks=(*part.remarks, *remarks)) for part in played)
     )
 
 

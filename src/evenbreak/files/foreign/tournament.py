@@ -69,10 +69,10 @@ def read_saved_tournament(
         if the file is not such a tournament, or contradicts itself.
     """
     source, content = content_of(path)
-    found = saved_in(content, source)
-    if found is None:
+    parsed = saved_in(content, source)
+    if parsed is None:
         raise refusal(source, "is not a tournament saved from {programs}", programs=PROGRAMS)
-    saved, _ = found
+    saved, _ = parsed
     wrong = (
         match_problem(number, match.problem)
         for number, match in enumerate(saved.matches, 1)
@@ -101,7 +101,7 @@ def _events(
     )
     plan = _with_races(_planned(saved, plan), saved, names := _names(saved))
     happened = _happened(saved, names, _tables(saved, plan.tables))
-    times = [one for one in (_moment(event[0]) for event in happened) if one]
+    times = [time for time in (_moment(event[0]) for event in happened) if time]
     first = min(times, default=at)
     events = [Event(first, Opened(plan, entrants)), Event(first, Drawn(players, None))]
     now = first
@@ -117,7 +117,7 @@ def _planned(saved: SavedTournament, plan: Plan) -> Plan:
         (name for key, name in _DISCIPLINES.items() if saved.discipline.startswith(key)),
         "9-ball",
     )
-    tables = plan.tables or max(1, len({one.table for one in saved.matches} - {""}))
+    tables = plan.tables or max(1, len({match.table for match in saved.matches} - {""}))
     plan = replace(plan, discipline=game, tables=tables)
     if saved.everybody:
         return replace(plan, form="round-robin")
@@ -125,36 +125,38 @@ def _planned(saved: SavedTournament, plan: Plan) -> Plan:
     sides = _sides(saved.matches)
     seat = {name: k for k, name in enumerate(saved.players)}
     layout = []
-    for one in saved.matches:
+    for match in saved.matches:
         slots = [
             Source(names[slot[0]], slot[1])
             if isinstance(slot, tuple)
             else None
             if slot is None
             else seat[slot]
-            for slot in one.slots
+            for slot in match.slots
         ]
-        layout.append(Draft(names[one.key], sides[one.key], one.round, (slots[0], slots[1])))
-    double = any(one.side == "losers" for one in saved.matches)
+        layout.append(Draft(names[match.key], sides[match.key], match.round, (slots[0], slots[1])))
+    double = any(match.side == "losers" for match in saved.matches)
     form = f"{'double' if double else 'single'} elimination, imported"
     return replace(plan, form=form, layout=tuple(layout))
 
 
 def _sides(matches: Sequence[SavedMatch]) -> dict[Any, str]:
     """Return the side of each match, the finals and the match for third place among them."""
-    sides = {one.key: one.side for one in matches}
-    sources = {one.key: [slot for slot in one.slots if isinstance(slot, tuple)] for one in matches}
+    sides = {match.key: match.side for match in matches}
+    sources = {
+        match.key: [slot for slot in match.slots if isinstance(slot, tuple)] for match in matches
+    }
     won = {slot[0] for slots in sources.values() for slot in slots if slot[1] == "winner"}
-    for one in matches:
-        if one.key in won:
+    for match in matches:
+        if match.key in won:
             continue
-        came = sources[one.key]
+        came = sources[match.key]
         if len(came) == 2 and came[0][0] == came[1][0]:
-            sides[one.key], sides[came[0][0]] = "second final", "final"
+            sides[match.key], sides[came[0][0]] = "second final", "final"
         elif len(came) == 2 and {outcome for _, outcome in came} == {"loser"}:
-            sides[one.key] = "third place"
-        elif one.side == "winners":
-            sides[one.key] = "final"
+            sides[match.key] = "third place"
+        elif match.side == "winners":
+            sides[match.key] = "final"
     return sides
 
 
@@ -164,14 +166,14 @@ def _names(saved: SavedTournament) -> dict[Any, str]:
         return _pair_names(saved)
     special = {"final": "F", "second final": "F2", "third place": "T"}
     sides, count, names = _sides(saved.matches), Counter[tuple[str, int]](), {}
-    for one in saved.matches:
-        side = sides[one.key]
+    for match in saved.matches:
+        side = sides[match.key]
         if side in special:
-            names[one.key] = special[side]
+            names[match.key] = special[side]
             continue
-        count[side, one.round] += 1
+        count[side, match.round] += 1
         letter = "L" if side == "losers" else "W"
-        names[one.key] = f"{letter}{one.round}.{count[side, one.round]}"
+        names[match.key] = f"{letter}{match.round}.{count[side, match.round]}"
     return names
 
 
@@ -194,7 +196,9 @@ def _pair_names(saved: SavedTournament) -> dict[Any, str]:
 
 def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) -> Plan:
     """Return the plan with the races of the file, where it states any."""
-    stated = {names[one.key]: one.race for one in saved.matches if one.race and one.key in names}
+    stated = {
+        names[match.key]: match.race for match in saved.matches if match.race and match.key in names
+    }
     if plan.race:
         return plan
     if not stated:
@@ -207,7 +211,9 @@ def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) ->
 
 def _tables(saved: SavedTournament, tables: int) -> dict[str, int]:
     """Return the number of each table; those without a number come last."""
-    texts = sorted({one.table for one in saved.matches} - {""}, key=lambda text: (len(text), text))
+    texts = sorted(
+        {match.table for match in saved.matches} - {""}, key=lambda text: (len(text), text)
+    )
     numbers = {text: int(text) for text in texts if text.isdigit() and 1 <= int(text) <= tables}
     free = (k for k in range(1, tables + len(texts) + 1) if k not in numbers.values())
     return {text: numbers[text] if text in numbers else next(free) for text in texts}
@@ -219,21 +225,21 @@ def _happened(
     """Return what happened in the matches, with its time as the file states it, in its order."""
     happened: list[tuple[str, str, int, What]] = []
     order = _order(saved)
-    for one in saved.matches:
-        played = one.played
-        if one.key is None or (not played and one.score is None):
+    for match in saved.matches:
+        played = match.played
+        if match.key is None or (not played and match.score is None):
             continue
-        name, place = names.get(one.key, ""), order[one.key]
-        pair = one.pair if not played else (played[0].player_a, played[0].player_b)
-        if one.table and one.started:
-            call = Called(name, tables[one.table], pair)
-            happened.append((one.started, one.started, place, call))
+        name, place = names.get(match.key, ""), order[match.key]
+        pair = match.pair if not played else (played[0].player_a, played[0].player_b)
+        if match.table and match.started:
+            call = Called(name, tables[match.table], pair)
+            happened.append((match.started, match.started, place, call))
         if not played:
-            score = Scored(name, pair, one.score or (0, 0))
-            happened.append((one.started, one.started, place, score))
+            score = Scored(name, pair, match.score or (0, 0))
+            happened.append((match.started, match.started, place, score))
             continue
-        result = _result(name, pair, played, one.winner)
-        happened.append((one.ended or one.started, one.ended or one.started, place, result))
+        result = _result(name, pair, played, match.winner)
+        happened.append((match.ended or match.started, match.ended or match.started, place, result))
     if all(time for time, *_ in happened):
         happened.sort(key=lambda row: (_moment(row[0]) or "", row[2], isinstance(row[3], Result)))
     else:
@@ -243,20 +249,22 @@ def _happened(
 
 def _order(saved: SavedTournament) -> dict[Any, int]:
     """Return how many matches at least come before each."""
-    came = {one.key: [s[0] for s in one.slots if isinstance(s, tuple)] for one in saved.matches}
+    came = {
+        match.key: [s[0] for s in match.slots if isinstance(s, tuple)] for match in saved.matches
+    }
     depth: dict[Any, int] = {}
     for _ in saved.matches:
         for key, before in came.items():
-            depth[key] = 1 + max((depth.get(one, 0) for one in before), default=0)
+            depth[key] = 1 + max((depth.get(earlier, 0) for earlier in before), default=0)
     return depth
 
 
 def _result(name: str, pair: tuple[str, str], played: Sequence[Played], winner: int) -> Result:
-    score = sum(one.score_a for one in played), sum(one.score_b for one in played)
+    score = sum(part.score_a for part in played), sum(part.score_b for part in played)
     if not winner:
-        fewer = any(Remark.FEWER_GAMES in one.remarks for one in played)
+        fewer = any(Remark.FEWER_GAMES in part.remarks for part in played)
         winner = 1 if (score[0] > score[1]) != fewer else 2
-    forfeit = any(one.forfeit for one in played)
+    forfeit = any(part.forfeit for part in played)
     first = played[0]
     uneven = not forfeit and len(played) == 1 and first.race_a != first.race_b
     return Result(
@@ -286,14 +294,14 @@ def _check(events: Sequence[Event]) -> None:
             match = getattr(event.what, "match", say("tournament"))
             raise InputError("{match}: {why}", match=match, why=error.sentence) from None
     state = evening(events)
-    for one in state.aside:
-        seats = state.standing.seats.get(one.result.match)
+    for aside in state.aside:
+        seats = state.standing.seats.get(aside.result.match)
         if seats is None:
-            raise InputError("{match} is a bye, but has a result", match=one.result.match)
+            raise InputError("{match} is a bye, but has a result", match=aside.result.match)
         now = [say("nobody yet") if k is None else state.order[k] for k in seats]
         raise InputError(
             "{players} played {match}, but the matches before it send {others} there",
-            players=listed(one.result.players),
-            match=one.result.match,
+            players=listed(aside.result.players),
+            match=aside.result.match,
             others=listed(now),
         )

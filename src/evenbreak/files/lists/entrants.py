@@ -99,10 +99,10 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
     >>> found.warnings
     ("e:2: 'Bo Dias' is not in r.csv (did you mean 'Bo Diaz'?) and is taken as a new player",)
     """
-    known = KnownNames(players)
+    listed_players = KnownNames(players)
     names, places, warnings = [], [], []
     for line, name in zip(entrants.lines.tolist(), entrants.roster.players, strict=True):
-        place = known.place(name)
+        place = listed_players.place(name)
         names.append(name if place is None else players[place])
         places.append(-1 if place is None else place)
         if place is None:
@@ -110,7 +110,7 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
                 "{name} is not in {whose}{hint} and is taken as a new player",
                 name=quoted(name),
                 whose=whose,
-                hint=known.hint(name),
+                hint=listed_players.hint(name),
             )
             warnings.append(warning(entrants.source, line, new))
     return Entered(tuple(names), tuple(places), (*entrants.warnings, *warnings))
@@ -128,9 +128,9 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         if the ratings of the two files are not on one scale.
     """
     check_one_scale(league, entrants)
-    found = entered(entrants, league.roster.players, league.source)
+    who = entered(entrants, league.roster.players, league.source)
     known, stated = league.roster, entrants.roster
-    at = np.array(found.places, dtype=np.int64)
+    at = np.array(who.places, dtype=np.int64)
     on_list = at >= 0
 
     def column(name: str) -> NDArray[Any]:
@@ -140,7 +140,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     # A player without any rating has not played here yet.
     games = np.where(~on_list & np.isnan(stated.rating), 0, column("games"))
     roster = Roster(
-        found.names,
+        who.names,
         column("rating"),
         column("standard_error"),
         games,
@@ -165,7 +165,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         roster=roster,
         lines=entrants.lines,
         source=entrants.source,
-        warnings=(*league.warnings, *found.warnings, *warnings),
+        warnings=(*league.warnings, *who.warnings, *warnings),
         by_quasi=frozenset(np.flatnonzero(on_list & np.isin(at, list(league.by_quasi))).tolist()),
         scale=league.scale or entrants.scale,
         levels=league.levels or entrants.levels,

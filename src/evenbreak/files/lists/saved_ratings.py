@@ -108,10 +108,12 @@ def _who_did_not_play(ratings: Ratings, before: Beginning | None) -> Iterator[tu
     for k, name in enumerate(before.players):
         if name in ratings.players:
             continue
-        error, prior = (float(one[k]) * unit for one in (before.standard_error, before.prior_sd))
+        error, prior = (
+            float(column[k]) * unit for column in (before.standard_error, before.prior_sd)
+        )
         rating, mean = (
-            ratings.anchor + unit * (float(one[k]) - centre)
-            for one in (before.rating, before.prior_mean)
+            ratings.anchor + unit * (float(column[k]) - centre)
+            for column in (before.rating, before.prior_mean)
         )
         errors = ("", "") if np.isnan(error) else (_rounded(error), _rounded(error))
         assumed = ("", "") if np.isnan(prior) else (_rounded(mean), _rounded(prior))
@@ -164,8 +166,8 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
     rated = np.flatnonzero(~np.isnan(roster.rating))
     if not len(rated):
         raise refusal(file.source, "no player in it has a rating to begin from")
-    known = KnownNames(players)
-    places = [known.place(roster.players[k]) for k in rated]
+    rated_players = KnownNames(players)
+    places = [rated_players.place(roster.players[k]) for k in rated]
     error = roster.standard_error[rated]
     beginning = Beginning(
         [

@@ -184,18 +184,18 @@ def league_of_entrants(
     new = at < 0
     own = np.where(np.isnan(entrants.roster.rating), starter, entrants.roster.rating)
     error = np.where(np.isnan(entrants.roster.rating), starter_sd, entrants.roster.standard_error)
-    known = file.players
+    listed_players = file.players
     players = LeaguePlayers.of(
-        np.where(new, np.floor(own + 0.5).astype(np.int64), known.rating[at]),
+        np.where(new, np.floor(own + 0.5).astype(np.int64), listed_players.rating[at]),
         names=who.names,
-        skill=np.where(new, own, known.skill[at]),
-        skill_sd=np.where(new, np.nan_to_num(error), known.skill_sd[at]),
-        day_sd=np.where(new, np.median(known.day_sd), known.day_sd[at]),
-        drift=np.where(new, 0.0, known.drift[at]),
-        joins=np.where(new, 1, known.joins[at]),
-        leaves=np.where(new, 0, known.leaves[at]),
-        absence=np.where(new, 0.0, known.absence[at]),
-        played=np.where(new, 0, known.played[at]),
+        skill=np.where(new, own, listed_players.skill[at]),
+        skill_sd=np.where(new, np.nan_to_num(error), listed_players.skill_sd[at]),
+        day_sd=np.where(new, np.median(listed_players.day_sd), listed_players.day_sd[at]),
+        drift=np.where(new, 0.0, listed_players.drift[at]),
+        joins=np.where(new, 1, listed_players.joins[at]),
+        leaves=np.where(new, 0, listed_players.leaves[at]),
+        absence=np.where(new, 0.0, listed_players.absence[at]),
+        played=np.where(new, 0, listed_players.played[at]),
     )
     roster = Roster(
         who.names,

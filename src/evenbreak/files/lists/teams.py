@@ -226,8 +226,8 @@ class TeamNames:
     def place(self, name: str) -> int | None:
         """Return the position of a team, a new one unless the list is fixed."""
         wanted = same_name(name)
-        for place, known in enumerate(self.names):
-            if same_name(known) == wanted:
+        for place, own in enumerate(self.names):
+            if same_name(own) == wanted:
                 return place
         if self.fixed:
             return None

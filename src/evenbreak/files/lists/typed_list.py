@@ -87,12 +87,12 @@ class TypedLine:
         ('612',)
         """
         text = f"{self.name},{self.cells[0]}" if self.joined else self.name
-        found = None if self.cells and not self.joined else _AFTER_BLANKS.fullmatch(text)
-        cells = tuple(found[2].split()) if found else ()
-        if found is None or len(cells) > most:
+        parts = None if self.cells and not self.joined else _AFTER_BLANKS.fullmatch(text)
+        cells = tuple(parts[2].split()) if parts else ()
+        if parts is None or len(cells) > most:
             return self
         return replace(
-            self, name=found[1].rstrip(" ,;:/"), cells=cells, after_blank=True, joined=False
+            self, name=parts[1].rstrip(" ,;:/"), cells=cells, after_blank=True, joined=False
         )
 
 
@@ -119,13 +119,16 @@ def typed_line(number: int, text: str, most: int, *, numbered: bool = False) -> 
     rest = _AROUND.sub("", re.sub(r"[^\S\t]+", " ", text))
     front = None
     rest = _TRAILING.sub("", rest)  # an empty cell after the last that is filled
-    found = (
+    number_in_front = (
         _MARKED.match(rest)
         or _COLUMN_IN_FRONT.match(rest)
         or (_PLAIN.match(rest) if numbered else None)
     )
-    if found:
-        front, rest = int(next(filter(None, found.groups()))), rest[found.end() :]
+    if number_in_front:
+        front, rest = (
+            int(next(filter(None, number_in_front.groups()))),
+            rest[number_in_front.end() :],
+        )
     name, cells, joined = _apart(rest.strip(), most)
     # A column in between is no part of the name, and clean_name would hide where it began.
     clean = "\t".join(map(clean_name, name.split("\t")))
@@ -140,8 +143,8 @@ def _apart(text: str, most: int) -> tuple[str, tuple[str, ...], bool]:
             joined = separator == "," and bool(re.search(r"\s[0-9]+,[0-9.]+$", text))
             return name, tuple(cells), joined
     for pattern in _APART:
-        if found := pattern.fullmatch(text):
-            return found[1], (found[2],), False
+        if parts := pattern.fullmatch(text):
+            return parts[1], (parts[2],), False
     return text, (), False
 
 
@@ -208,20 +211,20 @@ def read_players(
                 n=len(line),
                 remedy=_WRITE_IT,
             )
-    found = _lines([line if len(line) <= _LONGEST_LINE else "" for line in lines], most)
-    warnings = _fronts(found, problems)
-    rows = _with_numbers_after_blanks(found, most)
+    typed = _lines([line if len(line) <= _LONGEST_LINE else "" for line in lines], most)
+    warnings = _fronts(typed, problems)
+    rows = _with_numbers_after_blanks(typed, most)
     _refuse_other_text(rows, problems)
     if not rows and not len(problems):
         problems.add(None, "names nobody; write one player on each line")
     columns = {name: Texts.of([""] * len(rows)) for name in schema.columns}
-    columns["player"] = Texts.of([one.name for one in rows])
+    columns["player"] = Texts.of([row.name for row in rows])
     for k, name in enumerate(numbers):
-        columns[name] = Texts.of([one.cells[k] if k < len(one.cells) else "" for one in rows])
+        columns[name] = Texts.of([row.cells[k] if k < len(row.cells) else "" for row in rows])
     stated = {name for name in numbers if any(columns[name].distinct)}
     return TextTable(
         source,
-        np.array([one.number for one in rows], dtype=np.int64),
+        np.array([row.number for row in rows], dtype=np.int64),
         columns,
         frozenset({"player", *stated}),
         problems,
@@ -245,23 +248,23 @@ def _lines(lines: Sequence[str], most: int) -> list[TypedLine]:
 
     def read(*, numbered: bool) -> list[TypedLine]:
         every = (typed_line(k, text, most, numbered=numbered) for k, text in enumerate(lines, 1))
-        return [one for one in every if one.name]
+        return [row for row in every if row.name]
 
     rows = read(numbered=True)
-    counted = [one.front for one in rows] == list(range(1, len(rows) + 1))
+    counted = [row.front for row in rows] == list(range(1, len(rows) + 1))
     return rows if counted else read(numbered=False)
 
 
 def _fronts(rows: Sequence[TypedLine], problems: Problems) -> list[str]:
     """Return a warning if places in front of the names are left out; refuse what is no place."""
-    numbered = [one for one in rows if one.front is not None]
-    fronts = [one.front or 0 for one in numbered]
+    numbered = [row for row in rows if row.front is not None]
+    fronts = [row.front or 0 for row in numbered]
     if fronts == list(range(1, len(fronts) + 1)):
         return []
     if fronts != sorted(set(fronts)) or fronts[-1] > _HIGHEST_PLACE:
         first = next(
-            one
-            for k, one in enumerate(numbered)
+            row
+            for k, row in enumerate(numbered)
             if fronts[k] > _HIGHEST_PLACE or (k and fronts[k] <= fronts[k - 1])
         )
         problems.add(
@@ -285,29 +288,29 @@ def _fronts(rows: Sequence[TypedLine], problems: Problems) -> list[str]:
 
 def _with_numbers_after_blanks(rows: list[TypedLine], most: int) -> list[TypedLine]:
     """Return the lines, those with a rating after a blank split: Ann Lee 612, but not Player 7."""
-    split = [one.split_at_blanks(most) for one in rows]
-    if not all(one.cells for one in split):
+    split = [row.split_at_blanks(most) for row in rows]
+    if not all(row.cells for row in split):
         split = [
-            after if len(after.cells and after.cells[0]) >= _RATING_DIGITS else one
-            for one, after in zip(rows, split, strict=True)
+            after if len(after.cells and after.cells[0]) >= _RATING_DIGITS else row
+            for row, after in zip(rows, split, strict=True)
         ]
-    names = Counter(same_name(one.name) for one in split)
+    names = Counter(same_name(row.name) for row in split)
     return [
-        after if names[same_name(after.name)] == 1 else one
-        for one, after in zip(rows, split, strict=True)
+        after if names[same_name(after.name)] == 1 else row
+        for row, after in zip(rows, split, strict=True)
     ]
 
 
 def _refuse_other_text(rows: list[TypedLine], problems: Problems) -> None:
     """Refuse lines that look like a title or a slip, and those that could mean two ratings."""
-    rated = any(one.cells for one in rows)
-    for one in rows:
-        slip = rated and not one.cells and re.search(r",|[0-9]{2}", one.name)
-        if one.left_over or slip:
+    rated = any(row.cells for row in rows)
+    for row in rows:
+        slip = rated and not row.cells and re.search(r",|[0-9]{2}", row.name)
+        if row.left_over or slip:
             problems.add(
-                one.number,
+                row.number,
                 "{text} is not a name and a rating; {remedy}",
-                text=quoted(one.name),
+                text=quoted(row.name),
                 remedy=_WRITE_IT,
             )
 

@@ -236,10 +236,10 @@ def _players(columns: Sequence[Column], known: Collection[str]) -> dict[str, str
     shared = [
         (len({*a[1]} & {*b[1]}), a[0], b[0])
         for a, b in combinations(columns, 2)
-        if not any(one == other for one, other in zip(a[1], b[1], strict=True))
+        if not any(pair == other for pair, other in zip(a[1], b[1], strict=True))
     ]
-    most = max((one[0] for one in shared), default=0)
-    best = [one for one in shared if one[0] == most]
+    most = max((pair[0] for pair in shared), default=0)
+    best = [pair for pair in shared if pair[0] == most]
     if len(best) != 1:
         return {}
     _, a, b = best[0]
@@ -262,14 +262,16 @@ def _scores(
 ) -> dict[str, str]:
     """Return the only column of scores, or the only two columns of games won by either."""
     scores = [
-        one
-        for one in _of_kind(columns, _is_score)
-        if any(map(_SCORE.fullmatch, one[1])) and not _of_kind([one], _CLOCK.fullmatch)
+        column
+        for column in _of_kind(columns, _is_score)
+        if any(map(_SCORE.fullmatch, column[1])) and not _of_kind([column], _CLOCK.fullmatch)
     ]
     missing = [name for name in ("score_a", "score_b") if name not in known]
     if scores or len(missing) == 1:
         return {"score": scores[0][0]} if len(scores) == 1 and len(missing) == 2 else {}
-    counts = [one for one in _of_kind(columns, _COUNT.fullmatch) if not _is_running(one[1])]
+    counts = [
+        column for column in _of_kind(columns, _COUNT.fullmatch) if not _is_running(column[1])
+    ]
     # Two others that could be scores too, such as the races, leave it open which are.
     pairs = [(a, b) for a, b in combinations(counts, 2) if _can_be_scores(a, b)]
     named = [pair for pair in pairs if _have_titles_of_one_form(*pair)]

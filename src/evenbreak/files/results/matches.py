@@ -67,7 +67,9 @@ def one_layout(table: TextTable) -> TextTable:
         walkovers = [letters(text) in WALKOVERS for text in table.cells("score")]
         if any(walkovers):
             marked = zip(walkovers, table.cells("forfeit"), strict=True)
-            columns["forfeit"] = Texts.of(["yes" if one else text for one, text in marked])
+            columns["forfeit"] = Texts.of(
+                ["yes" if walkover else text for walkover, text in marked]
+            )
             read.add("forfeit")
     made = replace(
         table,
@@ -148,8 +150,8 @@ def _race(text: str) -> Pair | str:
 
 
 def _is_date(text: str) -> bool:
-    known = read_date(text) is not None or _LEADING_ZERO.fullmatch(text)
-    return bool(known or _MONTH.fullmatch(text.lower()))
+    is_day = read_date(text) is not None or _LEADING_ZERO.fullmatch(text)
+    return bool(is_day or _MONTH.fullmatch(text.lower()))
 
 
 _IN_ONE_CELL: dict[str, tuple[Pair, Callable[[str], Pair | str]]] = {
@@ -238,12 +240,12 @@ def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Val
     if any(_is_missing(table, name) for name in NEEDED):
         table.problems.raise_any()
     rows = np.flatnonzero(good)
-    given = {
+    columns_by_name = {
         name: values[rows]
         for name, values in settled.items()
         if name in (*NEEDED, "unscored") or name in table.found
     }
-    results = Results(names.players, **given)
+    results = Results(names.players, **columns_by_name)
     _add_contradictions(table, results, rows)
     # Where only the names could be read, they can still be the same.
     a, b = (columns[name] for name in NAMES)

@@ -41,18 +41,18 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
         a secret for each name, for the first time.
     """
     with opened(path) as base:
-        found = _secrets(base)
-    if not first.keys() <= found.keys():
+        kept = _secrets(base)
+    if not first.keys() <= kept.keys():
         try:
             with changing(path) as base:
                 base.execute(_SECRETS)
                 base.executemany("INSERT OR IGNORE INTO secret VALUES (?, ?)", list(first.items()))
-                found = _secrets(base)
+                kept = _secrets(base)
         except DataError:
             pass
-    if not all(isinstance(value, str) for value in found.values()):
+    if not all(isinstance(value, str) for value in kept.values()):
         raise DataError([DAMAGED.format(name=Path(path).name, error="its PIN cannot be read")])
-    return {**first, **found}
+    return {**first, **kept}
 
 
 def _secrets(base: sqlite3.Connection) -> dict[str, str]:

@@ -327,9 +327,9 @@ def recover(folder: Path) -> None:
     if not os.path.lexists(work):
         return
     if work.is_dir() and not work.is_symlink():
-        found = _names_in(work)
-        if MADE_BY_US in found:
-            if _JOURNAL in found:
+        names = _names_in(work)
+        if MADE_BY_US in names:
+            if _JOURNAL in names:
                 _put_back(folder)
             _remove(work)
         # Without the mark it was just made, and is empty, or it is not ours.

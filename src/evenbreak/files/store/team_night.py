@@ -106,13 +106,13 @@ def add_team_events(
             [
                 (
                     number,
-                    one.at,
-                    NAMES[type(one.what)],
-                    json.dumps(as_dict(one.what)),
-                    one.by,
+                    event.at,
+                    NAMES[type(event.what)],
+                    json.dumps(as_dict(event.what)),
+                    event.by,
                     form if form and number == len(earlier) + 1 else None,
                 )
-                for number, one in enumerate(added, len(earlier) + 1)
+                for number, event in enumerate(added, len(earlier) + 1)
             ],
         )
         return after, bool(added)

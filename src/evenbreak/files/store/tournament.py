@@ -152,7 +152,7 @@ def add_events(
             _refuse_taken(base, form)
         earlier = _events(base, path)
         before = tournament_of(path, earlier)
-        added = [replace(one, by=by) for one in decide(before)]
+        added = [replace(event, by=by) for event in decide(before)]
         after = _shown(evening([*earlier, *added]))
         if check:
             check(before, after)
@@ -239,8 +239,8 @@ _BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no au
 def event_rows(events: Sequence[Event], first: int = 1) -> list[tuple[int, str, str, str, str]]:
     """Return the rows below `TITLES`; `what` holds the details as JSON."""
     return [
-        (number, one.at, NAMES[type(one.what)], json.dumps(as_dict(one.what)), one.by)
-        for number, one in enumerate(events, first)
+        (number, event.at, NAMES[type(event.what)], json.dumps(as_dict(event.what)), event.by)
+        for number, event in enumerate(events, first)
     ]
 
 

@@ -77,12 +77,12 @@ def read_date(text: str, order: DateOrder | None = None) -> np.datetime64 | None
         return _day(match[1], match[2], match[3])
     if match := _DAY_FIRST.fullmatch(text):
         return _day(match[3], match[2], match[1])
-    found = _either(text)
-    if found is None:
+    either = _either(text)
+    if either is None:
         return None
     if order is not None:
-        return found[order]
-    possible = {day for day in found.values() if day is not None}
+        return either[order]
+    possible = {day for day in either.values() if day is not None}
     return possible.pop() if len(possible) == 1 else None
 
 
@@ -92,8 +92,8 @@ def is_two_dates(text: str) -> bool:
     >>> is_two_dates("9/3/2024"), is_two_dates("9/13/2024"), is_two_dates("9/9/2024")
     (True, False, False)
     """
-    found = _either(text)
-    return found is not None and None not in found.values() and len({*found.values()}) == 2
+    either = _either(text)
+    return either is not None and None not in either.values() and len({*either.values()}) == 2
 
 
 def _either(text: str) -> dict[DateOrder, np.datetime64 | None] | None:
@@ -157,9 +157,9 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
 def _settling(texts: list[str]) -> Iterator[tuple[DateOrder, str]]:
     """Yield the texts in which only one order of day and month is possible, with that order."""
     for text in texts:
-        found = _either(text)
-        if found is None:
+        either = _either(text)
+        if either is None:
             continue
-        possible: list[DateOrder] = [order for order, day in found.items() if day is not None]
+        possible: list[DateOrder] = [order for order, day in either.items() if day is not None]
         if len(possible) == 1:
             yield possible[0], text

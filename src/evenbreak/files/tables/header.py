@@ -69,9 +69,9 @@ class Header:
         self._called = called or {}
         self._hint = hint
         self._column = {
-            _key(other): name
+            _key(alias): name
             for name, others in {**required, **optional}.items()
-            for other in (*others, name)
+            for alias in (*others, name)
         }
 
     def best(self, rows: Sequence[Sequence[str]]) -> Fit:
@@ -91,16 +91,16 @@ class Header:
         names = {name for name in map(self._name, titles) if name is not None}
         complete = bool(names) and not self._missing(names)
         values = any(_NUMBER.fullmatch(title.strip()) for title in titles)
-        known = 0 if values and not complete else len(names)
-        return Fit(complete, known, sum(bool(title.strip()) for title in titles), above)
+        many = 0 if values and not complete else len(names)
+        return Fit(complete, many, sum(bool(title.strip()) for title in titles), above)
 
     def _name(self, title: str) -> str | None:
         """Return the column that a title means."""
         for name, called in self._called.items():
             if _key(title) == _key(called) and title.strip():
                 return name
-        known = self._column.get(_key(title))
-        return None if known in self._called else known
+        column = self._column.get(_key(title))
+        return None if column in self._called else column
 
     def places(
         self,

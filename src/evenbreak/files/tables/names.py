@@ -192,12 +192,12 @@ class PlayerNames:
         distinct, codes = table.columns[name]
         sides = np.array([_SIDES.get(letters(text), 0) for text in distinct], dtype=np.int8)
         values = np.zeros(len(table.lines), dtype=np.int8)
-        for found in (
+        for sides_found in (
             _side(self._exact(distinct)[codes], a, b),
             sides[codes],
             _side(self._loose(distinct)[codes], a, b),
         ):
-            values = np.where(values > 0, values, found)
+            values = np.where(values > 0, values, sides_found)
         stated = np.array([bool(text) for text in distinct], dtype=bool)[codes]
         # Where a player's own name could not be read, it is not known whether this one fits.
         wrong = stated & (values == 0) & a.good & b.good

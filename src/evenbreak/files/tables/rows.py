@@ -345,7 +345,7 @@ def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
         "save each sheet as a file of its own",
         len(complete) - 1,
         sheet=quoted(sheet.name),
-        others=quoted_list([other.name for other in complete[1:]]),
+        others=quoted_list([another.name for another in complete[1:]]),
     )
     return rows._replace(warnings=[warning(source, None, also), *rows.warnings])
 

@@ -153,10 +153,10 @@ class _Bounds:
         if reference is None:
             self.column += 1
         else:
-            found = _CELL.fullmatch(reference)
-            if found is None:
+            cell = _CELL.fullmatch(reference)
+            if cell is None:
                 raise UnreadableError(_FAR if reference[:1].isalpha() else UNREADABLE)
-            letters, row = found.groups()
+            letters, row = cell.groups()
             self.column, self.row = column_of(letters), int(row)
         self._fill()
 
