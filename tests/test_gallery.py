@@ -35,7 +35,10 @@ def figures() -> set[str]:
         if isinstance(node, ast.FunctionDef)
         and not node.name.startswith("_")
         and node.returns is not None
-        and ast.unparse(node.returns).split(" | ")[0] == "Picture"
+        and (
+            ast.unparse(node.returns) == "Picture"
+            or (ast.unparse(node.returns) == "Axes" and node.name.startswith("draw"))
+        )
     }
 
 

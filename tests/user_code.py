@@ -8,7 +8,6 @@ import networkx as nx
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 import evenbreak as eb
 from evenbreak.chains import chain_of, kemeny_constant
@@ -91,6 +90,6 @@ def ratings() -> object:
 
 
 def pictures() -> object:
-    picture: Figure = draw(eb.OneBall(0.4, 0.8))
-    axes: Axes = draw(Duel(0.5), ax=picture.axes[0])
-    return axes
+    axes: Axes = draw(eb.OneBall(0.4, 0.8))
+    again: Axes = draw(Duel(0.5), ax=axes)
+    return again

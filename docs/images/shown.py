@@ -103,7 +103,7 @@ axes.legend(fontsize=9)
             "A's chance after each game, and how much depended on it.",
             "how-to/during-a-match.md",
             "live --p 0.6 --race 7:5 --racks abbababaab --plot FILE",
-            draws="plot_course",
+            draws="course_figure",
         ),
         Shown(
             "formats.svg",
@@ -111,7 +111,7 @@ axes.legend(fontsize=9)
             "Who gains by which format, and where two are worth the same.",
             "how-to/compare-formats.md",
             'compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3" --plot FILE',
-            draws="plot_formats",
+            draws="draw_formats",
         ),
         Shown(
             "breaks.svg",
@@ -129,7 +129,7 @@ axes.legend(fontsize=9)
             "The stronger player's chance at each rating difference, beside another chart.",
             "how-to/audit-a-chart.md",
             "chart audit data/house_chart.csv --scale npl --beside npl_10 --plot FILE",
-            draws="chart_figure",
+            draws="draw_chart",
         ),
         Shown(
             "ladder.svg",
@@ -145,7 +145,7 @@ axes.legend(fontsize=9)
             "How far off ratings stay, against how long newcomers take, for several systems.",
             "how-to/how-wrong-are-our-ratings.md",
             "ladder --compare --plot FILE",
-            draws="systems_figure",
+            draws="draw_systems",
         ),
         Shown(
             "pay.svg",
@@ -153,7 +153,7 @@ axes.legend(fontsize=9)
             "The chance to win afterwards, for several numbers of dumped matches.",
             "how-to/sandbagging.md",
             "sandbag pay --chart npl_12 --stake 50 --dumped-stake 5 --plot FILE",
-            draws="pay_figure",
+            draws="draw_pay",
         ),
         Shown(
             "watch.svg",
@@ -161,7 +161,7 @@ axes.legend(fontsize=9)
             "The evidence against each player, match by match.",
             "how-to/sandbagging.md",
             "sandbag watch data/demo_sandbag.csv --roster data/demo_sandbag_roster.csv --plot FILE",
-            draws="watch_figure",
+            draws="draw_watch",
         ),
     ),
     "Leagues": (
@@ -171,7 +171,7 @@ axes.legend(fontsize=9)
             "How often favourites won, against the chance that they had been given.",
             "how-to/can-i-trust-the-ratings.md",
             "validate data/demo_league.csv --prior 30 --plot FILE",
-            draws="calibration_figure",
+            draws="draw_calibration",
         ),
         Shown(
             "season/errors_by_week.svg",
@@ -180,7 +180,7 @@ axes.legend(fontsize=9)
             "how-to/simulate-a-season.md",
             "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
             "--no-matches --jobs 1 --out season",
-            draws="errors_figure",
+            draws="draw_errors",
         ),
         Shown(
             "season/wins_by_gap.svg",
@@ -189,7 +189,7 @@ axes.legend(fontsize=9)
             "how-to/simulate-a-season.md",
             "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
             "--no-matches --jobs 1 --out season",
-            draws="gaps_figure",
+            draws="draw_gaps",
         ),
         Shown(
             "season/standings.svg",
@@ -198,7 +198,7 @@ axes.legend(fontsize=9)
             "how-to/simulate-a-season.md",
             "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
             "--no-matches --jobs 1 --out season",
-            draws="standings_figure",
+            draws="draw_standings",
         ),
     ),
     "Practice and the table": (
@@ -217,7 +217,7 @@ axes.legend(fontsize=9)
             "Your chance on the last ball, for each shot you could try.",
             "how-to/which-shot.md",
             "oneball --shot 0.4:0.8 --shot 0.3:0.3 --shot 0.6:0.9 --plot FILE",
-            draws="shots_figure",
+            draws="draw_shots",
         ),
         Shown(
             "log.svg",
@@ -225,7 +225,7 @@ axes.legend(fontsize=9)
             "How often each level was tried, against the long run.",
             "tutorial/read-your-practice.md",
             "drill --log data/drill_log.csv --plot FILE",
-            draws="log_figure",
+            draws="draw_log",
         ),
         Shown(
             "long_run.svg",
@@ -233,7 +233,7 @@ axes.legend(fontsize=9)
             "Where it settles, for a player who makes 4 shots in 5.",
             "tutorial/read-your-practice.md",
             "drill --p 0.8 --plot FILE",
-            draws="drill_figure",
+            draws="draw_drill",
         ),
         Shown(
             "scores.svg",
@@ -241,7 +241,7 @@ axes.legend(fontsize=9)
             "Practice scores over time, their mean, and one new score.",
             "how-to/did-my-practice-help.md",
             "practice data/practice_scores.csv --new 53 --plot FILE",
-            draws="plot_scores",
+            draws="draw_scores",
         ),
         Shown(
             "two_lists.svg",
@@ -249,7 +249,7 @@ axes.legend(fontsize=9)
             "Scores before and after, with the two means.",
             "how-to/did-my-practice-help.md",
             "practice data/practice_scores.csv --versus data/practice_scores_after.csv --plot FILE",
-            draws="plot_two_lists",
+            draws="draw_two_lists",
         ),
         Shown(
             "runs.svg",
@@ -257,7 +257,7 @@ axes.legend(fontsize=9)
             "The score of several innings, with a range shaded.",
             "how-to/runs-and-straight-pool.md",
             "runs --mean 24 --innings 5 --between 100..150 --plot FILE",
-            draws="plot_score",
+            draws="draw_score",
         ),
         Shown(
             "spot.svg",
@@ -265,7 +265,7 @@ axes.legend(fontsize=9)
             "What each number of points is worth, and which makes the match even.",
             "how-to/runs-and-straight-pool.md",
             "straight --averages 24:19 --points 150 --plot FILE",
-            draws="plot_spot",
+            draws="draw_spot",
         ),
     ),
     "Games as graphs": (

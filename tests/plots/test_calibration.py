@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.plots.league import calibration_figure
+from evenbreak.plots.league import draw_calibration
 from evenbreak.ratings import Results, validate
 
 
@@ -15,7 +15,7 @@ def season(**columns):
 
 @pytest.fixture
 def axes():
-    return lambda results: calibration_figure(validate(results, prior_sd=0.5)).axes[0]
+    return lambda results: draw_calibration(validate(results, prior_sd=0.5))
 
 
 def test_each_kind_of_prediction_is_drawn_with_its_bars(axes):
@@ -27,7 +27,7 @@ def test_each_kind_of_prediction_is_drawn_with_its_bars(axes):
 
 def test_points_are_where_the_bins_are():
     found = validate(season(), prior_sd=0.5)
-    line = calibration_figure(found).axes[0].containers[0].lines[0]
+    line = draw_calibration(found).containers[0].lines[0]
     assert line.get_ydata().tolist() == [row.seen for row in found.games]
 
 

@@ -11,7 +11,7 @@ from evenbreak.plots.picture import new_axes
 
 
 def drawn(function: Any, **options: Any) -> tuple[Axes, Any]:
-    axes = new_axes("", "")[1]
+    axes = new_axes("", "")
     return axes, contour_axes(axes, function, x="P(one)", y="P(two)", **options)
 
 

@@ -7,7 +7,7 @@ from math import hypot
 
 import networkx as nx
 import pytest
-from matplotlib.figure import Figure
+from matplotlib.axes import Axes
 from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.text import Annotation
 
@@ -30,16 +30,16 @@ from evenbreak.plots.picture import image_bytes
 READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 60}
 
 
-def texts(figure: Figure) -> list[str]:
-    return [text.get_text() for text in figure.axes[0].texts if not isinstance(text, Annotation)]
+def texts(axes: Axes) -> list[str]:
+    return [text.get_text() for text in axes.texts if not isinstance(text, Annotation)]
 
 
-def circles(figure: Figure) -> list[Circle]:
-    return [patch for patch in figure.axes[0].patches if isinstance(patch, Circle)]
+def circles(axes: Axes) -> list[Circle]:
+    return [patch for patch in axes.patches if isinstance(patch, Circle)]
 
 
-def arrows(figure: Figure) -> list[FancyArrowPatch]:
-    return [patch for patch in figure.axes[0].patches if isinstance(patch, FancyArrowPatch)]
+def arrows(axes: Axes) -> list[FancyArrowPatch]:
+    return [patch for patch in axes.patches if isinstance(patch, FancyArrowPatch)]
 
 
 @pytest.mark.slow_after(3)
@@ -47,11 +47,11 @@ def arrows(figure: Figure) -> list[FancyArrowPatch]:
 def test_every_state_and_arc_is_drawn(game: Game) -> None:
     graph = graph_of(game)
     ends = sum(kind == "terminal" for kind in nx.get_node_attributes(graph, "kind").values())
-    figure = draw(game)
-    assert len(circles(figure)) == len(graph) + ends
-    assert len(arrows(figure)) == graph.number_of_edges()
-    assert len(texts(figure)) == len(graph) + graph.number_of_edges()
-    assert sum(isinstance(text, Annotation) for text in figure.axes[0].texts) == 1
+    axes = draw(game)
+    assert len(circles(axes)) == len(graph) + ends
+    assert len(arrows(axes)) == graph.number_of_edges()
+    assert len(texts(axes)) == len(graph) + graph.number_of_edges()
+    assert sum(isinstance(text, Annotation) for text in axes.texts) == 1
 
 
 @pytest.mark.parametrize(
@@ -76,13 +76,13 @@ def test_labels_of_arcs_and_nodes_take_the_place_of_numbers_and_names() -> None:
 
 
 def test_opposite_arcs_part() -> None:
-    figure = draw(Series(Rack(0.9, 0.6), breaks=winner_breaks))
-    there, back = (patch.get_connectionstyle() for patch in arrows(figure)[:2])
+    axes = draw(Series(Rack(0.9, 0.6), breaks=winner_breaks))
+    there, back = (patch.get_connectionstyle() for patch in arrows(axes)[:2])
     assert there.rad > 0
     assert back.rad > 0
     labels = {
         text.get_text(): text.get_position()
-        for text in figure.axes[0].texts
+        for text in axes.texts
         if not isinstance(text, Annotation)
     }
     assert labels["0.1"][1] * -1 == pytest.approx(labels["0.4"][1])
@@ -92,8 +92,8 @@ def test_an_arc_bends_around_a_node_in_its_way() -> None:
     graph = nx.DiGraph()
     for source, target in (("a", "b"), ("b", "c"), ("a", "c")):
         graph.add_edge(source, target, probability=0.5)
-    figure = draw(graph, layout={"a": (0, 0), "b": (1, 0), "c": (2, 0)})
-    rads = [patch.get_connectionstyle().rad for patch in arrows(figure)]
+    axes = draw(graph, layout={"a": (0, 0), "b": (1, 0), "c": (2, 0)})
+    rads = [patch.get_connectionstyle().rad for patch in arrows(axes)]
     assert sorted(map(abs, rads))[:2] == [0, 0]
     assert abs(rads[1]) > 0.2  # the arcs of a come first: a -> b, a -> c
 
@@ -108,8 +108,7 @@ def test_ends_differ_without_colour() -> None:
 @pytest.mark.slow_after(2)
 @pytest.mark.parametrize("game", READABLE.values(), ids=READABLE)
 def test_numbers_do_not_cover_each_other_or_leave_the_picture(game: Game) -> None:
-    figure = draw(game)
-    axes = figure.axes[0]
+    axes = draw(game)
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     spots = [text.get_position() for text in axes.texts if not isinstance(text, Annotation)]
     assert all(left < x < right and bottom < y < top for x, y in spots)
@@ -121,13 +120,13 @@ def test_files_are_the_same_to_the_byte() -> None:
     code = (
         "import sys\nfrom evenbreak.games import OneBallLookAhead\n"
         "from evenbreak.plots import draw, image_bytes\n"
-        "figure = draw(OneBallLookAhead([0.4, 0.8]), title='Two shots')\n"
+        "axes = draw(OneBallLookAhead([0.4, 0.8]), title='Two shots')\n"
         "for kind in ('png', 'svg', 'png', 'svg'):\n"
-        "    sys.stdout.buffer.write(image_bytes(figure, kind))"
+        "    sys.stdout.buffer.write(image_bytes(axes, kind))"
     )
     elsewhere = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
-    figure = draw(OneBallLookAhead([0.4, 0.8]), title="Two shots")
-    assert 2 * (image_bytes(figure, "png") + image_bytes(figure, "svg")) == elsewhere.stdout
+    axes = draw(OneBallLookAhead([0.4, 0.8]), title="Two shots")
+    assert 2 * (image_bytes(axes, "png") + image_bytes(axes, "svg")) == elsewhere.stdout
 
 
 def test_a_diagram_that_nobody_could_read_is_refused() -> None:
@@ -154,13 +153,13 @@ def test_words_have_no_circle_and_kinds_say_where_the_game_begins() -> None:
     graph.add_node("S1", kind="transient")
     graph.add_node("later", kind="words", label=r"$\cdots$")
     graph.add_edge("S1", "later", label="$q_1$")
-    figure = draw(graph, layout={"S1": (0, 0), "later": (1, 0)})
-    assert len(circles(figure)) == 1
-    assert texts(figure) == ["$q_1$", "$S_{1}$", r"$\cdots$"]
-    starts = [text for text in figure.axes[0].texts if isinstance(text, Annotation)]
+    axes = draw(graph, layout={"S1": (0, 0), "later": (1, 0)})
+    assert len(circles(axes)) == 1
+    assert texts(axes) == ["$q_1$", "$S_{1}$", r"$\cdots$"]
+    starts = [text for text in axes.texts if isinstance(text, Annotation)]
     assert starts == []
     graph.nodes["S1"]["kind"] = "start"
-    marked = draw(graph).axes[0].texts
+    marked = draw(graph).texts
     assert sum(isinstance(text, Annotation) for text in marked) == 1
 
 
@@ -168,13 +167,12 @@ def test_a_heading_lies_within_the_picture() -> None:
     graph = nx.DiGraph()
     graph.add_node("one", kind="transient")
     graph.add_node("title", kind="words", label="A heading wider than the game below it")
-    figure = draw(graph, layout={"one": (0, 0), "title": (0, 0.7)})
-    figure.canvas.draw()
-    axes = figure.axes[0]
+    axes = draw(graph, layout={"one": (0, 0), "title": (0, 0.7)})
+    axes.figure.canvas.draw()
     for text in axes.texts:
         box = text.get_window_extent()
         assert box.x0 >= 0
-        assert box.x1 <= figure.bbox.width
+        assert box.x1 <= axes.figure.bbox.width
 
 
 class Cutthroat:
@@ -211,17 +209,17 @@ def test_a_game_says_how_its_states_are_written() -> None:
 
 
 def test_every_winner_has_a_colour_and_a_third_one_a_legend() -> None:
-    figure = draw(Cutthroat())
-    fills = {circle.get_facecolor() for circle in circles(figure)}
+    axes = draw(Cutthroat())
+    fills = {circle.get_facecolor() for circle in circles(axes)}
     assert len(fills) == 4  # white, and one for each player
-    legend = figure.axes[0].get_legend()
+    legend = axes.get_legend()
     assert [text.get_text() for text in legend.get_texts()] == [
         "player 1 wins",
         "player 2 wins",
         "player 3 wins",
     ]
-    figure.canvas.draw()
+    axes.figure.canvas.draw()
     box = legend.get_window_extent()
-    assert figure.bbox.y0 <= box.y0
-    assert box.x1 <= figure.bbox.x1
-    assert draw(OneBall(0.5, 0.5)).axes[0].get_legend() is None
+    assert axes.figure.bbox.y0 <= box.y0
+    assert box.x1 <= axes.figure.bbox.x1
+    assert draw(OneBall(0.5, 0.5)).get_legend() is None

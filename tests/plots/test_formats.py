@@ -3,13 +3,13 @@ import pytest
 
 from evenbreak.games import Rack, winner_breaks
 from evenbreak.matches import crossings, match_format, win_probability
-from evenbreak.plots.matches import plot_formats
+from evenbreak.plots.matches import draw_formats
 
 
 def test_curves_and_crossings():
     formats = [match_format(text) for text in ("2:1", "4:2", "ahead 2:2")]
     found = crossings(*formats[:2])
-    (axes,) = plot_formats(formats, {}, [found], p1=0.6).axes
+    axes = draw_formats(formats, {}, [found], p1=0.6)
     curves = {line.get_label(): line for line in axes.lines}
     for played in formats:
         p, wins = curves[str(played)].get_xdata(), curves[str(played)].get_ydata()
@@ -21,7 +21,7 @@ def test_curves_and_crossings():
 def test_along_p1_at_a_fixed_p2():
     line = {"p2": 0.7, "breaks": winner_breaks, "first_breaker": 2}
     played = match_format("3:2")
-    (axes,) = plot_formats([played], line, [], p1=0.6).axes
+    axes = draw_formats([played], line, [], p1=0.6)
     (curve,) = (curve for curve in axes.lines if curve.get_label() == "3:2")
     at = len(curve.get_xdata()) // 2
     match = played.match(Rack(curve.get_xdata()[at], 0.7), breaks=winner_breaks, first_breaker=2)
@@ -32,9 +32,8 @@ def test_along_p1_at_a_fixed_p2():
 
 def test_the_picture_names_the_players():
     two = [match_format("2:1"), match_format("4:2")]
-    figure = plot_formats(two, {}, [], p1=0.6, title="Ann against Bo", names=("Ann", "Bo"))
-    (axes,) = figure.axes
-    assert figure.get_suptitle() == "Ann against Bo"
+    axes = draw_formats(two, {}, [], p1=0.6, title="Ann against Bo", names=("Ann", "Bo"))
+    assert axes.figure.get_suptitle() == "Ann against Bo"
     assert (axes.get_xlabel(), axes.get_ylabel()) == (
         "p = P(Ann wins a game)",
         "P(Ann wins the match)",

@@ -9,8 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from evenbreak.handicaps import Settling
 from evenbreak.plots.ladders import (
     SystemPoint,
+    draw_systems,
     ladder_figure,
-    systems_figure,
 )
 from evenbreak.stats import Distribution
 
@@ -81,7 +81,7 @@ def test_each_system_is_a_point_with_its_name():
         SystemPoint("step 6", 36.3, 31.0, unbeaten=False),
         SystemPoint("elo 4", 20.0, 50.0, unbeaten=None),
     ]
-    (axes,) = systems_figure(points, chart="npl_10").axes
+    axes = draw_systems(points, chart="npl_10")
     drawn = {tuple(point) for line in axes.lines for point in line.get_xydata().tolist()}
     assert drawn == {(point.matches, point.sd) for point in points}
     assert {text.get_text() for text in axes.texts} == {point.name for point in points}
@@ -90,7 +90,7 @@ def test_each_system_is_a_point_with_its_name():
     told = [text.get_text() for text in axes.get_legend().get_texts()]
     assert len(told) == 3
     assert "npl_10" in told[0]
-    (alone,) = systems_figure(points[:2]).axes
+    alone = draw_systems(points[:2])
     assert len(alone.get_legend().get_texts()) == 1
 
 
@@ -108,10 +108,9 @@ CROWDED = [  # two that fall together at either end, and a crowd on the right
 
 @pytest.mark.parametrize("points", [CROWDED, CROWDED[:4], CROWDED[4:]])
 def test_no_name_covers_another_or_a_mark(points):
-    figure = systems_figure(points, chart="npl_10")
-    canvas = FigureCanvasAgg(figure)
+    axes = draw_systems(points, chart="npl_10")
+    canvas = FigureCanvasAgg(axes.figure)
     canvas.draw()
-    axes = figure.axes[0]
     texts = [text.get_window_extent(canvas.get_renderer()) for text in axes.texts]
     assert len(texts) == len(points)
     assert not any(one.overlaps(other) for one, other in combinations(texts, 2))

@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.games import Race, Rack
 from evenbreak.matches import live_odds
-from evenbreak.plots.matches import plot_course
+from evenbreak.plots.matches import course_figure
 
 
 @pytest.fixture
@@ -12,7 +12,7 @@ def odds():
 
 
 def test_the_line_is_the_course(odds):
-    above, below = plot_course(odds).axes
+    above, below = course_figure(odds).axes
     (line,) = (line for line in above.lines if len(line.get_xdata()) == 6)
     assert list(line.get_ydata()) == [moment.p_win_1 for moment in odds.course]
     assert [bar.get_height() for bar in below.patches] == [m.leverage for m in odds.course[:-1]]
@@ -20,14 +20,14 @@ def test_the_line_is_the_course(odds):
 
 
 def test_dots_show_who_won_a_rack(odds):
-    above, _ = plot_course(odds).axes
+    above, _ = course_figure(odds).axes
     dots = {line.get_label(): list(line.get_xdata()) for line in above.lines}
     assert dots["A won the rack"] == [1, 4, 5]
     assert dots["B won the rack"] == [2, 3]
 
 
 def test_the_largest_swing_is_labelled(odds):
-    above, _ = plot_course(odds).axes
+    above, _ = course_figure(odds).axes
     (text,) = above.texts
     greatest = max(odds.swings, key=abs)
     assert text.get_text() == f"{greatest:+.2f}".replace("-", "\N{MINUS SIGN}")
@@ -38,7 +38,7 @@ def test_the_largest_swing_is_labelled(odds):
 @pytest.mark.parametrize("racks", ["a", "abb", "bbab", "ababbab", "abbabababab"])
 def test_the_label_is_clear_of_the_line(p, racks):
     odds = live_odds(Race(7, 6, Rack(p)), ["ab".index(letter) + 1 for letter in racks])
-    figure = plot_course(odds)
+    figure = course_figure(odds)
     figure.canvas.draw()
     above, _ = figure.axes
     box = above.texts[0].get_window_extent()
@@ -51,20 +51,20 @@ def test_the_label_is_clear_of_the_line(p, racks):
 
 
 def test_sets_and_one_sided_matches():
-    _, below = plot_course(live_odds(Race(2, 2, Race(2, 2, Rack(0.6))), [1, 1, 1])).axes
+    _, below = course_figure(live_odds(Race(2, 2, Race(2, 2, Rack(0.6))), [1, 1, 1])).axes
     labels = [label.get_text() for label in below.get_xticklabels()]
     assert labels == ["0:0\n0:0", "0:0\n1:0", "1:0\n0:0", "1:0\n1:0"]
 
 
 def test_long_matches_name_some_scores_only():
-    _, below = plot_course(live_odds(Race(60, 60, Rack(0.5)), [1, 2] * 40)).axes
+    _, below = course_figure(live_odds(Race(60, 60, Rack(0.5)), [1, 2] * 40)).axes
     assert len(below.get_xticks()) <= 24
 
 
 def test_the_picture_names_match_and_players(odds):
-    figure = plot_course(odds, title="Ann against Bo\nRace 4:3", names=("Ann", "Bo"))
+    figure = course_figure(odds, title="Ann against Bo\nRace 4:3", names=("Ann", "Bo"))
     assert figure.get_suptitle() == "Ann against Bo\nRace 4:3"
     above, _ = figure.axes
     assert above.get_ylabel() == "P(Ann wins the match)"
     assert [text.get_text().split()[0] for text in above.get_legend().get_texts()] == ["Ann", "Bo"]
-    assert plot_course(odds).get_suptitle() == ""
+    assert course_figure(odds).get_suptitle() == ""

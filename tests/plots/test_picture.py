@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 import evenbreak.plots
 from evenbreak.errors import InputError
 from evenbreak.games import Drill, OneBall
-from evenbreak.plots import draw, image_bytes, shots_figure
+from evenbreak.plots import draw, draw_shots, image_bytes
 from evenbreak.plots.picture import legend_below, new_axes
-from evenbreak.plots.practice import drill_figure, plot_two_lists
+from evenbreak.plots.practice import draw_drill, draw_two_lists
 from evenbreak.practice import ShotChoice, drill_statistics
 from rows import each_of
 
@@ -40,9 +40,9 @@ def test_a_picture_shows_itself_where_pyplot_was_never_imported():
     "plot",
     [
         lambda ax: draw(OneBall(0.4, 0.8), title="One-ball", ax=ax),
-        lambda ax: shots_figure([ShotChoice("bank", 0.4, 0.8)], ax=ax),
-        lambda ax: drill_figure(drill_statistics(Drill.progressive(0.8)), ax=ax),
-        lambda ax: plot_two_lists(
+        lambda ax: draw_shots([ShotChoice("bank", 0.4, 0.8)], ax=ax),
+        lambda ax: draw_drill(drill_statistics(Drill.progressive(0.8)), ax=ax),
+        lambda ax: draw_two_lists(
             np.array([50.0, 44.0]), np.array([53.0]), ("before", "after"), (None, None), ax=ax
         ),
     ],
@@ -77,13 +77,19 @@ def test_other_kinds_of_picture_are_refused():
 
 
 def test_a_legend_stands_inside_the_axes_given():
-    figure, axes = new_axes("p", "W", ax=Figure().add_subplot())
+    axes = new_axes("p", "W", ax=Figure().add_subplot())
     axes.plot([0, 1], label="3:3")
-    legend_below(figure, axes)
+    legend_below(axes, axes)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["3:3"]
 
 
-SEVERAL_PANELS = {"breaks_figure", "ladder_figure", "plot_course", "shot_on_table", "share_panels"}
+SEVERAL_PANELS = {
+    "breaks_figure",
+    "ladder_figure",
+    "course_figure",
+    "shot_on_table",
+    "share_panels",
+}
 
 
 def plot_functions():
@@ -93,7 +99,8 @@ def plot_functions():
         for name, function in vars(module).items():
             if not inspect.isfunction(function) or function.__module__ != module.__name__:
                 continue
-            if name != "new_axes" and "Picture" in str(function.__annotations__.get("return")):
+            returned = str(function.__annotations__.get("return"))
+            if "Picture" in returned or ("Axes" in returned and name.startswith("draw")):
                 yield name, function
 
 
@@ -107,5 +114,5 @@ def test_every_plot_with_one_panel_takes_axes(name):
 
 
 def test_the_plots_are_found():
-    assert set(FUNCTIONS) > SEVERAL_PANELS | {"draw", "shots_figure", "plot_scores"}
-    assert isinstance(new_axes("p", "W")[1], Axes)
+    assert set(FUNCTIONS) > SEVERAL_PANELS | {"draw", "draw_shots", "draw_scores"}
+    assert isinstance(new_axes("p", "W"), Axes)

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
-from evenbreak.plots.practice import plot_score, plot_spot
+from evenbreak.plots.practice import draw_score, draw_spot
 from evenbreak.stats import InningsScore, RunLength
 
 
@@ -9,7 +9,7 @@ from evenbreak.stats import InningsScore, RunLength
     "law", [RunLength(0.96), InningsScore(0.96, 5), InningsScore(0.96, 5, 0.5), RunLength(0)]
 )
 def test_mean_median_and_mode_stand_where_they_are(law):
-    (axes,) = plot_score(law).axes
+    axes = draw_score(law)
     marks = [line for line in axes.lines if line.get_label()[0] != "_"]
     assert [line.get_xdata()[0] for line in marks] == list(law.fair_line)
     assert [line.get_label().split()[0] for line in marks] == ["mean", "median", "mode"]
@@ -18,7 +18,7 @@ def test_mean_median_and_mode_stand_where_they_are(law):
 
 def test_scores_are_drawn_with_their_probabilities():
     law = InningsScore(0.9, 3)
-    (axes,) = plot_score(law, 3).axes
+    axes = draw_score(law, 3)
     curve = axes.lines[0]
     assert curve.get_ydata().tolist() == law.probability(curve.get_xdata()).tolist()
     assert law.between(curve.get_xdata()[0], curve.get_xdata()[-1]) > 0.99
@@ -28,7 +28,7 @@ def test_scores_are_drawn_with_their_probabilities():
 def test_what_was_asked_is_shaded_and_named():
     law = RunLength(0.96)
     asked = [("20 to 20", 20, 20), ("over 30", 31, None), ("far", 5000, None)]
-    (axes,) = plot_score(law, asked=asked).axes
+    axes = draw_score(law, asked=asked)
     _, *shades = axes.collections
     assert [shade.get_label() for shade in shades] == [
         f"20 to 20 ({law.probability(20):.4f})",
@@ -43,7 +43,7 @@ def test_what_was_asked_is_shaded_and_named():
 
 
 def test_no_line_where_no_spot_is_even():
-    (axes,) = plot_spot(StraightPool(9, 9, 0, 0.8)).axes
+    axes = draw_spot(StraightPool(9, 9, 0, 0.8))
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels == ["9 against 9"]
 
@@ -52,7 +52,7 @@ def test_no_line_where_no_spot_is_even():
 def test_the_curve_is_the_chance_by_the_points_of_the_weaker_player(p1, p2):
     match = StraightPool(100, 80, p1, p2, first=2)
     spot = even_spot(match)
-    (axes,) = plot_spot(match).axes
+    axes = draw_spot(match)
     curve, dot, *_, mark = axes.lines
     for n, win in zip(curve.get_xdata()[::30], curve.get_ydata()[::30], strict=True):
         needs = (int(n), 80) if spot.weaker == 1 else (100, int(n))

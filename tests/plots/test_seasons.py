@@ -4,7 +4,7 @@ import numpy as np
 
 from evenbreak.answers.league.season_tables import season_tables
 from evenbreak.league import FixedSchedule, LeaguePlayers, Season, run_chunk
-from evenbreak.plots.league import errors_figure, gaps_figure, standings_figure
+from evenbreak.plots.league import draw_errors, draw_gaps, draw_standings
 from evenbreak.plots.picture import image_bytes
 
 
@@ -18,7 +18,7 @@ def seasons(season, replicas=40):
 def test_errors_are_drawn_week_by_week():
     players = LeaguePlayers.of([90, 70, 60, 50], skill=[80, 80, 60, 55])
     weeks = seasons(Season(players, "npl", weeks=6)).weeks
-    axes = errors_figure(weeks).axes[0]
+    axes = draw_errors(weeks)
     lines = {line.get_label(): line.get_ydata() for line in axes.lines}
     assert np.allclose(lines["standard deviation"], weeks["error_sd"])
     assert axes.get_xlim() == (0.0, 6.0)
@@ -26,37 +26,35 @@ def test_errors_are_drawn_week_by_week():
 
 def test_wins_are_drawn_by_gap():
     frame = seasons(Season(LeaguePlayers.of([110, 80, 60, 50]), "npl", weeks=6)).fairness
-    axes = gaps_figure(frame).axes[0]
+    axes = draw_gaps(frame)
     drawn = axes.containers[0].lines[0].get_ydata()
     assert np.allclose(drawn, frame[frame["group"] == "gap"]["p_win"])
-    assert image_bytes(gaps_figure(frame), "png")[1:4] == b"PNG"
+    assert image_bytes(draw_gaps(frame), "png")[1:4] == b"PNG"
 
 
 def test_the_table_is_drawn_and_of_a_large_league_its_ends():
     standings = seasons(Season(LeaguePlayers.of([80] * 5), "npl", weeks=2)).standings
-    names = [text.get_text() for text in standings_figure(standings).axes[0].get_yticklabels()]
+    names = [text.get_text() for text in draw_standings(standings).get_yticklabels()]
     assert sorted(names) == [f"player {k}" for k in range(1, 6)]
     standings = seasons(Season(LeaguePlayers.of([80] * 100), "npl", weeks=2), 2).standings
-    axes = standings_figure(standings).axes[0]
+    axes = draw_standings(standings)
     assert len(axes.get_yticklabels()) == 40
     assert axes.get_title().endswith("the first and the last 20 of 100")
 
 
 def test_the_key_of_the_table_covers_nobody():
-    figure = standings_figure(
-        seasons(Season(LeaguePlayers.of([80] * 20), "npl", weeks=2)).standings
-    )
-    figure.draw_without_rendering()
-    (key,) = figure.legends
+    axes = draw_standings(seasons(Season(LeaguePlayers.of([80] * 20), "npl", weeks=2)).standings)
+    axes.figure.draw_without_rendering()
+    (key,) = axes.figure.legends
     assert [text.get_text() for text in key.get_texts()] == ["8 seasons in 10", "mean"]
-    assert key.get_window_extent().y1 <= figure.axes[0].get_tightbbox().y0
+    assert key.get_window_extent().y1 <= axes.get_tightbbox().y0
 
 
 def test_of_one_season_the_table_shows_no_spread():
     season = Season(LeaguePlayers.of([80] * 4), "npl", weeks=2)
     tally = run_chunk(season, 1, np.random.SeedSequence(1))
-    figure = standings_figure(season_tables(season, tally).standings)
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["mean"]
+    axes = draw_standings(season_tables(season, tally).standings)
+    assert [text.get_text() for text in axes.figure.legends[0].get_texts()] == ["mean"]
 
 
 def test_a_season_without_matches_is_drawn_empty():
@@ -64,9 +62,9 @@ def test_a_season_without_matches_is_drawn_empty():
         LeaguePlayers.of([80, 70], joins=[1, 9]), "npl", None, FixedSchedule([1], [0], [1]), weeks=2
     )
     tables = seasons(season, 3)
-    for figure in (
-        errors_figure(tables.weeks),
-        gaps_figure(tables.fairness),
-        standings_figure(tables.standings),
+    for axes in (
+        draw_errors(tables.weeks),
+        draw_gaps(tables.fairness),
+        draw_standings(tables.standings),
     ):
-        assert image_bytes(figure, "svg").startswith(b"<?xml")
+        assert image_bytes(axes, "svg").startswith(b"<?xml")

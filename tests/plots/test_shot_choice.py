@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak import InputError
-from evenbreak.plots.contours import shots_figure
+from evenbreak.plots.contours import draw_shots
 from evenbreak.plots.picture import image_bytes
 from evenbreak.practice import ShotChoice
 
@@ -10,7 +10,7 @@ SHOTS = [ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)]
 
 @pytest.mark.parametrize("look_ahead", ["infinite", "two shots"])
 def test_shots_stand_at_their_chances_by_name(look_ahead):
-    (axes,) = shots_figure(SHOTS, look_ahead=look_ahead).axes
+    axes = draw_shots(SHOTS, look_ahead=look_ahead)
     dots = [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines]
     assert dots == [(0.4, 0.8), (0.3, 0.3)]
     names = {note.get_text(): note.xy for note in axes.texts if hasattr(note, "xy")}
@@ -19,7 +19,7 @@ def test_shots_stand_at_their_chances_by_name(look_ahead):
 
 def test_the_look_aheads_look_different_and_each_the_same_every_time():
     pictures = [
-        image_bytes(shots_figure(SHOTS, look_ahead=look_ahead), "svg")
+        image_bytes(draw_shots(SHOTS, look_ahead=look_ahead), "svg")
         for look_ahead in ("infinite", "infinite", "two shots")
     ]
     assert pictures[0] == pictures[1] != pictures[2]
@@ -27,4 +27,4 @@ def test_the_look_aheads_look_different_and_each_the_same_every_time():
 
 def test_an_unknown_look_ahead_is_refused():
     with pytest.raises(InputError, match="'infinite' or 'two shots'"):
-        shots_figure(SHOTS, look_ahead="three shots")
+        draw_shots(SHOTS, look_ahead="three shots")

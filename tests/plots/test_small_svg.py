@@ -19,7 +19,7 @@ def places(svg: str) -> list[float]:
 
 def test_it_is_smaller_and_nothing_moves_by_more_than_a_twentieth_of_a_point() -> None:
     whole = io.StringIO()
-    draw(OneBall(0.4, 0.8)).savefig(whole, format="svg")
+    draw(OneBall(0.4, 0.8)).figure.savefig(whole, format="svg")
     small = small_svg(whole.getvalue())
     assert len(small) < 0.75 * len(whole.getvalue())
     before, after = places(whole.getvalue()), places(small)

@@ -17,7 +17,7 @@ def graph_of(*arcs):
 
 
 def pen_of(graph):
-    return Pen(new_axes("", "")[1], graph, PLACES, 1.25)
+    return Pen(new_axes("", ""), graph, PLACES, 1.25)
 
 
 def test_a_node_that_only_leads_to_itself_is_terminal():

@@ -84,10 +84,10 @@ def audit(asked: ChartAudit) -> Answer:
         return points_audit_answer(file.found, warnings=warnings)
     report = handicaps.audit(file.found, scale=asked.scale)
     if asked.plot is not None:
-        from evenbreak.plots.charts import chart_figure
+        from evenbreak.plots.charts import draw_chart
 
         other = None if asked.beside is None else other_chart(asked.beside, report.scale)
-        write_plot(chart_figure(report, other), asked.plot)
+        write_plot(draw_chart(report, other), asked.plot)
     return chart_audit_answer(report, warnings=warnings)
 
 

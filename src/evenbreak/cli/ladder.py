@@ -143,7 +143,7 @@ def _comparison(asked: LadderErrors) -> Answer:
 
 def _draw_systems(comparison: LadderComparison, path: str) -> None:
     from evenbreak.answers.ladder.comparison import NEWCOMERS
-    from evenbreak.plots.ladders import SystemPoint, systems_figure
+    from evenbreak.plots.ladders import SystemPoint, draw_systems
 
     points = [
         SystemPoint(row.system, 100.0 * row.sd_doublings, row.settling_mean, best)
@@ -154,7 +154,7 @@ def _draw_systems(comparison: LadderComparison, path: str) -> None:
             continue  # the league itself on this chart is the step of 1
         name = {NEWCOMERS: "newcomers", "npl": row.chart}.get(row.system, row.system)
         points.append(SystemPoint(name, 100.0 * row.sd_doublings, row.settling_mean, None))
-    write_plot(systems_figure(points, chart=comparison.chart.name), path)
+    write_plot(draw_systems(points, chart=comparison.chart.name), path)
 
 
 # Who a player on the ladder meets.

@@ -69,9 +69,9 @@ def pay(asked: SandbagPay) -> Answer:
     chart, warnings = chart_for(system, asked.chart)
     findings = sandbag_pay(_wide(system, chart), question)
     if asked.plot is not None:
-        from evenbreak.plots.league import pay_figure
+        from evenbreak.plots.league import draw_pay
 
-        write_plot(pay_figure(findings.pays), asked.plot)
+        write_plot(draw_pay(findings.pays), asked.plot)
     return sandbag_pay_answer(findings, question, warnings)
 
 
@@ -131,9 +131,9 @@ def watch(asked: SandbagWatch) -> Answer:
             refuse(f"--player: {asked.player!r} has no match in {season.source}{hint}")
         watched = [watched[place]]
     if asked.plot is not None:
-        from evenbreak.plots.league import watch_figure
+        from evenbreak.plots.league import draw_watch
 
-        write_plot(watch_figure(watched, alpha=asked.alpha), asked.plot)
+        write_plot(draw_watch(watched, alpha=asked.alpha), asked.plot)
     if asked.player is not None:
         return sandbag_player_answer(watched[0], nights, season.results, warnings=warnings)
     return sandbag_watch_answer(watched, season.results, season.source, warnings=warnings)

@@ -1,4 +1,4 @@
-"""Figures, as matplotlib figures and axes."""
+"""Plots: `draw_...` returns the axes of one plot, `..._figure` a figure of several."""
 
 import lazy_loader
 

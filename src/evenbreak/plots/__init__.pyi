@@ -1,5 +1,5 @@
 from .contours import breaks_figure as breaks_figure
-from .contours import shots_figure as shots_figure
+from .contours import draw_shots as draw_shots
 from .diagram import draw as draw
 from .picture import Picture as Picture
 from .picture import image_bytes as image_bytes

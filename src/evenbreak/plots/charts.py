@@ -1,27 +1,21 @@
 """The plot of an audit: the stronger player's chance over the rating difference."""
 
-from typing import overload
-
 import numpy as np
 from matplotlib.axes import Axes
 
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit
 from evenbreak.matches.win import race_win_probability
-from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes
+from evenbreak.plots.picture import LINES, in_our_look, new_axes
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05
 """A race is written upright if its band takes up a smaller share of the width."""
 
 
-@overload
-def chart_figure(report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes) -> Axes: ...
-@overload
-def chart_figure(report: ChartAudit, beside: ChartAudit | None = None) -> Picture: ...
 @in_our_look
-def chart_figure(
+def draw_chart(
     report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes | None = None
-) -> Picture | Axes:
+) -> Axes:
     """Draw the stronger player's chance over the rating difference, race by race.
 
     The curve rises within each band and drops where the next race begins; it is broken where no
@@ -35,15 +29,15 @@ def chart_figure(
         the audit of another chart; if its scale differs, its points are converted to those of
         the first.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.handicaps import audit, chart
-    >>> figure = chart_figure(audit(chart("npl_10")), audit(chart("npl_12")))
-    >>> [text.get_text() for text in figure.axes[0].get_legend().texts]
+    >>> axes = draw_chart(audit(chart("npl_10")), audit(chart("npl_12")))
+    >>> [text.get_text() for text in axes.get_legend().texts]
     ['chart npl_10', 'chart npl_12']
     """
     points = report.scale.points_per_doubling
-    figure, axes = new_axes(
+    axes = new_axes(
         f"rating difference ({points:.4g} points double the odds)",
         "chance of the stronger player",
         size=(7.6, 4.4),
@@ -61,7 +55,7 @@ def chart_figure(
     if beside is not None:
         handles, names = axes.get_legend_handles_labels()
         axes.legend(handles[::-1], names[::-1], loc="lower right")
-    return figure if ax is None else ax
+    return axes
 
 
 def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:

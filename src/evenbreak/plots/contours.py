@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, TypeAlias, overload
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -69,7 +69,7 @@ def contour_axes(
     Source: the style of Figs. 5.3 and 5.6.
 
     >>> from evenbreak.plots.picture import new_axes
-    >>> figure, axes = new_axes("", "")
+    >>> axes = new_axes("", "")
     >>> lines = contour_axes(axes, lambda p1, p2: p1 - p2, x="p1", y="p2", levels=[-0.5, 0, 0.5])
     >>> [text.get_text() for text in lines.labelTexts]
     ['−0.5', '0', '0.5']
@@ -227,16 +227,10 @@ _TITLES = {
 }
 
 
-@overload
-def shots_figure(
-    shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes
-) -> Axes: ...
-@overload
-def shots_figure(shots: Sequence[ShotChoice], *, look_ahead: str = "infinite") -> Picture: ...
 @in_our_look
-def shots_figure(
+def draw_shots(
     shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes | None = None
-) -> Picture | Axes:
+) -> Axes:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
 
     Below the thick line player 1, called "you", is the favourite.
@@ -248,7 +242,7 @@ def shots_figure(
     look_ahead
         as in `evenbreak.practice.one_ball_win`.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     Raises
     ------
@@ -259,12 +253,12 @@ def shots_figure(
     -----
     Source: Fig. 5.3.
 
-    >>> figure = shots_figure([ShotChoice("bank", 0.4, 0.8)])
-    >>> figure.axes[0].get_title()
+    >>> axes = draw_shots([ShotChoice("bank", 0.4, 0.8)])
+    >>> axes.get_title()
     'P(you win), the two shots repeated'
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    figure, axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6), ax=ax)
+    axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6), ax=ax)
     contour_axes(
         axes,
         partial(one_ball_win, look_ahead=look_ahead),
@@ -272,4 +266,4 @@ def shots_figure(
         y="$p_2$ = P(the opponent makes what a miss leaves)",
     )
     mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
-    return figure if ax is None else ax
+    return axes

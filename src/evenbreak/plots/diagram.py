@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from evenbreak.checks import floats
 from evenbreak.errors import InputError
 from evenbreak.game import Game, graph_of
-from evenbreak.plots.picture import Picture, in_our_look
+from evenbreak.plots.picture import Plot, figure_of, in_our_look
 from evenbreak.plots.strokes import (
     FONT,
     INCHES,
@@ -32,18 +33,6 @@ _KNOWN_FILLS = 3
 """Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
 
 
-@overload
-def draw(
-    game: Game | nx.DiGraph[Any],
-    *,
-    layout: Positions | None = None,
-    title: str | None = None,
-    ax: Axes,
-) -> Axes: ...
-@overload
-def draw(
-    game: Game | nx.DiGraph[Any], *, layout: Positions | None = None, title: str | None = None
-) -> Picture: ...
 @in_our_look
 def draw(
     game: Game | nx.DiGraph[Any],
@@ -51,7 +40,7 @@ def draw(
     layout: Positions | None = None,
     title: str | None = None,
     ax: Axes | None = None,
-) -> Picture | Axes:
+) -> Axes:
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
@@ -72,13 +61,13 @@ def draw(
     title
         text above the diagram.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     Returns
     -------
-    Picture or matplotlib.axes.Axes
-        a matplotlib figure, about 1.25 inches for each unit of the layout, which a notebook
-        shows and `image_bytes` turns into a file; or the axes given.
+    matplotlib.axes.Axes
+        a notebook shows their figure, about 1.25 inches for each unit of the layout, and
+        `image_bytes` turns it into a file.
 
     Raises
     ------
@@ -91,8 +80,8 @@ def draw(
     Source: the diagrams of Figs. 5.2, 5.4, 5.5, 5.7, 5.10 and of problem P5.24.
 
     >>> from evenbreak.games import OneBall
-    >>> figure = draw(OneBall(0.4, 0.8), title="One-ball")
-    >>> figure.axes[0].get_title()
+    >>> axes = draw(OneBall(0.4, 0.8), title="One-ball")
+    >>> axes.get_title()
     'One-ball'
     """
     import networkx as nx
@@ -124,8 +113,7 @@ def draw(
     inches = INCHES * max(1.0, max(inside, default=0) / 8)
     if ax is not None:
         inches = min(inches, _inches_in(ax, places))
-    figure = Picture()
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0)) if ax is None else ax
+    axes = Figure().add_axes((0.0, 0.0, 1.0, 1.0), axes_class=Plot) if ax is None else ax
     pen = Pen(axes, graph, places, inches)
     pen.draw(start, labels)
     (left, right), (bottom, top) = (
@@ -136,7 +124,7 @@ def draw(
     width, height = (right - left) * inches, (top - bottom) * inches
     whole = below + height + above
     if ax is None:
-        figure.set_size_inches(width, whole)
+        figure_of(axes).set_size_inches(width, whole)
         axes.set_position((0.0, below / whole, 1.0, height / whole))
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     axes.set_axis_off()
@@ -144,7 +132,7 @@ def draw(
         pen.legend(width)
     if title:
         axes.set_title(title, fontsize=FONT + 2, pad=4)
-    return figure if ax is None else ax
+    return axes
 
 
 def _inches_in(ax: Axes, places: Positions) -> float:

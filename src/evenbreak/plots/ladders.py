@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -166,14 +166,8 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
     )
 
 
-@overload
-def systems_figure(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes) -> Axes: ...
-@overload
-def systems_figure(points: Iterable[SystemPoint], *, chart: str = "") -> Picture: ...
 @in_our_look
-def systems_figure(
-    points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None
-) -> Picture | Axes:
+def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None) -> Axes:
     """Draw how far off ratings stay over how long newcomers take, for several systems.
 
     The step sizes that no other step beats in both are filled and joined.
@@ -185,15 +179,15 @@ def systems_figure(
     chart
         the chart of the step sizes.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
-    >>> figure = systems_figure([SystemPoint("step 1", 15.4, 60.3, True),
+    >>> axes = draw_systems([SystemPoint("step 1", 15.4, 60.3, True),
     ...     SystemPoint("step 2", 20.8, 30.8, True)])
-    >>> sorted(text.get_text() for text in figure.axes[0].texts)
+    >>> sorted(text.get_text() for text in axes.texts)
     ['step 1', 'step 2']
     """
     on_chart = f" on {chart}" if chart else ""
-    figure, axes = new_axes(
+    axes = new_axes(
         "matches until a rating has settled (mean)",
         "sd of the rating error (% of the points that double the odds)",
         title=f"Systems and step sizes{on_chart}",
@@ -232,7 +226,7 @@ def systems_figure(
             parse_math=False,
         )
     axes.legend(frameon=False, fontsize=9, loc="upper right")
-    return figure if ax is None else ax
+    return axes
 
 
 def _free_offsets(

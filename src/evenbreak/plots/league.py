@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from typing import overload
 
 import numpy as np
 import pandas as pd
@@ -11,7 +10,7 @@ from matplotlib.axes import Axes
 from evenbreak.files.tables.problems import printable
 from evenbreak.league.sandbag_pay import Sandbagging
 from evenbreak.league.sandbag_watch import Watched
-from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
+from evenbreak.plots.picture import LINES, in_our_look, legend_below, new_axes
 from evenbreak.ratings.validation.calibration import CalibrationBin
 from evenbreak.ratings.validation.validate import Validation
 
@@ -19,12 +18,8 @@ MOST_PLAYERS = 40
 """How many players of the standings are drawn: the first half and the last half of them."""
 
 
-@overload
-def errors_figure(weeks: pd.DataFrame, *, ax: Axes) -> Axes: ...
-@overload
-def errors_figure(weeks: pd.DataFrame) -> Picture: ...
 @in_our_look
-def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """Draw how far off the ratings are, week by week.
 
     Parameters
@@ -32,16 +27,16 @@ def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | A
     weeks
         as `weeks_frame` returns it.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.answers.league.season_tables import weeks_frame
     >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
     >>> season = Season(LeaguePlayers.of([92, 80], skill=[85, 80]), "npl", weeks=3)
-    >>> figure = errors_figure(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))
-    >>> figure.axes[0].get_xlabel()
+    >>> axes = draw_errors(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))
+    >>> axes.get_xlabel()
     'week'
     """
-    figure, axes = new_axes(
+    axes = new_axes(
         "week",
         "rating less true skill (points)",
         title="How far off ratings are",
@@ -66,15 +61,11 @@ def errors_figure(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Picture | A
     axes.legend(loc="upper right", frameon=False, ncols=2)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.25 * (top - bottom))  # room for the legend
-    return figure if ax is None else ax
+    return axes
 
 
-@overload
-def gaps_figure(fairness: pd.DataFrame, *, ax: Axes) -> Axes: ...
-@overload
-def gaps_figure(fairness: pd.DataFrame) -> Picture: ...
 @in_our_look
-def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """Draw how often the stronger player wins, by the gap between the two skills.
 
     The bars are two standard errors of the simulation, up and down.
@@ -84,10 +75,10 @@ def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | 
     fairness
         as `fairness_frame` returns it.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
     """
     rows = fairness[fairness["group"] == "gap"]
-    figure, axes = new_axes(
+    axes = new_axes(
         "gap between the true skills of the day (points)",
         "share of matches won by the stronger player",
         title="How fair matches are",
@@ -112,15 +103,11 @@ def gaps_figure(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Picture | 
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, 0.4), max(high, 0.6))
     axes.annotate("even", (0.99, 0.5), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-    return figure if ax is None else ax
+    return axes
 
 
-@overload
-def standings_figure(standings: pd.DataFrame, *, ax: Axes) -> Axes: ...
-@overload
-def standings_figure(standings: pd.DataFrame) -> Picture: ...
 @in_our_look
-def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
 
     Of more than 40 players the first 20 and the last 20 are drawn.
@@ -130,7 +117,7 @@ def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Pict
     standings
         as `standings_frame` returns it.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
     """
     rows, many, half = standings, len(standings), MOST_PLAYERS // 2
     title = "Matches won in a season"
@@ -138,7 +125,7 @@ def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Pict
         rows = rows.iloc[[*range(half), *range(many - half, many)]]
         title += f": the first and the last {half} of {many:,}"
     size = (6.4, 1.4 + 0.22 * len(rows))
-    figure, axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
+    axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
     place = np.arange(len(rows))[::-1]
     mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
     low = rows["points_p10"].to_numpy(float, na_value=np.nan)
@@ -152,20 +139,16 @@ def standings_figure(standings: pd.DataFrame, *, ax: Axes | None = None) -> Pict
     axes.set_yticks(place, [printable(str(name))[:32] for name in rows["player"]])
     axes.set_ylim(-0.8, len(rows) - 0.2)
     axes.set_xlim(left=0.0)
-    legend_below(figure, ax)
-    return figure if ax is None else ax
+    legend_below(axes, ax)
+    return axes
 
 
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""
 
 
-@overload
-def pay_figure(pays: Sandbagging, *, ax: Axes) -> Axes: ...
-@overload
-def pay_figure(pays: Sandbagging) -> Picture: ...
 @in_our_look
-def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
     """Draw the chance to win each match in earnest, for several numbers of dumped matches.
 
     Parameters
@@ -173,15 +156,15 @@ def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
     pays
         what `sandbagging` returned.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.handicaps import Ladder
     >>> from evenbreak.league import sandbagging
-    >>> figure = pay_figure(sandbagging(Ladder("npl"), dumped=8))
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    >>> axes = draw_pay(sandbagging(Ladder("npl"), dumped=8))
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
-    figure, axes = new_axes(
+    axes = new_axes(
         "match in earnest",
         "chance to win it",
         title="What dumped matches bring",
@@ -199,17 +182,11 @@ def pay_figure(pays: Sandbagging, *, ax: Axes | None = None) -> Picture | Axes:
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.25 * (high - low))
     axes.legend(loc="upper center", fontsize=9, ncols=3)
-    return figure if ax is None else ax
+    return axes
 
 
-@overload
-def watch_figure(watched: Sequence[Watched], *, alpha: float, ax: Axes) -> Axes: ...
-@overload
-def watch_figure(watched: Sequence[Watched], *, alpha: float) -> Picture: ...
 @in_our_look
-def watch_figure(
-    watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None
-) -> Picture | Axes:
+def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None) -> Axes:
     """Draw the evidence against each player, match by match, on a logarithmic axis.
 
     Parameters
@@ -219,16 +196,16 @@ def watch_figure(
     alpha
         the alarm is at 1 / alpha.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> import numpy as np
     >>> from evenbreak.league import Watched
     >>> rows, e = np.arange(3), np.log([1.0, 8.0, 200.0])
-    >>> figure = watch_figure([Watched("Ann", rows, rows > 0, e, e, "any", 0.01)], alpha=0.01)
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    >>> axes = draw_watch([Watched("Ann", rows, rows > 0, e, e, "any", 0.01)], alpha=0.01)
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
     ['alarm', 'Ann']
     """
-    figure, axes = new_axes(
+    axes = new_axes(
         "match of the player",
         "evidence",
         title="Evidence for sandbagging",
@@ -248,7 +225,7 @@ def watch_figure(
     legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
-    return figure if ax is None else ax
+    return axes
 
 
 def _curve(one: Watched) -> tuple[range, list[float]]:
@@ -256,27 +233,23 @@ def _curve(one: Watched) -> tuple[range, list[float]]:
     return range(len(values)), values
 
 
-@overload
-def calibration_figure(found: Validation, *, ax: Axes) -> Axes: ...
-@overload
-def calibration_figure(found: Validation) -> Picture: ...
 @in_our_look
-def calibration_figure(found: Validation, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_calibration(found: Validation, *, ax: Axes | None = None) -> Axes:
     """Draw how often favourites won against the chance that they had been given.
 
     Points on the diagonal are right; below it the chances were too extreme. The bars are
     95% intervals.
 
-    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+    It is drawn on the axes `ax`, or else in a new figure.
 
     >>> from evenbreak.ratings import Results, validate
     >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
-    >>> figure = calibration_figure(validate(season, prior_sd=0.5))
-    >>> figure.axes[0].get_xlabel()
+    >>> axes = draw_calibration(validate(season, prior_sd=0.5))
+    >>> axes.get_xlabel()
     'chance given to the favourite'
     """
-    figure, axes = new_axes(
+    axes = new_axes(
         "chance given to the favourite",
         "share that the favourite won",
         title="Chances given, and how often favourites won",
@@ -310,4 +283,4 @@ def calibration_figure(found: Validation, *, ax: Axes | None = None) -> Picture 
     axes.set_xlim(0.49, 1.01)
     axes.set_ylim(max(0.0, lowest - 0.02), 1.01)
     axes.legend(loc="upper left", frameon=False)
-    return figure if ax is None else ax
+    return axes

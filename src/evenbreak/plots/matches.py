@@ -1,7 +1,7 @@
 """Pictures of matches: the chance to win by p and format, and how it moved in a match so far."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Literal, overload
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +14,7 @@ from evenbreak.matches.win import win_probability
 from evenbreak.plots.picture import (
     LINES,
     Picture,
+    figure_of,
     in_our_look,
     new_axes,
     take_names_as_they_are,
@@ -24,29 +25,8 @@ from evenbreak.plots.picture import (
 _POINTS = 401
 
 
-@overload
-def plot_formats(
-    formats: Sequence[MatchFormat],
-    line: Mapping[str, Any],
-    pairs: Iterable[Crossings],
-    *,
-    p1: float,
-    title: str = "",
-    names: tuple[str, str] = ("A", "B"),
-    ax: Axes,
-) -> Axes: ...
-@overload
-def plot_formats(
-    formats: Sequence[MatchFormat],
-    line: Mapping[str, Any],
-    pairs: Iterable[Crossings],
-    *,
-    p1: float,
-    title: str = "",
-    names: tuple[str, str] = ("A", "B"),
-) -> Picture: ...
 @in_our_look
-def plot_formats(
+def draw_formats(
     formats: Sequence[MatchFormat],
     line: Mapping[str, Any],
     pairs: Iterable[Crossings],
@@ -55,8 +35,8 @@ def plot_formats(
     title: str = "",
     names: tuple[str, str] = ("A", "B"),
     ax: Axes | None = None,
-) -> Picture | Axes:
-    """Return a figure of player 1's chance in a match against that in a game, a curve per format.
+) -> Axes:
+    """Draw player 1's chance in a match against that in a game, a curve per format.
 
     Parameters
     ----------
@@ -73,19 +53,19 @@ def plot_formats(
     names
         of player 1 and player 2.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.matches import crossings, match_format
     >>> two = [match_format("2:1"), match_format("4:2")]
-    >>> figure = plot_formats(two, {}, [crossings(*two)], p1=0.6)
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    >>> axes = draw_formats(two, {}, [crossings(*two)], p1=0.6)
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
     ['2:1', '4:2', 'worth the same', 'A against B']
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
     a, b = names
     x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
-    figure, axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6), ax=ax)
+    axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6), ax=ax)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
@@ -115,12 +95,12 @@ def plot_formats(
     axes.axvline(p1, color="0.5", linewidth=1.0, zorder=0, label=f"{a} against {b}")
     unit_axis(axes, "x", "y")
     if title and ax is None:
-        write_title(figure, title)
+        write_title(figure_of(axes), title)
     elif title:
         axes.set_title(title)
     axes.legend(frameon=False, loc="best")
     take_names_as_they_are(axes)
-    return figure if ax is None else ax
+    return axes
 
 
 _MOST_SCORES = 24
@@ -131,7 +111,9 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 
 
 @in_our_look
-def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")) -> Picture:
+def course_figure(
+    odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")
+) -> Picture:
     """Return a figure of a match so far.
 
     The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
@@ -150,7 +132,7 @@ def plot_course(odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A
 
     >>> from evenbreak.games import Race, Rack
     >>> from evenbreak.matches import live_odds
-    >>> figure = plot_course(live_odds(Race(3, 2, Rack(0.6)), [1, 2, 1]))
+    >>> figure = course_figure(live_odds(Race(3, 2, Rack(0.6)), [1, 2, 1]))
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
     ['0:0', '1:0', '1:1', '2:1']
     """

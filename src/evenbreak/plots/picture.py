@@ -45,7 +45,7 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
     >>> from evenbreak.plots.picture import new_axes
     >>> import matplotlib as mpl
     >>> with mpl.rc_context({"axes.labelsize": 30}):
-    ...     figure, axes = in_our_look(new_axes)("p", "W")
+    ...     axes = in_our_look(new_axes)("p", "W")
     >>> axes.xaxis.label.get_fontsize()
     10.0
     """
@@ -63,14 +63,22 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
     return drawn
 
 
-class Picture(Figure):
-    """A figure that a notebook shows by itself, whether or not pyplot has been imported."""
+class _Shown:
+    """What a notebook shows by itself, whether or not pyplot has been imported."""
 
     def _repr_png_(self) -> bytes:
-        return image_bytes(self, "png")
+        return image_bytes(self, "png")  # type: ignore[arg-type]  # a figure or axes
 
     def _repr_svg_(self) -> str:
-        return image_bytes(self, "svg").decode()
+        return image_bytes(self, "svg").decode()  # type: ignore[arg-type]
+
+
+class Picture(_Shown, Figure):
+    """A figure of several plots, which a notebook shows."""
+
+
+class Plot(_Shown, Axes):
+    """The axes of a new figure with a single plot: a notebook shows the figure."""
 
 
 def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> bytes:
@@ -89,7 +97,7 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
     b'PNG'
     """
     one_of(kind, "kind", ("svg", "png"))
-    whole: Any = figure.get_figure(root=True) if isinstance(figure, Axes) else figure
+    whole = figure_of(figure) if isinstance(figure, Axes) else figure
     out = io.BytesIO()
     # A salt instead of random ids, and no date or program version.
     metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
@@ -137,8 +145,8 @@ def new_axes(
     title: str | None = None,
     size: tuple[float, float] = (6.0, 4.2),
     ax: Axes | None = None,
-) -> tuple[Picture, Axes]:
-    """Return a figure with one pair of axes, labelled.
+) -> Axes:
+    """Return labelled axes.
 
     Parameters
     ----------
@@ -151,40 +159,50 @@ def new_axes(
     ax
         the axes to use; None: those of a new figure.
 
-    >>> figure, axes = new_axes("level", "probability")
+    >>> axes = new_axes("level", "probability")
     >>> axes.get_xlabel()
     'level'
     """
-    figure: Any = Picture(figsize=size, layout="constrained") if ax is None else ax.figure
-    axes = figure.add_subplot() if ax is None else ax
+    axes = ax or new_plot(size)
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
     if title:
         axes.set_title(title)
-    return figure, axes
+    return axes
 
 
-def legend_below(figure: Picture, ax: Axes | None) -> None:
+def new_plot(size: tuple[float, float]) -> Axes:
+    """Return the axes of a new figure of that size, in inches."""
+    return Figure(figsize=size, layout="constrained").add_subplot(axes_class=Plot)
+
+
+def legend_below(axes: Axes, ax: Axes | None) -> None:
     """Write the legend below the axes of a new figure, or inside the axes given.
 
-    >>> figure, axes = new_axes("p", "W")
+    >>> axes = new_axes("p", "W")
     >>> _ = axes.plot([0, 1], label="3:3")
-    >>> legend_below(figure, None)
-    >>> len(figure.legends)
+    >>> legend_below(axes, None)
+    >>> len(figure_of(axes).legends)
     1
     """
     if ax is None:
-        figure.legend(frameon=False, loc="outside lower center", ncols=2)
+        figure_of(axes).legend(frameon=False, loc="outside lower center", ncols=2)
     else:
         ax.legend(frameon=False)
+
+
+def figure_of(axes: Axes) -> Figure:
+    """Return the whole figure that axes are in."""
+    figure: Any = axes.get_figure(root=True)
+    return figure  # type: ignore[no-any-return]
 
 
 def write_title(figure: Figure, text: str) -> None:
     """Write what is drawn above all panels of a figure, in lines that fit its width.
 
-    >>> figure, axes = new_axes("p", "W")
-    >>> write_title(figure, "Race 7:5, score 2:3")
-    >>> figure.get_suptitle()
+    >>> axes = new_axes("p", "W")
+    >>> write_title(figure_of(axes), "Race 7:5, score 2:3")
+    >>> figure_of(axes).get_suptitle()
     'Race 7:5, score 2:3'
     """
     width = int(_LETTERS_AN_INCH * figure.get_figwidth())
@@ -195,7 +213,7 @@ def write_title(figure: Figure, text: str) -> None:
 def unit_axis(axes: Axes, *which: str) -> None:
     """Let the axes given, "x" or "y", run from 0 to 1, with a tick at every tenth.
 
-    >>> figure, axes = new_axes("p", "W")
+    >>> axes = new_axes("p", "W")
     >>> unit_axis(axes, "x", "y")
     >>> axes.get_xticks().round(1).tolist()
     [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
@@ -211,7 +229,7 @@ def unit_axis(axes: Axes, *which: str) -> None:
 def label_on(axes: Axes, x: float, y: float, text: str) -> Text:
     """Write a curve's name on the curve, at (x, y) in the units of the axes.
 
-    >>> figure, axes = new_axes("p", "W")
+    >>> axes = new_axes("p", "W")
     >>> label_on(axes, 0.5, 0.5, "3:3").get_text()
     '3:3'
     """
@@ -224,7 +242,7 @@ def label_beside(
 ) -> Text:
     """Write a curve's name beside the point (x, y), in the units of the axes.
 
-    >>> figure, axes = new_axes("p", "W")
+    >>> axes = new_axes("p", "W")
     >>> label_beside(axes, 0.5, 0.5, "3:3", "left").get_horizontalalignment()
     'right'
     """
@@ -237,7 +255,7 @@ def note(
 ) -> Text:
     """Write a text beside a place, in the units of the axes, by so many points of the page.
 
-    >>> figure, axes = new_axes("p", "W")
+    >>> axes = new_axes("p", "W")
     >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()
     'even'
     """
@@ -289,7 +307,7 @@ def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
     Points in the same place share a dot and a label. A point whose name is "" has no label.
 
     >>> from evenbreak.plots.picture import new_axes
-    >>> _, axes = new_axes("p1", "p2")
+    >>> axes = new_axes("p1", "p2")
     >>> mark_points(axes, [(0.4, 0.8, "1"), (0.4, 0.8, "2"), (1, 1, "3")])
     >>> [text.get_text() for text in axes.texts]
     ['1, 2', '3']

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.practice import ScoresFile
 from evenbreak.matches.straight_pool import StraightPool, even_spot, straight_pool_odds
-from evenbreak.plots.picture import LINES, Picture, in_our_look, legend_below, new_axes
+from evenbreak.plots.picture import LINES, figure_of, in_our_look, legend_below, new_axes
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.log_analysis import LogAnalysis
 from evenbreak.stats.confidence import MeanInterval
@@ -29,33 +29,16 @@ WIDEST = 0.3
 """The largest distance of a score from the middle of its list."""
 
 
-@overload
-def plot_scores(
-    file: ScoresFile,
-    interval: MeanInterval | None,
-    line: TrendLine | None = None,
-    *,
-    new: float | None = None,
-    ax: Axes,
-) -> Axes: ...
-@overload
-def plot_scores(
-    file: ScoresFile,
-    interval: MeanInterval | None,
-    line: TrendLine | None = None,
-    *,
-    new: float | None = None,
-) -> Picture: ...
 @in_our_look
-def plot_scores(
+def draw_scores(
     file: ScoresFile,
     interval: MeanInterval | None,
     line: TrendLine | None = None,
     *,
     new: float | None = None,
     ax: Axes | None = None,
-) -> Picture | Axes:
-    """Return a figure of the scores of a file, their mean and trend, and how sure these are.
+) -> Axes:
+    """Draw the scores of a file, their mean and trend, and how sure these are.
 
     Parameters
     ----------
@@ -68,15 +51,15 @@ def plot_scores(
     new
         one more score, drawn after the others.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> import numpy as np
     >>> from evenbreak.files.practice import ScoresFile
-    >>> figure = plot_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
-    >>> [text.get_text() for text in figure.legends[0].get_texts()]
+    >>> axes = draw_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
+    >>> [text.get_text() for text in axes.figure.legends[0].get_texts()]
     ['scores', 'mean 47.00']
     """
-    figure, axes = new_axes(
+    axes = new_axes(
         "number of the score" if file.dates is None else "date",
         "score",
         title=f"Practice scores of {Path(file.source).name}",
@@ -92,7 +75,7 @@ def plot_scores(
         apart = (when.max() - when.min()) // max(1, len(when) - 1)
         later = when.max() + max(apart, np.timedelta64(1, "D"))
         if ax is None:
-            figure.autofmt_xdate()
+            figure_of(axes).autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
         share = f"{100 * interval.confidence:g}% interval of the true mean"
@@ -104,8 +87,8 @@ def plot_scores(
     if new is not None:
         label = f"new score {new:g}"
         axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
-    legend_below(figure, ax)
-    return figure if ax is None else ax
+    legend_below(axes, ax)
+    return axes
 
 
 def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
@@ -119,47 +102,29 @@ def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
     axes.plot(dates, at, **style._asdict(), label="trend")
 
 
-@overload
-def plot_two_lists(
-    before: NDArray[np.float64],
-    after: NDArray[np.float64],
-    names: tuple[str, str],
-    intervals: tuple[MeanInterval | None, MeanInterval | None],
-    *,
-    ax: Axes,
-) -> Axes: ...
-@overload
-def plot_two_lists(
-    before: NDArray[np.float64],
-    after: NDArray[np.float64],
-    names: tuple[str, str],
-    intervals: tuple[MeanInterval | None, MeanInterval | None],
-) -> Picture: ...
 @in_our_look
-def plot_two_lists(
+def draw_two_lists(
     before: NDArray[np.float64],
     after: NDArray[np.float64],
     names: tuple[str, str],
     intervals: tuple[MeanInterval | None, MeanInterval | None],
     *,
     ax: Axes | None = None,
-) -> Picture | Axes:
-    r"""Return a figure of two lists of scores side by side, each with its mean and interval.
+) -> Axes:
+    r"""Draw two lists of scores side by side, each with its mean and interval.
 
-    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+    It is drawn on the axes `ax`, or else in a new figure.
 
     >>> import numpy as np
-    >>> figure = plot_two_lists(
+    >>> axes = draw_two_lists(
     ...     np.array([50.0, 44.0]), np.array([53.0]), ("before", "after"), (None, None)
     ... )
-    >>> [text.get_text() for text in figure.axes[0].get_xticklabels()]
+    >>> [text.get_text() for text in axes.get_xticklabels()]
     ['before\n2 scores', 'after\n1 score']
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
     with_interval = f" with its {shares.pop()}% interval" if shares else ""
-    figure, axes = new_axes(
-        "", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax
-    )
+    axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax)
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
     labels = [
@@ -168,7 +133,7 @@ def plot_two_lists(
     ]
     axes.set_xticks([0, 1], labels)
     axes.set_xlim(-0.5, 1.75)
-    return figure if ax is None else ax
+    return axes
 
 
 def _strip(
@@ -204,30 +169,15 @@ _POINTS = 150
 """The most points that a curve is drawn through."""
 
 
-@overload
-def plot_score(
-    law: RunLength | InningsScore,
-    innings: int = 1,
-    *,
-    asked: Sequence[tuple[str, int, int | None]] = (),
-    ax: Axes,
-) -> Axes: ...
-@overload
-def plot_score(
-    law: RunLength | InningsScore,
-    innings: int = 1,
-    *,
-    asked: Sequence[tuple[str, int, int | None]] = (),
-) -> Picture: ...
 @in_our_look
-def plot_score(
+def draw_score(
     law: RunLength | InningsScore,
     innings: int = 1,
     *,
     asked: Sequence[tuple[str, int, int | None]] = (),
     ax: Axes | None = None,
-) -> Picture | Axes:
-    """Return a figure of the probability of each score, with its mean, median and mode.
+) -> Axes:
+    """Draw the probability of each score, with its mean, median and mode.
 
     Parameters
     ----------
@@ -238,18 +188,18 @@ def plot_score(
     asked
         spans of scores to shade, each with its name: the fewest balls, and the most or None.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.stats import RunLength
-    >>> figure = plot_score(RunLength(0.9))
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    >>> axes = draw_score(RunLength(0.9))
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
     ['mean 9', 'median 6', 'mode 0']
     """
     low, high = (law.quantile(q) for q in _SHOWN)
     scores = np.arange(low, high + 1)
     chances = law.probability(scores)
     played = "an inning" if innings == 1 else f"{innings} innings"
-    figure, axes = new_axes(f"balls made in {played}", "probability", ax=ax)
+    axes = new_axes(f"balls made in {played}", "probability", ax=ax)
     axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
     axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
     for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
@@ -270,16 +220,12 @@ def plot_score(
     axes.set_ylim(0.0)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
-    return figure if ax is None else ax
+    return axes
 
 
-@overload
-def plot_spot(match: StraightPool, *, ax: Axes) -> Axes: ...
-@overload
-def plot_spot(match: StraightPool) -> Picture: ...
 @in_our_look
-def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
-    """Return a figure of A's chance in straight pool against the weaker player's points.
+def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
+    """Draw A's chance in straight pool against the weaker player's points.
 
     The match as it stands is a dot on the curve. If any number of points makes it even (see
     `even_spot`), a dashed line marks the one nearest to even.
@@ -289,11 +235,11 @@ def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
     match
         the match; player 1 is A.
     ax
-        the axes to draw on, which are returned; None: those of a new figure, which is.
+        the axes to draw on; None: those of a new figure.
 
     >>> from evenbreak.matches import StraightPool
-    >>> figure = plot_spot(StraightPool(50, 50, 0.9, 0.8))
-    >>> figure.axes[0].get_xlabel()
+    >>> axes = draw_spot(StraightPool(50, 50, 0.9, 0.8))
+    >>> axes.get_xlabel()
     'points that B needs'
     """
     weaker, even, _ = even_spot(match)
@@ -303,7 +249,7 @@ def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
     points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
     shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
-    figure, axes = new_axes(
+    axes = new_axes(
         f"points that {' AB'[weaker]} needs",
         "P(A wins the match)",
         title=shots,
@@ -325,7 +271,7 @@ def plot_spot(match: StraightPool, *, ax: Axes | None = None) -> Picture | Axes:
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
     axes.legend(frameon=False)
-    return figure if ax is None else ax
+    return axes
 
 
 _LEVEL = "level"
@@ -334,15 +280,11 @@ _TICKS = 20
 """Up to this many levels, each one has its own tick."""
 
 
-@overload
-def drill_figure(statistics: DrillStatistics, *, ax: Axes) -> Axes: ...
-@overload
-def drill_figure(statistics: DrillStatistics) -> Picture: ...
 @in_our_look
-def drill_figure(statistics: DrillStatistics, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_drill(statistics: DrillStatistics, *, ax: Axes | None = None) -> Axes:
     """Draw the fraction of attempts at each level of a drill in the long run.
 
-    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+    It is drawn on the axes `ax`, or else in a new figure.
 
     Notes
     -----
@@ -350,34 +292,30 @@ def drill_figure(statistics: DrillStatistics, *, ax: Axes | None = None) -> Pict
 
     >>> from evenbreak.games import Drill
     >>> from evenbreak.practice import drill_statistics
-    >>> figure = drill_figure(drill_statistics(Drill.progressive(0.8)))
-    >>> len(figure.axes[0].patches)
+    >>> axes = draw_drill(drill_statistics(Drill.progressive(0.8)))
+    >>> len(axes.patches)
     9
     """
     law = statistics.distribution
-    figure, axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles", ax=ax)
+    axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles", ax=ax)
     levels = np.arange(1, len(law.values) + 1)
     axes.bar(levels, [float(p) for p in law.probability], 0.8, color="0.75", edgecolor="black")
     _mark_mean(axes, law.mean, f"mean {law.mean:.2f}", "0.75")
     _finish(axes, levels.tolist())
-    return figure if ax is None else ax
+    return axes
 
 
-@overload
-def log_figure(analysis: LogAnalysis, *, ax: Axes) -> Axes: ...
-@overload
-def log_figure(analysis: LogAnalysis) -> Picture: ...
 @in_our_look
-def log_figure(analysis: LogAnalysis, *, ax: Axes | None = None) -> Picture | Axes:
+def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
     """Draw the levels of a log beside those of the long run with its success rates.
 
-    It is drawn on the axes `ax`, which are returned, or else in a new figure, which is.
+    It is drawn on the axes `ax`, or else in a new figure.
 
     Notes
     -----
     Source: exercise 5.1.
     """
-    figure, axes = new_axes(_LEVEL, _FRACTION, title="Your drill so far and in the long run", ax=ax)
+    axes = new_axes(_LEVEL, _FRACTION, title="Your drill so far and in the long run", ax=ax)
     levels = np.array([report.level for report in analysis.levels])
     visited, implied = (
         [getattr(report, name) for report in analysis.levels] for name in ("visited", "implied")
@@ -405,7 +343,7 @@ def log_figure(analysis: LogAnalysis, *, ax: Axes | None = None) -> Picture | Ax
         label="its 95% interval",
     )
     _finish(axes, levels.tolist())
-    return figure if ax is None else ax
+    return axes
 
 
 def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:

@@ -24,6 +24,7 @@ from evenbreak.source_text.published import (
 from evenbreak.source_text.section5 import plots, tables
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -79,7 +80,7 @@ def physics_tables() -> Tables:
     }
 
 
-def figures() -> Mapping[str, Callable[[], Figure]]:
+def figures() -> Mapping[str, Callable[[], Axes | Figure]]:
     """Return every figure by name, each as a function that draws it.
 
     Notes
@@ -93,7 +94,7 @@ def figures() -> Mapping[str, Callable[[], Figure]]:
     ['figure_5_1', 'figure_5_3', 'figure_5_6']
     """
     diagrams = plots.diagram_graphs().items()
-    drawings: dict[str, Callable[[], Figure]] = {
+    drawings: dict[str, Callable[[], Axes | Figure]] = {
         "figure_5_1": plots.races,
         "figure_5_3": plots.one_ball,
         "figure_5_6": plots.break_formats,

@@ -14,6 +14,7 @@ from evenbreak.errors import InputError
 from evenbreak.questions.common import picture
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -34,9 +35,9 @@ plot_option = plot_option_for()
 """The option --plot of commands whose every answer has a picture."""
 
 
-def write_plot(figure: Figure, path: str) -> None:
-    """Write a figure to the file named by --plot, and say so on stderr."""
+def write_plot(plot: Axes | Figure, path: str) -> None:
+    """Write a plot to the file named by --plot, and say so on stderr."""
     from evenbreak.plots.picture import image_bytes
 
     svg = PurePath(path).suffix.lower() == ".svg"
-    write_file(path, image_bytes(figure, "svg" if svg else "png"))
+    write_file(path, image_bytes(plot, "svg" if svg else "png"))

@@ -204,12 +204,12 @@ def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
 
 
 def _pictures(tables: SeasonTables) -> dict[str, bytes]:
-    from evenbreak.plots.league import errors_figure, gaps_figure, standings_figure
+    from evenbreak.plots.league import draw_errors, draw_gaps, draw_standings
 
     figures = {
-        "errors_by_week": errors_figure(tables.weeks),
-        "wins_by_gap": gaps_figure(tables.fairness),
-        "standings": standings_figure(tables.standings),
+        "errors_by_week": draw_errors(tables.weeks),
+        "wins_by_gap": draw_gaps(tables.fairness),
+        "standings": draw_standings(tables.standings),
     }
     return {
         f"{name}.{kind}": plots.image_bytes(figure, kind)

@@ -73,9 +73,9 @@ def command(
     except InputError as error:  # the options have been checked, so it is the data
         raise DataError([f"{file.source}: {error}"]) from None
     if plot is not None:
-        from evenbreak.plots.league import calibration_figure
+        from evenbreak.plots.league import draw_calibration
 
-        write_plot(calibration_figure(found), plot)
+        write_plot(draw_calibration(found), plot)
     return answers.validate_answer(
         file, found, scale, seed=seed, chart=handicaps.league_chart(file.results)
     )

@@ -43,9 +43,9 @@ def command(asked: Compare) -> Answer:
     }
     answer = compare_answer(players, compared, pairs, hold=asked.hold)
     if asked.plot is not None:
-        from evenbreak.plots.matches import plot_formats
+        from evenbreak.plots.matches import draw_formats
 
-        figure = plot_formats(
+        figure = draw_formats(
             read,
             line,
             pairs.values(),

@@ -26,7 +26,7 @@ def command(asked: Live) -> Answer:
     odds = live_odds(match, asked.racks, set_score=asked.set_score, form=players.form)
     answer = live_answer(players, match, odds, comebacks=asked.table)
     if asked.plot is not None:
-        from evenbreak.plots.matches import plot_course
+        from evenbreak.plots.matches import course_figure
 
-        write_plot(plot_course(odds, title=answer.heading, names=players.names), asked.plot)
+        write_plot(course_figure(odds, title=answer.heading, names=players.names), asked.plot)
     return answer

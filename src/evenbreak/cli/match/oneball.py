@@ -19,5 +19,5 @@ def command(asked: OneBall) -> Answer:
         for number, shot in enumerate(asked.shots, start=1)
     ]
     if asked.plot is not None:
-        write_plot(plots.shots_figure(shots, look_ahead=asked.ahead), asked.plot)
+        write_plot(plots.draw_shots(shots, look_ahead=asked.ahead), asked.plot)
     return oneball_answer(shots, look_ahead=asked.ahead, via=asked.via)

@@ -30,9 +30,9 @@ def command(asked: Straight) -> Answer:
         first="ab".index(asked.first) + 1,
     )
     if asked.plot is not None:
-        from evenbreak.plots.practice import plot_spot
+        from evenbreak.plots.practice import draw_spot
 
         if not any(shots) or not safety:
             asked.refuse("nobody ever makes a ball, so there is nothing to draw; leave {plot} out")
-        write_plot(plot_spot(match), asked.plot)
+        write_plot(draw_spot(match), asked.plot)
     return straight_answer(match, (averages[0], averages[1]) if averages else None)

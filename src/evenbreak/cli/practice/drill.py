@@ -119,9 +119,9 @@ def command(
         description = f"A drill in which level i takes i - 1 good shots, each with chance {p:g}"
     statistics = practice.drill_statistics(played, via=via)
     if plot is not None:
-        from evenbreak.plots.practice import drill_figure
+        from evenbreak.plots.practice import draw_drill
 
-        write_plot(drill_figure(statistics), plot)
+        write_plot(draw_drill(statistics), plot)
     return drill_answer(statistics, description, via=via)
 
 
@@ -134,7 +134,7 @@ def _log(path: str, levels: int | None, drill: str | None, seed: int, plot: str 
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
     analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     if plot is not None:
-        from evenbreak.plots.practice import log_figure
+        from evenbreak.plots.practice import draw_log
 
-        write_plot(log_figure(analysis), plot)
+        write_plot(draw_log(analysis), plot)
     return drill_log_answer(file, analysis, seed=seed, levels_given=levels is not None)

@@ -85,10 +85,10 @@ def _one_list(file: ScoresFile, new: float | None, confidence: float, plot: str 
     if new is not None and own is None:
         raise DataError([f"{file.source}: --new needs at least two different scores; add some"])
     if plot is not None:
-        from evenbreak.plots.practice import plot_scores
+        from evenbreak.plots.practice import draw_scores
 
         line = trend_line_of(file, confidence) if new is None else None
-        write_plot(plot_scores(file, own, line, new=new), plot)
+        write_plot(draw_scores(file, own, line, new=new), plot)
     if new is not None:
         return new_score_answer(file, new, confidence=confidence)
     return getting_better_answer(file, confidence=confidence)
@@ -109,10 +109,10 @@ def _versus(before: ScoresFile, after: ScoresFile, confidence: float, plot: str 
     found = compare(before.scores, after.scores, confidence=confidence)
     if plot is not None:
         from evenbreak.answers.practice.practice import interval_of
-        from evenbreak.plots.practice import plot_two_lists
+        from evenbreak.plots.practice import draw_two_lists
 
         intervals = interval_of(before, confidence), interval_of(after, confidence)
         write_plot(
-            plot_two_lists(before.scores, after.scores, ("before", "after"), intervals), plot
+            draw_two_lists(before.scores, after.scores, ("before", "after"), intervals), plot
         )
     return before_and_after_answer(before, after, found)

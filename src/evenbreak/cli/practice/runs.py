@@ -72,9 +72,9 @@ def command(
         refuse("give either --mean or --p")
     law, asked = _law(mean, p, safety, innings), Asked(at_least, between, over)
     if plot is not None:
-        from evenbreak.plots.practice import plot_score
+        from evenbreak.plots.practice import draw_score
 
-        write_plot(plot_score(law, innings, asked=list(asked.ranges.values())), plot)
+        write_plot(draw_score(law, innings, asked=list(asked.ranges.values())), plot)
     return runs_answer(law, asked)
 
 

@@ -13,7 +13,6 @@ from evenbreak.plots.picture import new_axes, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from matplotlib.patches import FancyArrowPatch
 
 _CUT = math.pi / 6.0
@@ -26,9 +25,9 @@ _SPEED = 1.5
 Pair = Sequence[float]
 
 
-def friction_at_hit() -> Figure:
+def friction_at_hit() -> Axes:
     """Fig. 1.1: the forces on two balls that touch, and the turn that friction gives them."""
-    figure, axes = _sheet((-1.35, 3.35), (-1.5, 1.5), (7.4, 4.9))
+    axes = _sheet((-1.35, 3.35), (-1.5, 1.5), (7.4, 4.9))
     for x, way in ((0.0, -1.0), (2.0, 1.0)):
         _ball(axes, (x, 0.0))
         touch, normal, along = (1.0, 0.0), (0.8 * way, 0.0), (0.0, -0.45 * way)
@@ -37,12 +36,12 @@ def friction_at_hit() -> Figure:
         _arrow(axes, touch, along, "$F_T$", beside=(0, -way * 10))
         _arrow(axes, touch, total, "$F$", beside=(way * 9, -way * 4), lw=2.2)
         _turn(axes, (x, 0.0), r"$\dot\omega$", 170.0 if way < 0.0 else -10.0)
-    return figure
+    return axes
 
 
-def tip_forces() -> Figure:
+def tip_forces() -> Axes:
     """Fig. 1.2: the force of a tip, taken apart into one to the centre and one of friction."""
-    figure, axes = _sheet((-2.3, 1.35), (-1.25, 1.25), (7.0, 4.8))
+    axes = _sheet((-2.3, 1.35), (-1.25, 1.25), (7.0, 4.8))
     _ball(axes, (0.0, 0.0))
     depth = math.sqrt(1.0 - _OFFSET**2)
     touch = (-depth, _OFFSET)
@@ -59,23 +58,23 @@ def tip_forces() -> Figure:
     _arrow(axes, touch, normal, "$F_N$", beside=(-12, -8), at=0.9, ls="--")
     _arrow(axes, touch, force - normal, "$F_T$", beside=(-3, 11))
     _angle(axes, touch, force - normal, force, r"$\alpha$", radius=0.2)
-    return figure
+    return axes
 
 
-def sliding_draw() -> Figure:
+def sliding_draw() -> Axes:
     """Fig. 2.1: a ball that slides forward and spins back, and the force of the cloth."""
-    figure, axes = _sheet((-1.9, 2.3), (-0.35, 2.25), (7.0, 4.6))
+    axes = _sheet((-1.9, 2.3), (-0.35, 2.25), (7.0, 4.6))
     axes.plot([-1.9, 2.3], [0.0, 0.0], color="0.5", lw=1.2, zorder=0)
     _ball(axes, (0.0, 1.0))
     _arrow(axes, (0.0, 1.0), (1.6, 0.0), "$V > 0$", beside=(4, 10), lw=2.2)
     _arrow(axes, (0.0, 0.0), (-1.2, 0.0), "$F < 0$", beside=(-6, 10), lw=2.2)
     _turn(axes, (0.0, 1.0), r"$\omega < 0$", 170.0)
-    return figure
+    return axes
 
 
-def velocity_triangle() -> Figure:
+def velocity_triangle() -> Axes:
     """Fig. 4.1: the velocities after a hit add up to the one before."""
-    figure, axes = _sheet((-0.1, 1.1), (-0.45, 0.5), (7.0, 5.6))
+    axes = _sheet((-0.1, 1.1), (-0.45, 0.5), (7.0, 5.6))
     object_ball, cue_ball = _velocities(0.25 * math.pi)
     _arrow(axes, (0.0, 0.0), object_ball, "$V_b$", beside=(-4, -14), at=0.6, lw=1.8)
     _arrow(axes, object_ball, cue_ball, "$V_c$", beside=(12, -2), at=0.6, lw=1.8)
@@ -83,12 +82,12 @@ def velocity_triangle() -> Figure:
     _arrow(axes, (0.0, 0.0), object_ball + cue_ball, "$V_0$", beside=(0, 9), at=0.7, lw=2.2)
     _angle(axes, (0.0, 0.0), object_ball, cue_ball, "$D$", named=0.85)
     _angle(axes, object_ball, -object_ball, cue_ball, "$C$")
-    return figure
+    return axes
 
 
-def hit_from_above() -> Figure:
+def hit_from_above() -> Axes:
     """Fig. 4.2: a hit in its two frames, with what friction adds to one ball and takes away."""
-    figure, axes = _sheet((-1.25, 3.3), (-2.4, 1.75), (7.2, 6.6))
+    axes = _sheet((-1.25, 3.3), (-2.4, 1.75), (7.2, 6.6))
     way = np.array([math.cos(_CUT), -math.sin(_CUT)])
     left = np.array([math.sin(_CUT), math.cos(_CUT)])
     _ball(axes, (0.0, 0.0))
@@ -109,12 +108,12 @@ def hit_from_above() -> Figure:
         shift = "$+V_{by}$" if sign > 0.0 else "$-V_{by}$"
         beside = (24, -4) if sign > 0.0 else (20, -3)
         _arrow(axes, start + after - sign * friction, sign * friction, shift, beside=beside, at=0.4)
-    return figure
+    return axes
 
 
-def slip_directions() -> Figure:
+def slip_directions() -> Axes:
     """Fig. 4.3: which way friction pushes the object ball, by topspin or draw and english."""
-    figure, axes = _sheet((1.75, -1.75), (-1.4, 1.4), (7.2, 6.0))
+    axes = _sheet((1.75, -1.75), (-1.4, 1.4), (7.2, 6.0))
     _ball(axes, (0.0, 0.0))
     _arrow(axes, (-1.45, 0.0), (2.9, 0.0), "$y$", beside=(-8, 0), lw=0.8)
     _arrow(axes, (0.0, -1.25), (0.0, 2.5), "$z$", beside=(0, 8), lw=0.8)
@@ -136,12 +135,12 @@ def slip_directions() -> Figure:
     axes.text(0.5 * cos, -0.11, r"$\cos\gamma$", ha="center", va="center")
     axes.text(cos + 0.08, 0.4 * end[1], r"$\sin\gamma$", ha="right", va="center")
     _angle(axes, (0.0, 0.0), (1.0, 0.0), end, r"$\gamma$", radius=0.24)
-    return figure
+    return axes
 
 
-def tilted_axis() -> Figure:
+def tilted_axis() -> Axes:
     """Fig. 4.6: a thrown ball that rolls away, its axis tilted by 7/2 of the throw."""
-    figure, axes = _sheet((1.6, -1.6), (-0.3, 2.35), (6.6, 5.6))
+    axes = _sheet((1.6, -1.6), (-0.3, 2.35), (6.6, 5.6))
     axes.plot([-1.6, 1.6], [0.0, 0.0], color="0.5", lw=1.2)
     _ball(axes, (0.0, 1.0))
     tilt = axis_tilt(math.atan(0.1))
@@ -153,7 +152,7 @@ def tilted_axis() -> Figure:
     axes.plot([-1.0, 1.0], [1.0, 1.0], ls=":", color="black", lw=0.9)
     axes.text(-0.1 + 0.6 * equator[0], 1.0 + 0.6 * equator[1], "equator", va="center")
     _angle(axes, (0.0, 1.0), (1.0, 0.0), axis, r"$\beta$", radius=0.55)
-    return figure
+    return axes
 
 
 def _velocities(cut: float) -> Any:
@@ -162,11 +161,11 @@ def _velocities(cut: float) -> Any:
     return np.array([hit.object_velocity[:2], hit.cue_velocity[:2]])
 
 
-def _sheet(x: Pair, y: Pair, size: tuple[float, float]) -> tuple[Figure, Axes]:
-    figure, axes = new_axes("", "", size=size)
+def _sheet(x: Pair, y: Pair, size: tuple[float, float]) -> Axes:
+    axes = new_axes("", "", size=size)
     axes.set(xlim=x, ylim=y, aspect="equal")
     axes.set_axis_off()
-    return figure, axes
+    return axes
 
 
 def _ball(axes: Axes, centre: Any) -> None:

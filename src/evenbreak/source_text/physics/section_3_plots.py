@@ -83,9 +83,9 @@ def _name_spin(axes: Axes, side: float, place: tuple[float, float], ha: str) -> 
     axes.text(*place, name, fontsize=7.5, ha=ha, va="center")
 
 
-def small_circle() -> Figure:
+def small_circle() -> Axes:
     """Fig. 3.2: the smallest offsets for a sidespin in natural roll lie on a small circle."""
-    figure, axes = new_axes("", "", size=(6.1, 6.1))
+    axes = new_axes("", "", size=(6.1, 6.1))
     ball_view(axes, f"Line of $J_z$ = {MINIMAL_SIDE:g} in natural roll (chosen)")
     point = small_circle_point(MINIMAL_SIDE)
     draw_small_circle(axes)
@@ -104,21 +104,21 @@ def small_circle() -> Figure:
     name_point(axes, ContactPoint(0.0, 1.0), "$(0, R)$", (7, 9), "left")
     name_point(axes, ContactPoint(0.0, 0.0), "$(0, 0)$", (0, -13), "center")
     name_point(axes, point, "$(y_0, z_0)$", (10, -10), "left")
-    return figure
+    return axes
 
 
-def stick_speeds() -> Figure:
+def stick_speeds() -> Axes:
     """Fig. 3.3: the speed that the stick gives the ball, by offset and mass ratio."""
-    figure, axes = _speeds("offset $b/R$", "$V_b / V_0$ = speed of ball / speed of stick")
+    axes = _speeds("offset $b/R$", "$V_b / V_0$ = speed of ball / speed of stick")
     _ratio_curves(axes, ball_speed_ratio)
     axes.set(ylim=(0.5, 1.7))
     axes.legend(loc="upper left", frameon=False, handlelength=3.5)
-    return figure
+    return axes
 
 
-def lag_speeds() -> Figure:
+def lag_speeds() -> Axes:
     """Fig. 3.4: the speed of natural roll, by height of the tip; the best one for a lag."""
-    figure, axes = _speeds(
+    axes = _speeds(
         "height above the centre $b/R$", "$V_{b,NR} / V_0$ = speed of roll / speed of stick"
     )
     for height in (0.0, NATURAL_ROLL_OFFSET):
@@ -136,15 +136,13 @@ def lag_speeds() -> Figure:
         note(axes, f"{best:.3f}", (best, height), beside, fontsize=9, ha="center")
     axes.set(ylim=(0.0, 1.4))
     axes.legend(loc="lower right", frameon=False, handlelength=3.5)
-    return figure
+    return axes
 
 
-def _speeds(x: str, y: str) -> tuple[Figure, Axes]:
-    figure, axes = new_axes(
-        x, y, title="$m$ = mass of ball / mass of stick (chosen)", size=(7.2, 5.2)
-    )
+def _speeds(x: str, y: str) -> Axes:
+    axes = new_axes(x, y, title="$m$ = mass of ball / mass of stick (chosen)", size=(7.2, 5.2))
     axes.set(xlim=(-LARGEST_OFFSET, LARGEST_OFFSET))
-    return figure, axes
+    return axes
 
 
 def _ratio_curves(axes: Axes, ratio_of: Callable[[Any, Any], Any]) -> None:
@@ -158,7 +156,7 @@ def ball_view(axes: Axes, title: str) -> None:
     """Draw the outline of the ball and the cloth, y growing to the left as the player sees it.
 
     >>> from evenbreak.plots.picture import new_axes
-    >>> _, axes = new_axes("", "")
+    >>> axes = new_axes("", "")
     >>> ball_view(axes, "Contact points")
     >>> bool(axes.xaxis_inverted())
     True

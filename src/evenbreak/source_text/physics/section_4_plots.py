@@ -76,9 +76,9 @@ _NEAR = 1e-9
 """How close to its step the curve of a stun shot is drawn."""
 
 
-def throw_factors() -> Figure:
+def throw_factors() -> Axes:
     """Fig. 4.4: the throw factor by sidespin, for stun and for increasing topspin or draw."""
-    figure, axes = new_axes(
+    axes = new_axes(
         _SIDE,
         r"throw factor $\cos\gamma$",
         title=r"Half-ball cut, $\alpha$ = π/6; values of $|J_{0y}|$ chosen",
@@ -101,7 +101,7 @@ def throw_factors() -> Figure:
     axes.axhline(0.0, color="0.7", lw=0.7, zorder=0)
     axes.set(xlim=(-LARGEST_SPIN, LARGEST_SPIN), ylim=(-1.08, 1.08))
     axes.legend(title="$|J_{0y}|$", loc="lower right", frameon=False, handlelength=3.5)
-    return figure
+    return axes
 
 
 def sensitivity() -> Figure:
@@ -172,9 +172,9 @@ def _power(power: float) -> str:
     return f"{2.0**power:.0f}" if power >= 0.0 else f"1/{2.0**-power:.0f}"
 
 
-def gearing_tips() -> Figure:
+def gearing_tips() -> Axes:
     """Fig. 4.8: the contact points that cancel throw once the ball rolls lie on a line."""
-    figure, axes = new_axes("", "", size=(6.1, 6.1))
+    axes = new_axes("", "", size=(6.1, 6.1))
     degrees = math.degrees(TIP_LINE_CUT)
     ball_view(axes, rf"No throw in natural roll: cut to the right by {degrees:g}° (chosen)")
     at_once = gearing_tip(TIP_LINE_CUT)
@@ -194,7 +194,7 @@ def gearing_tips() -> Figure:
         "center",
     )
     name_point(axes, ContactPoint(0.0, 1.0), "centre", (6, -10), "left")
-    return figure
+    return axes
 
 
 def _throw_factors() -> Records:
@@ -305,9 +305,9 @@ def marked_points() -> tuple[MarkedPoint, ...]:
     )
 
 
-def deflections() -> Figure:
+def deflections() -> Axes:
     """Fig. 4.7: deflection in natural roll, stun and reverse natural roll; the first's slope."""
-    figure, axes = new_axes(
+    axes = new_axes(
         r"cut angle $\alpha$, degrees", r"deflection $\theta$, degrees", size=(7.6, 7.8)
     )
     cut = np.degrees(_CUT)
@@ -329,7 +329,7 @@ def deflections() -> Figure:
     _mark(axes, slope)
     _name_curves(axes, slope)
     _key(axes)
-    return figure
+    return axes
 
 
 def _name_curves(axes: Axes, slope: Axes) -> None:

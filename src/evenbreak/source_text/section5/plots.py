@@ -33,9 +33,9 @@ _BREAK_1 = "$p_1$ = P(player 1 wins | player 1 breaks)"
 _BREAK_2 = "$p_2$ = P(player 2 wins | player 2 breaks)"
 
 
-def races() -> Figure:
+def races() -> Axes:
     """Fig. 5.1: W(p; n, n) and W(p; 2n, n), n = 1 ... 10, and where 2:1 and 4:2 cross."""
-    figure, axes = new_axes(_GAME, _MATCH, size=(7.2, 6.4))
+    axes = new_axes(_GAME, _MATCH, size=(7.2, 6.4))
     _race_curves(axes, _P, range(1, 11))
     unit_axis(axes, "x", "y")
     axes.legend(loc="upper left", frameon=False)
@@ -44,7 +44,7 @@ def races() -> Figure:
     for m, n, p in ((2, 1, 0.94), (20, 10, 0.55)):
         label_beside(axes, p, race_win_probability(p, m, n), f"{m}:{n}", "right")
     _crossing(axes)
-    return figure
+    return axes
 
 
 def _crossing(axes: Axes) -> None:
@@ -102,11 +102,11 @@ def break_formats() -> Figure:
     return figure
 
 
-def progressive_drill() -> Figure:
+def progressive_drill() -> Axes:
     """Fig. 5.8: where the progressive nine-ball drill spends its attempts, level by level."""
     levels = range(1, 10)
     limit = limits_over(Drill.progressive, p=_P)
-    figure, axes = new_axes(
+    axes = new_axes(
         "$p$ = P(one shot is made)", "$v$ = share of the attempts at a level", size=(7.2, 5.4)
     )
     for level in levels:
@@ -114,14 +114,12 @@ def progressive_drill() -> Figure:
     unit_axis(axes, "x", "y")
     # Where the curves peak they lie too close to be named one by one.
     axes.legend(title="level", loc="upper center", ncols=3, frameon=False, handlelength=4.0)
-    return figure
+    return axes
 
 
-def rating_ladders() -> Figure:
+def rating_ladders() -> Axes:
     """Fig. 5.9: how far ratings stray on the NPL ladder, for four charts."""
-    figure, axes = new_axes(
-        "rating error, points", "$v$ = probability of the error", size=(7.2, 5.0)
-    )
+    axes = new_axes("rating error, points", "$v$ = probability of the error", size=(7.2, 5.0))
     for games, marker, line in zip((8, 10, 12, 20), "os^D", LINES, strict=False):
         law = Ladder(chart(f"npl_{games}")).law()
         axes.plot(
@@ -135,12 +133,12 @@ def rating_ladders() -> Figure:
         )
     axes.set(xlim=(-20, 20), ylim=(0, None))
     axes.legend(frameon=False)
-    return figure
+    return axes
 
 
-def ahead_matches() -> Figure:
+def ahead_matches() -> Axes:
     """Fig. 5.11: n-ahead matches whose two handicaps add up to six games."""
-    figure, axes = new_axes(_GAME, _MATCH, size=(6.4, 6.2))
+    axes = new_axes(_GAME, _MATCH, size=(6.4, 6.2))
     for m, line in zip(range(1, 6), LINES, strict=False):
         n = 6 - m
         chance = win_probability(Ahead(m, n, Rack(_P)))
@@ -149,7 +147,7 @@ def ahead_matches() -> Figure:
         here = int(np.argmin(np.abs(_P + chance - 1.0)))
         label_on(axes, _P[here], chance[here], f"{m}:{n}")
     unit_axis(axes, "x", "y")
-    return figure
+    return axes
 
 
 def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
@@ -179,7 +177,7 @@ def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
     return graphs
 
 
-def drawn(graph: nx.DiGraph[Any]) -> Figure:
+def drawn(graph: nx.DiGraph[Any]) -> Axes:
     """Return the drawing of a graph whose nodes have places."""
     return draw(graph, layout={state: graph.nodes[state]["place"] for state in graph})
 
