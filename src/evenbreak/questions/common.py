@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path, PurePath
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
@@ -121,6 +121,10 @@ PlotFile: TypeAlias = Annotated[
 ]
 
 
+USUAL_RACE = 7
+"""What the stronger player races to unless something else is asked."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Lengths(Question):
     """How long the races may be that are looked at."""
@@ -128,13 +132,23 @@ class Lengths(Question):
     games: Annotated[tuple[int, int] | None, GAMES] = None
     race_to: Annotated[
         int | None,
-        Field(Whole(1, LONGEST), "Races in which the stronger player needs N games."),
+        Field(
+            Whole(1, LONGEST),
+            "Races in which the stronger player needs N games.",
+            usual=f"{USUAL_RACE}, unless {{games}} is given",
+        ),
     ] = None
 
     def check(self) -> None:
         """Refuse two limits."""
         if self.games is not None and self.race_to is not None:
             self.refuse("{games} and {race_to} cannot be combined; leave one out")
+
+    @property
+    def lengths(self) -> dict[str, Any]:
+        """What limits the races, as `fair_races` takes it."""
+        usual = USUAL_RACE if self.games is None and self.race_to is None else self.race_to
+        return {"games": self.games, "race_to": usual}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,6 +15,7 @@ from evenbreak.questions.common import (
     CHANCE,
     RACE,
     SCORE,
+    USUAL_RACE,
     ByWay,
     FormOfDay,
     Lengths,
@@ -22,6 +23,7 @@ from evenbreak.questions.common import (
     ScaleOf,
     Target,
 )
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 
 _BY_CHANCE = "Chances instead of ratings"
 
@@ -239,10 +241,9 @@ class Fair(Players, Lengths):
     via: ByWay = None
 
     def check(self) -> None:
-        """Refuse races without a limit, and more graphs than can be built in seconds."""
-        if self.games is None and self.race_to is None:
-            self.refuse("the length of the race is missing; give {games} LO..HI or {race_to} N")
-        longest = self.games[1] if self.games is not None else 2 * (self.race_to or 1) - 1
+        """Refuse more graphs than can be built in seconds."""
+        games, race_to = self.lengths.values()
+        longest = games[1] if games is not None else 2 * race_to - 1
         if self.via is not None and (longest > MOST_GAMES or self.top > MOST_GRAPHS):
             self.refuse(
                 "{via} builds the graph of each race listed; ask for at most {graphs} races of "
@@ -250,6 +251,20 @@ class Fair(Players, Lengths):
                 graphs=MOST_GRAPHS,
                 most=MOST_GAMES,
             )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FairTonight(Fair):
+    """The same on a page that everybody may open.
+
+    Its races are as long as those of a tournament: one to 1,000 takes seconds to work out.
+    """
+
+    race_to: Annotated[
+        int,
+        Field(Whole(1, LONGEST_RACE)),
+    ] = USUAL_RACE
+    top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.")] = 3
 
 
 def winners(text: str) -> list[int]:

@@ -89,12 +89,15 @@ def asked_in(question: type[Asked], form: Form, fields: Sequence[Declared], **va
     values
         fields of the question that are not read from a field of their own.
     """
-    read = {one.name: _value(one, form) for one in fields if form.text(name_of(one))}
+    read = {one.name: value_of(one, form) for one in fields if form.text(name_of(one))}
     return question(**read, **values)
 
 
-def _value(one: Declared, form: Form) -> Any:
-    name = name_of(one)
+def value_of(one: Declared, form: Form, name: str = "") -> Any:
+    """Return the value of a field, its default if it is left empty; `name` is that of the form."""
+    name = name or name_of(one)
+    if not form.text(name) and not one.required:
+        return one.default
     if isinstance(one.kind, Whole):
         return form.whole(name, one.kind.low, one.kind.high)
     if isinstance(one.kind, Choice):

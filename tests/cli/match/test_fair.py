@@ -66,6 +66,10 @@ def test_breaks_and_negative_ratings(fair):
     assert fair("-20 30 --games 3..5") == fair("0 50 --games 3..5")
 
 
+def test_a_race_to_7_unless_asked_otherwise(fair):
+    assert fair("85 40") == fair("85 40 --race-to 7")
+
+
 def test_csv_into_a_pipe_with_the_scale_beside_it(run, fair):
     result = run("fair", "85", "40", "--race-to", "2")
     assert result.stdout.splitlines() == [
@@ -81,7 +85,6 @@ def test_csv_into_a_pipe_with_the_scale_beside_it(run, fair):
 @each_of(
     "line, named",
     [
-        ("612 521", "--race-to"),
         ("612 521 --games 7..9 --race-to 7", "--race-to"),
         ("612 521 --games 7", "such as 7..13"),
         ("612 521 --games 9..7", "such as 7..13"),

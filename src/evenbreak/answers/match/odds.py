@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.ways import Way
     from evenbreak.handicaps.charts.fair import FairRace
     from evenbreak.handicaps.charts.gap import Gap
+    from evenbreak.questions.match import Fair
 
 
 FORMATS = {
@@ -348,6 +349,32 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     if (winner := match.decided(*match.score)) is not None:
         text += f": {names[winner - 1]} has won"
     return text
+
+
+def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
+    """Return the races that a question about two players asks for, the fairest first."""
+    from evenbreak.handicaps.charts.fair import fair_races
+
+    limits: Any = {**asked.lengths, "target": asked.target, "top": asked.top}
+    if players.error or players.form:
+        if players.scale is None:
+            _refuse_without_odds(players, asked)
+        return players.gap.nearest_races(**limits)
+    return fair_races(
+        players.rack,
+        breaks=players.break_format,
+        first_breaker=players.first_breaker,
+        via=asked.via,
+        **limits,
+    )
+
+
+def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
+    """Refuse chances that form of the day cannot change, or about which it says nothing."""
+    if players.p_game_a is None:
+        asked.refuse("{form} knows nothing of the break here; give {p}, or two ratings")
+    if players.p_game_a in (0.0, 1.0):
+        asked.refuse("{form} changes nothing where {p} is {chance:g}; leave it out", chance=asked.p)
 
 
 def fair_answer(
