@@ -5,7 +5,7 @@ PYTHON ?= .venv-dev/bin/python
 LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.py \
 	tests/files/tables/test_spreadsheet.py tests/web/test_floods.py tests/web/test_refusals.py \
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
-	tests/chains/test_factorisation.py tests/chains/test_reversible.py tests/ratings/test_fitted.py
+	tests/chains/test_factorisation.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
 .PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures app clean

@@ -1,11 +1,16 @@
 """The fronts of a nested dissection: each state once, and no arc past a front unseen."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, eye_array
+from scipy.sparse.linalg import splu
 
-from evenbreak.chains import dissection
-from evenbreak.chains.dissection import bandwidth, dissect, neighbours
+import oracle
+from evenbreak.chains import dense_elimination, dissection
+from evenbreak.chains.dissection import FrontElimination, bandwidth, dissect, neighbours
+from evenbreak.chains.elimination import Elimination
 
 
 def grid(side):
@@ -77,3 +82,101 @@ def test_a_dense_graph_is_one_front():
 
 def test_the_band_of_a_grid_is_about_its_side():
     assert 20 <= bandwidth(neighbours(grid(20))) < 40
+
+
+# Elimination in fronts at sizes at which fronts, blocks and strips really arise.
+
+
+def lattice(side, rng, decades=1.0):
+    """Return the arcs of a square grid, spread over some decades, in shuffled order."""
+    place = rng.permutation(side * side).reshape(side, side)
+    one = np.concatenate([place[1:].ravel(), place[:, 1:].ravel()])
+    other = np.concatenate([place[:-1].ravel(), place[:, :-1].ravel()])
+    rows, columns = np.concatenate((one, other)), np.concatenate((other, one))
+    chances = 0.25 * 10.0 ** -rng.uniform(0.0, decades, len(rows))
+    return csc_array((chances, (rows, columns)), (side * side, side * side))
+
+
+def factored(T, leak):
+    return FrontElimination(T, leak, *dissect(neighbours(T)))
+
+
+def plain(T, leak, number=float):
+    rows = [{} for _ in leak]
+    arcs = T.tocoo()
+    for i, j, chance in zip(arcs.row, arcs.col, arcs.data.tolist(), strict=True):
+        rows[int(j)][int(i)] = number(chance)
+    return Elimination(rows, [number(x) for x in leak.tolist()])
+
+
+def of_kind(kind, rng):
+    if kind == "grid":
+        return lattice(18, rng)
+    if kind == "dense":
+        return csc_array(rng.random((150, 150)) * (1 - np.eye(150)) / 150)
+    ring = np.eye(200)
+    return csc_array(np.roll(ring, 1, axis=0) * 0.9 + np.roll(ring, 7, axis=0) * 0.05)
+
+
+@pytest.mark.slow_after(4)
+@pytest.mark.parametrize("small", [True, False])
+@pytest.mark.parametrize("kind", ["grid", "dense", "one direction"])
+def test_equal_to_plain_elimination(monkeypatch, kind, small):
+    if small:
+        monkeypatch.setattr(dissection, "_LEAF", 8)
+        for name, value in [("_ONE_BY_ONE", 3), ("_TERMS", 5), ("_FEW", 20), ("_SMALL", 200)]:
+            monkeypatch.setattr(dense_elimination, name, value)
+    rng = np.random.default_rng(5)
+    T = of_kind(kind, rng)
+    n = T.shape[0]
+    leak = np.zeros(n)
+    leak[3] = 1e-12
+    b = np.where(rng.random((n, 3)) < 0.1, 1.0, 0.0)
+    given = b.copy()
+    fronts, slow = factored(T, leak), plain(T, leak)
+    for column in range(3):
+        right = b[:, column].tolist()
+        assert fronts.visits(b)[:, column] == pytest.approx(slow.visits(right), rel=1e-13)
+        assert fronts.values(b)[:, column] == pytest.approx(slow.values(right), rel=1e-13)
+    assert (b == given).all()
+
+
+@pytest.mark.parametrize("decades", [1, 16, 50])
+def test_right_in_every_entry_however_stiff(monkeypatch, decades):
+    """Against fractions; 16 decades leave nothing of an answer that comes from subtraction."""
+    monkeypatch.setattr(dissection, "_LEAF", 6)
+    monkeypatch.setattr(dense_elimination, "_ONE_BY_ONE", 4)
+    T = lattice(6, np.random.default_rng(decades), decades)
+    leak = np.zeros(36)
+    leak[7] = 10.0**-decades
+    b = np.zeros((36, 1))
+    b[20] = 1.0
+    fronts, exact = factored(T, leak), plain(T, leak, Fraction)
+    right = [Fraction(x) for x in b[:, 0].tolist()]
+    assert oracle.worst_relative_error(fronts.visits(b)[:, 0], exact.visits(right)) < 3e-15
+    assert oracle.worst_relative_error(fronts.values(b)[:, 0], exact.values(right)) < 3e-15
+    pivots = plain(T, leak).pivots
+    assert (fronts.pivots > 0.0).all()
+    assert len(pivots) == len(fronts.pivots)
+
+
+def test_large_blocks_are_multiplied_and_solved_whole(monkeypatch):
+    """The same numbers as in strips, up to rounding."""
+    rng = np.random.default_rng(3)
+    T = csc_array(rng.random((220, 220)) * (1 - np.eye(220)) / 220)
+    leak = rng.random(220) / 100
+    b = rng.random((220, 9))
+    strips = factored(T, leak)
+    monkeypatch.setattr(dense_elimination, "_LARGE", 1)
+    whole = factored(T, leak)
+    assert whole.visits(b) == pytest.approx(strips.visits(b), rel=1e-14)
+    assert whole.values(b) == pytest.approx(strips.values(b), rel=1e-14)
+
+
+def test_a_grid_of_3600_states_agrees_with_sparse_lu():
+    rng = np.random.default_rng(4)
+    T, leak = lattice(60, rng), rng.random(3600) / 10
+    b = rng.random((3600, 1))
+    outflow = T.sum(axis=0) + leak
+    system = csc_array(eye_array(3600).multiply(outflow).tocsc() - T)
+    assert factored(T, leak).visits(b) == pytest.approx(splu(system).solve(b), rel=1e-11)

@@ -3,6 +3,7 @@
 import random
 from fractions import Fraction
 
+import networkx as nx
 import numpy as np
 import pytest
 from scipy.sparse import csc_array
@@ -11,14 +12,19 @@ import oracle
 from evenbreak.chains import (
     Chain,
     absorption,
+    chain_from_arrays,
     chain_of,
     expected_visits,
     factorisation,
     limit_matrix,
+    limit_of,
     propagate,
     stochastic_limit,
 )
-from evenbreak.errors import AccuracyError, ChainError
+from evenbreak.chains.ways import WAYS
+from evenbreak.errors import AccuracyError, ChainError, InputError
+from evenbreak.game import graph_of
+from evenbreak.games import Drill, OneBall, Race, Rack
 from rows import each_of
 
 
@@ -224,3 +230,73 @@ class TestMapping:
         )
         assert repr(self.chain) == "<Chain of 3 states, 4 arcs, start 'rack'>"
         assert repr(ring.chain) == "<Chain of 8 states, 8 arcs, start None>"
+
+
+# The limits from all states at once: column j is the limit from state j.
+
+
+RUIN = chain_of([(1, 0, 0.5), (1, 2, 0.5), (2, 1, 0.25), (2, 3, 0.75)])
+ROUND = chain_of([("S", "A", 0.25), ("S", "end", 0.75), ("A", "B", 1.0), ("B", "A", 1.0)])
+
+
+@pytest.mark.parametrize("chain", [RUIN, ROUND], ids=["two ends", "an end and a cycle"])
+def test_each_column_is_the_limit_from_its_state(chain):
+    table = limit_matrix(chain).toarray()
+    for column, state in enumerate(chain.states):
+        assert table[:, column] == pytest.approx(stochastic_limit(chain, state).probability)
+
+
+def test_it_is_a_projection_that_the_chain_leaves_alone():
+    table, matrix = limit_matrix(ROUND).toarray(), ROUND.matrix.toarray()
+    assert np.allclose(table @ table, table, atol=1e-15)
+    assert np.allclose(matrix @ table, table, atol=1e-15)
+
+
+def test_only_closed_classes_have_entries():
+    table = limit_matrix(RUIN)
+    assert table.nnz == 6  # 0 and 3 from themselves, and both from 1 and 2
+
+
+def test_a_matrix_that_would_fill_the_memory_is_refused():
+    states = np.arange(8_000)
+    chain = chain_from_arrays(
+        states.tolist(), np.tile(states, 2), np.append((states + 1) % 8_000, (states + 7) % 8_000),
+        np.full(16_000, 0.5),
+    )  # fmt: skip
+    with pytest.raises(InputError, match="64,000,000"):
+        limit_matrix(chain)
+
+
+# The limit of a game is the same by every way.
+
+
+DRILL = Drill([0.9, 0.6, 0.2])
+
+
+@pytest.mark.parametrize("via", [None, *WAYS])
+def test_every_way_of_a_drill(via) -> None:
+    limit = limit_of(DRILL, via=via)
+    # By hand: the shares of levels 1, 2 and 3 are as 0.4 * 0.8 : 0.9 * 0.8 : 0.9 * 0.6.
+    assert limit.to_dict() == pytest.approx({1: 32 / 158, 2: 72 / 158, 3: 54 / 158}, rel=1e-14)
+
+
+@pytest.mark.parametrize("via", ["elimination", "eigen"])
+def test_a_graph_and_a_start(via) -> None:
+    game = OneBall(0.5, 0.25)
+    graph: nx.DiGraph = graph_of(game)
+    assert limit_of(graph, via=via)["W"] == pytest.approx(0.8, rel=1e-15)
+    assert limit_of(game, start="S2", via=via)["W"] == pytest.approx(0.6, rel=1e-15)
+    assert limit_of(graph, start="S2", via=via)["W"] == pytest.approx(0.6, rel=1e-15)
+
+
+def test_a_start_that_others_do_not_lead_to() -> None:
+    with pytest.raises(ChainError, match="9"):
+        limit_of(graph_of(DRILL), start=9, via="eigen")
+    assert graph_of(OneBall(0.5, 1.0), start="S2").nodes["S2"]["kind"] == "start"
+
+
+def test_a_way_that_does_not_exist_names_those_that_do() -> None:
+    with pytest.raises(InputError, match=r"power.*elimination"):
+        limit_of(DRILL, via="power")
+    with pytest.raises(ChainError, match="use elimination"):
+        limit_of(Race(2, 2, Rack(0.4)), via="kernel")

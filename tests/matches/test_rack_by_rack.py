@@ -2,13 +2,14 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks, winner_breaks
 from evenbreak.matches import match_length, rack_by_rack
-from evenbreak.matches.rack_by_rack import rack_moves, racks_within
+from evenbreak.matches.rack_by_rack import breaker_in, rack_moves, racks_within
 
 MATCHES = [
     Ahead(4, 2, Rack(0.55)),
@@ -57,3 +58,39 @@ def test_a_match_that_may_never_end_has_no_quantile_beyond() -> None:
     never = {"on": 0.2, "stuck": 1.0}
     asked = [("on", 0.4), ("on", 0.79), ("on", 0.81), ("stuck", 0.1)]
     assert racks_within(moves, asked, never) == [1, 7, None, None]
+
+
+LISTED = [
+    Race(4, 3, Rack(0.6)),
+    Ahead(2, 3, Rack(0.6, 0.7), breaks=alternate_breaks, first_breaker=2),
+    Race(2, 2, Race(2, 1, Rack(0.6, 0.5), breaks=winner_breaks), breaks=alternate_breaks),
+    Race(3, 3, Rack(0.6), win_by=2),
+]
+
+
+@pytest.mark.parametrize("match", LISTED, ids=lambda match: type(match).__name__)
+def test_the_moves_are_those_of_the_match(match):
+    for state, moves in rack_moves(match).items():
+        assert dict(moves) == match.moves(state)
+
+
+def test_a_rack_that_cannot_be_won_is_listed_all_the_same():
+    assert rack_moves(Race(2, 1, Rack(0.0)))[0, 0] == (((1, 0), 0.0), ((0, 1), 1.0))
+
+
+def test_chances_may_be_arrays():
+    p = np.array([0.1, 0.2])
+    (_, won), (_, lost) = rack_moves(Race(1, 1, Rack(p)))[0, 0]
+    assert won.tolist() == [0.1, 0.2]
+    assert lost.tolist() == [0.9, 0.8]
+
+
+def test_a_match_that_is_over_has_no_moves():
+    assert rack_moves(Race(2, 2, Rack(0.5), score=(2, 0))) == {}
+
+
+def test_the_breaker_of_a_set_is_in_its_innermost_state():
+    sets = LISTED[2]
+    assert breaker_in(sets, sets.start) == 1
+    assert {breaker_in(sets, state) for state in rack_moves(sets)} == {1, 2}
+    assert breaker_in(LISTED[0], (0, 0)) == 1

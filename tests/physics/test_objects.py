@@ -1,6 +1,7 @@
 """Ball, cloth, table and cue refuse what cannot be."""
 
 import dataclasses
+import itertools
 import math
 from typing import Any
 
@@ -8,7 +9,17 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.physics import Ball, Cloth, Cue, PoolTable
+from evenbreak.physics import (
+    BALL_SETS,
+    LIQUIDS,
+    Ball,
+    Cloth,
+    Cue,
+    PoolTable,
+    density_range,
+    floats_in,
+    volume_range,
+)
 from rows import each_of
 
 FIELDS = [
@@ -61,3 +72,33 @@ def test_the_inertia_of_a_ball_by_its_points() -> None:
     error = 8.0 * 5.0 * math.sqrt(share * (1.0 - share) / inside.size)
     assert ball.volume == pytest.approx(8.0 * share, abs=error)
     assert ball.density == pytest.approx(1.0 / ball.volume)
+
+
+# What the rules allow: the ranges hold what they should.
+
+
+@pytest.mark.parametrize("name", sorted(BALL_SETS))
+def test_every_ball_that_the_rules_allow_is_in_the_ranges(name: str) -> None:
+    balls = BALL_SETS[name]
+    volumes, densities = volume_range(balls), density_range(balls)
+    found = [
+        Ball(mass=mass, radius=(diameter + off * balls.tolerance) / 2.0)
+        for diameter, off, mass in itertools.product(balls.diameters, (-1, 0, 1), balls.masses)
+    ]
+    assert min(ball.volume for ball in found) == pytest.approx(volumes[0])
+    assert max(ball.volume for ball in found) == pytest.approx(volumes[1])
+    assert all(densities[0] <= ball.density * (1 + 1e-12) for ball in found)
+    assert all(ball.density <= densities[1] * (1 + 1e-12) for ball in found)
+
+
+def test_what_floats_is_lighter_than_the_liquid() -> None:
+    for balls in BALL_SETS.values():
+        for liquid, density in LIQUIDS.items():
+            assert floats_in(balls, liquid) == (density_range(balls)[1] < density)
+    assert floats_in(BALL_SETS["pool"], "mercury")
+    assert not floats_in(BALL_SETS["pool"], "water")
+
+
+def test_only_liquids_that_are_listed() -> None:
+    with pytest.raises(InputError, match="liquid is 'milk'; give 'water', "):
+        floats_in(BALL_SETS["pool"], "milk")

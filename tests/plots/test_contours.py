@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from evenbreak.plots.contours import TENTHS, contour_axes
-from evenbreak.plots.picture import new_axes
+from evenbreak import InputError
+from evenbreak.games import Rack
+from evenbreak.plots.contours import TENTHS, breaks_figure, contour_axes, draw_shots
+from evenbreak.plots.picture import image_bytes, new_axes
+from evenbreak.practice import ShotChoice
 
 
 def drawn(function: Any, **options: Any) -> tuple[Axes, Any]:
@@ -80,3 +83,66 @@ def test_labels_keep_away_from_each_other() -> None:
 def test_a_line_too_near_the_edge_for_a_label_is_drawn_without() -> None:
     _, lines = drawn(lambda p1, p2: p1 + 0 * p2, levels=[0.01, 0.5])
     assert [text.get_text() for text in lines.labelTexts] == ["0.5"]
+
+
+def titles(figure):
+    return [axes.get_title() for axes in figure.axes]
+
+
+def test_titles_have_the_shares_and_every_panel_the_dot():
+    figure = breaks_figure(Rack(0.5, 0.1))
+    assert titles(figure) == [
+        "winner breaks: A wins 0.643",
+        "loser breaks: A wins 0.833",
+        "alternate breaks: A wins 0.700",
+        "winner minus loser breaks: \N{MINUS SIGN}0.190",
+    ]
+    for axes in figure.axes:
+        assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines] == [(0.5, 0.1)]
+
+
+def test_the_first_breaker_counts_where_the_break_never_passes_on():
+    assert titles(breaks_figure(Rack(1, 1)))[0] == "winner breaks: A wins 1.000"
+    assert titles(breaks_figure(Rack(1, 1), first_breaker=2))[0] == "winner breaks: A wins 0.000"
+
+
+def test_a_rack_whose_break_does_not_matter_is_on_the_diagonal():
+    (dot,) = breaks_figure(Rack(0.6)).axes[0].lines
+    assert (dot.get_xdata()[0], dot.get_ydata()[0]) == (0.6, 0.4)
+
+
+def test_arrays_are_refused():
+    with pytest.raises(InputError, match="one number"):
+        breaks_figure(Rack([0.5, 0.6], 0.5))
+
+
+def test_the_picture_says_what_it_shows():
+    title, dot = breaks_figure(Rack(0.62, 0.55)).get_suptitle().splitlines()
+    assert "long run" in title
+    assert "0.62" in dot
+    assert "0.55" in dot
+
+
+SHOTS = [ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)]
+
+
+@pytest.mark.parametrize("look_ahead", ["infinite", "two shots"])
+def test_shots_stand_at_their_chances_by_name(look_ahead):
+    axes = draw_shots(SHOTS, look_ahead=look_ahead)
+    dots = [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines]
+    assert dots == [(0.4, 0.8), (0.3, 0.3)]
+    names = {note.get_text(): note.xy for note in axes.texts if hasattr(note, "xy")}
+    assert names == {"bank": (0.4, 0.8), "safety": (0.3, 0.3)}
+
+
+def test_the_look_aheads_look_different_and_each_the_same_every_time():
+    pictures = [
+        image_bytes(draw_shots(SHOTS, look_ahead=look_ahead), "svg")
+        for look_ahead in ("infinite", "infinite", "two shots")
+    ]
+    assert pictures[0] == pictures[1] != pictures[2]
+
+
+def test_an_unknown_look_ahead_is_refused():
+    with pytest.raises(InputError, match="'infinite' or 'two shots'"):
+        draw_shots(SHOTS, look_ahead="three shots")

@@ -10,7 +10,7 @@ from evenbreak.ratings import fit
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fitted import DayForm
-from ratings.test_match_form import league
+from ratings.validation.test_within_matches import league
 
 
 def found(form_sd, seed, **how):

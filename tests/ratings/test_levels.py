@@ -2,10 +2,20 @@
 
 import numpy as np
 import pytest
+from scipy.special import expit
 
 from evenbreak.errors import InputError
+from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Results, best_prior, fit, walk_forward
-from evenbreak.ratings.levels import Levels, joined_late, known_levels, means_of
+from evenbreak.ratings.levels import (
+    Levels,
+    StatedStrength,
+    has_handicaps,
+    implied_difference,
+    joined_late,
+    known_levels,
+    means_of,
+)
 from simulated_levels import SPREAD, TEAMS, harm, league, race_covered, teams_covered
 
 SEASON = Results.from_names(
@@ -128,3 +138,32 @@ def test_what_a_file_knows():
 def test_nonsense_is_refused():
     with pytest.raises(InputError, match="team_sd"):
         Levels(team_sd=-1.0)
+
+
+# Strengths by the races that a league makes its players play.
+
+
+def season(a, b, race_a, race_b):
+    zeros = [0] * len(a)
+    return Results.from_names(a, b, zeros, zeros, race_a=race_a, race_b=race_b)
+
+
+def test_the_implied_difference_makes_the_race_even():
+    results = season(["A"] * 3, ["B"] * 3, [7, 2, 5], [3, 6, 5])
+    p = expit(implied_difference(results))
+    np.testing.assert_allclose(race_win_probability(p, [7, 2, 5], [3, 6, 5]), 0.5, atol=1e-9)
+
+
+def test_strengths_have_the_implied_differences():
+    results = season(["A", "B", "C"], ["B", "C", "A"], [5, 4, 3], [4, 5, 5])
+    known = StatedStrength(results)
+    assert not known.strength().any()
+    known.see(slice(0, 1))
+    a, b, c = known.strength()
+    assert c == 0
+    assert a - b == pytest.approx(implied_difference(results)[0], rel=0.01)
+
+
+def test_even_races_are_no_handicaps():
+    assert not has_handicaps(season(["A"], ["B"], [5], [5]))
+    assert has_handicaps(season(["A"], ["B"], [5], [4]))

@@ -7,7 +7,16 @@ from evenbreak.errors import InputError
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.prior import AS_GOOD, WIDTHS
+from evenbreak.ratings.prior import (
+    AS_GOOD,
+    FEWEST_STRETCHES,
+    HALF_LIVES,
+    WIDTHS,
+    gains_over,
+    half_life_gains,
+    is_clear,
+)
+from evenbreak.ratings.stretches import StretchLosses
 from handicapped import by_chart
 from places import SHARED
 
@@ -150,3 +159,78 @@ def test_old_games_count_in_full_where_only_the_first_prior_was_too_wide():
     choice = best_prior(by_chart(0, levels=False, off=0.0, form=0.0, matches=500))
     assert choice.levels.race > 0.5
     assert choice.half_life is None
+
+
+# Whether it helps to let old games count less: it does where strengths change, and else not.
+
+
+PLAYERS, MATCHES = 12, 1500
+
+
+def wandering_season(change: float, days: int = 720) -> Results:
+    """Return a season of 9 games a match, between players whose skills wander every day."""
+    rng = np.random.default_rng(1)
+    skills = rng.normal(0, 0.6, PLAYERS) + rng.normal(0, change, (days, PLAYERS)).cumsum(0)
+    day = np.sort(rng.integers(0, days, MATCHES))
+    a = rng.integers(0, PLAYERS, MATCHES)
+    b = (a + rng.integers(1, PLAYERS, MATCHES)) % PLAYERS
+    won = rng.binomial(9, 1 / (1 + np.exp(skills[day, b] - skills[day, a])))
+    names = tuple(f"p{k:02d}" for k in range(PLAYERS))
+    return Results(names, a, b, won, 9 - won, date=np.datetime64("2024-01-01") + day)
+
+
+def gains(results):
+    found = half_life_gains(results, 0.6)
+    return {one.half_life: one.gain for one in found}
+
+
+def test_strengths_that_wander_are_found():
+    found = gains(wandering_season(0.05))
+    assert tuple(found) == HALF_LIVES[:3]
+    assert found[90.0].low > 0
+
+
+def test_strengths_that_stay_gain_nothing():
+    found = gains(wandering_season(0.0))
+    assert all(gain.low < 0 for gain in found.values())
+    assert found[90.0].value < found[365.0].value
+
+
+def test_a_few_days_say_nothing():
+    assert gains(wandering_season(0.0, days=5)) == {}
+
+
+# When one way of rating clearly predicts better than another.
+
+
+MANY = 25
+
+
+def losses(saved):
+    """Return the losses of two ways, the second of which saves so much in each stretch."""
+    return StretchLosses(
+        np.column_stack([np.full(len(saved), 50.0), 50.0 - saved]), np.full(len(saved), 70.0)
+    )
+
+
+def test_a_gain_is_what_is_saved_a_game():
+    (gain,) = gains_over(losses(np.full(MANY, 0.7)))
+    assert round(gain.value, 9) == 0.01
+    assert gain.low == gain.high
+
+
+def test_a_steady_gain_is_clear_however_small_and_luck_is_not():
+    rng = np.random.default_rng(1)
+    assert is_clear(losses(np.full(MANY, 0.01)))
+    assert not is_clear(losses(rng.normal(0.0, 0.5, MANY)))
+
+
+def test_much_gained_early_in_the_season_is_clear():
+    saved = np.zeros(MANY)
+    saved[:4] = 2.0
+    assert is_clear(losses(saved))
+    assert not is_clear(losses(saved / 4))
+
+
+def test_a_few_stretches_show_nothing():
+    assert not is_clear(losses(np.full(FEWEST_STRETCHES - 1, 5.0)))

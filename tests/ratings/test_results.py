@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.ratings import Results
+from evenbreak.ratings import Results, find_problems
+from rows import each_of
 
 
 def season(**columns):
@@ -118,3 +119,108 @@ def test_names_are_text():
         Results.from_names(["Ann", np.nan], ["Bo", "Cy"], [7, 7], [5, 5])
     with pytest.raises(InputError, match="players holds 1, which is not text"):
         Results((1, 2), [0], [1], [7], [5])
+
+
+WRONG = [
+    # columns of one row beside Ann - Bo, the column blamed, what the message quotes
+    ({"score": (-3, 7)}, "score_a", "score_a is -3"),
+    ({"score": (7, -1)}, "score_b", "score_b is -1"),
+    ({"race": (-7, 7)}, "race_a", "race_a is -7"),
+    ({"race": (7, 0)}, "race_b", "race_b is empty"),
+    ({"race": (0, 7)}, "race_a", "race_a is empty"),
+    ({"score": (8, 5), "race": (7, 7)}, "score_a", "8-5 in a race 7:7"),
+    ({"score": (5, 6), "race": (7, 5)}, "score_b", "5-6 in a race 7:5"),
+    ({"score": (7, 5), "race": (7, 5)}, "score_b", "7-5 in a race 7:5"),
+    ({"score": (6, 4), "race": (7, 5)}, "score_a", "6-4 in a race 7:5"),
+    ({"winner": 2}, "winner", "winner is b, but a won more games (7-5)"),
+    ({"score": (3, 3), "winner": 1}, "winner", "3-3"),
+    ({"score": (4, 5), "race": (7, 5), "winner": 1}, "winner", "but b reached the race"),
+    ({"racks": "ab"}, "racks", "racks 'ab' is 1-1, but the score is 7-5"),
+    ({"racks": "a/b"}, "racks", "'a/b'"),
+    (
+        {"score": (2, 1), "race": (2, 2), "racks": "aab"},
+        "racks",
+        "2-1 in a race 2:2",
+    ),
+]
+
+RIGHT = [
+    {},
+    {"race": (7, 7), "winner": 1},
+    # The weaker player wins the handicap race with fewer games.
+    {"score": (6, 5), "race": (7, 5), "winner": 2},
+    {"score": (3, 3)},  # a session that ended level
+    {"score": (4, 2), "race": (7, 7), "forfeit": True, "winner": 2},
+    {"score": (0, 0), "race": (7, 7)},
+    {"score": (2, 1), "race": (2, 2), "racks": "aba"},
+    {"score": (2, 1), "racks": "aab"},
+]
+
+
+def row(score=(7, 5), race=None, winner=None, racks=None, forfeit=None):
+    columns = {}
+    if race is not None:
+        columns |= {"race_a": [race[0]], "race_b": [race[1]]}
+    for name, value in (("winner", winner), ("racks", racks), ("forfeit", forfeit)):
+        if value is not None:
+            columns[name] = [value]
+    return Results.from_names(["Ann"], ["Bo"], [score[0]], [score[1]], **columns)
+
+
+@each_of("cells, column, words", WRONG)
+def test_each_contradiction_is_found_once_and_says_how_to_mend_it(cells, column, words):
+    (problem,) = find_problems(row(**cells))
+    assert (problem.row, problem.column) == (0, column)
+    assert words in problem.message
+    assert ";" in problem.message
+
+
+@pytest.mark.parametrize("cells", RIGHT)
+def test_what_can_be_true_is_let_pass(cells):
+    assert find_problems(row(**cells)) == []
+
+
+@each_of("cells", [cells for cells, _, _ in WRONG if "racks" not in cells])
+def test_it_does_not_matter_who_is_called_a(cells):
+    swapped = {name: value[::-1] for name, value in cells.items() if name in ("score", "race")}
+    swapped.setdefault("score", (5, 7))
+    if "winner" in cells:
+        swapped["winner"] = 3 - cells["winner"]
+    assert len(find_problems(row(**swapped))) == 1
+
+
+def test_no_player_is_on_both_sides():
+    (problem,) = find_problems(Results.from_names(["Ann"], ["Ann"], [7], [5]))
+    assert problem.column == "player_b"
+    assert problem.message.startswith("'Ann'")
+
+
+def test_problems_come_in_the_order_of_the_rows():
+    results = Results.from_names(["A", "B", "C"], ["C", "B", "A"], [-1, 7, 3], [-1, 5, -2])
+    assert [(p.row, p.column) for p in find_problems(results)] == [
+        (0, "score_a"),
+        (0, "score_b"),
+        (1, "player_b"),
+        (2, "score_b"),
+    ]
+
+
+def test_many_rows_are_checked_at_once():
+    rows = 100_000
+    score_a = np.full(rows, 7)
+    score_a[77_777] = 6
+    results = Results(
+        ("Ann", "Bo"),
+        np.zeros(rows, int),
+        np.ones(rows, int),
+        score_a,
+        np.full(rows, 5),
+        race_a=np.full(rows, 7),
+        race_b=np.full(rows, 7),
+        winner=np.ones(rows, int),
+        racks=np.full(rows, "abababababaa", dtype=object),
+    )
+    assert [(p.row, p.column) for p in find_problems(results)] == [
+        (77_777, "score_a"),
+        (77_777, "racks"),
+    ]

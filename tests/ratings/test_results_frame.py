@@ -9,7 +9,13 @@ import pytest
 from evenbreak.errors import DataError, InputError
 from evenbreak.files import read_results
 from evenbreak.ratings import Results, fit
-from evenbreak.ratings.results_frame import FORMATS, FrameReader
+from evenbreak.ratings.results_frame import (
+    FORFEIT_WORDS,
+    FORMAT_WORDS,
+    FORMATS,
+    FrameReader,
+    letters,
+)
 from places import DATA
 from rows import each_of
 
@@ -176,3 +182,15 @@ def test_names_that_differ_in_case_or_blanks_are_one_players_as_in_files(tmp_pat
     from_file = read_results(path).results
     assert found.players == from_file.players == ("Ann", "Bo", "Cy")
     assert found.winner.tolist() == from_file.winner.tolist() == [1, 2]
+
+
+# One vocabulary for files and DataFrames: nothing in it is out of reach.
+
+
+def test_every_word_is_written_as_it_is_compared():
+    words = [*FORFEIT_WORDS, *FORMAT_WORDS]
+    assert [letters(word) for word in words] == words
+
+
+def test_every_format_has_a_word():
+    assert {FORMATS[code] for code in FORMAT_WORDS.values()} == set(FORMATS) - {""}

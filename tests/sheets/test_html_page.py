@@ -5,7 +5,8 @@ import re
 import pytest
 from jinja2 import UndefinedError
 
-from evenbreak.sheets.html_page import html_page, shown_name
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.sheets.html_page import answer_page, html_page, shown_name
 
 POLICY = re.compile(r'Content-Security-Policy" content="([^"]*)"')
 
@@ -54,3 +55,10 @@ def test_a_screen_in_the_dark_has_dark_paper_and_print_has_none():
 )
 def test_control_characters_become_marks(name, shown):
     assert shown_name(name) == shown
+
+
+def test_a_page_has_the_answer_and_its_first_line_for_a_title():
+    page = answer_page(Answer("Race 7:5\nbetween <A> & B", ["A wins."])).decode()
+    assert re.search(r"<title>(.*)</title>", page)[1] == "Race 7:5"
+    assert "<p>A wins.</p>" in page
+    assert "&lt;A&gt; &amp; B" in page

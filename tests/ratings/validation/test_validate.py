@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.ratings import Results, best_prior, validate
+from evenbreak.ratings import Results, best_prior, validate, walk_forward
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.validation.validate import handicap_fairness, race_lengths
 
 
 def season(spread: float, *, matches: int = 900, seed: int = 1) -> Results:
@@ -145,3 +146,61 @@ def test_a_chance_that_rounds_to_certainty_may_still_fail():
     )  # fmt: skip
     found = validate(results, prior_sd=100.0)
     assert all(np.isfinite(row.log_loss).all() for row in found.scored)
+
+
+# How often the player with the longer race wins, by spot.
+
+
+def test_spots_are_counted_from_the_side_that_gives():
+    results = Results.from_names(
+        ["Ann"] * 5, ["Bo"] * 5, [7, 6, 4, 4, 7], [4, 5, 7, 7, 6],
+        race_a=[7, 7, 5, 6, 7], race_b=[5, 5, 7, 7, 7],
+        date=[f"2024-09-0{day}" for day in range(1, 6)],
+    )  # fmt: skip
+    told = walk_forward(results)
+    one, two, every = handicap_fairness(told)
+    assert (one.spot, one.matches, one.won) == (1, 1, 1)
+    assert (two.spot, two.matches, two.won) == (2, 3, 2)
+    assert (every.spot, every.matches, every.won, every.share) == (None, 4, 3, 0.75)
+    chances = told.p_match_integrated
+    expected = (chances[0] + chances[1] + 1 - chances[2]) / 3
+    assert two.expected == pytest.approx(expected)
+
+
+def test_even_races_have_no_spot():
+    results = Results.from_names(
+        ["Ann"] * 2, ["Bo"] * 2, [7, 6], [4, 7], date=["2024-09-03", "2024-09-04"]
+    )
+    assert handicap_fairness(walk_forward(results)) == []
+
+
+# Favourites in short races and in long ones.
+
+
+def forecasts(races, *, longer=0):
+    """Return forecasts of races that Ann, who has won before, wins but for the third."""
+    many = len(races)
+    race_b = np.array([5, *races])
+    won = np.ones(many + 1, dtype=bool)
+    won[3:4] = False
+    race_a = race_b + longer
+    results = Results.from_names(
+        ["Ann"] * (many + 1), ["Bo"] * (many + 1), np.where(won, race_a, 0),
+        np.where(won, 0, race_b), race_a=race_a, race_b=race_b,
+        date=np.datetime64("2024-09-03") + np.arange(many + 1),
+    )  # fmt: skip
+    return walk_forward(results)
+
+
+def test_the_halves_are_as_equal_as_lengths_allow():
+    short, long = race_lengths(forecasts([3, 3, 4, 7, 7, 9]))
+    assert (short.shortest, short.longest, short.matches, short.won) == (3, 4, 3, 2)
+    assert (long.shortest, long.longest, long.matches, long.won) == (7, 9, 3, 3)
+    assert short.share == pytest.approx(2 / 3)
+    assert short.low < short.share < short.high
+    assert 0.5 < short.predicted < long.predicted < 1
+
+
+def test_one_length_and_handicaps_say_nothing():
+    assert race_lengths(forecasts([5, 5, 5])) == []
+    assert race_lengths(forecasts([3, 5, 7], longer=1)) == []
