@@ -168,6 +168,14 @@ def test_a_result_of_both_players_is_taken_back_only_by_its_number() -> None:
     assert after.on_tables.keys() == {"W1.2"}
 
 
+def test_of_what_players_entered_only_the_last_result_can_be_taken_back() -> None:
+    night = Night("single", 4, 0)
+    drawn = len(night.events)
+    night.add(moves.result(night.state, "W1.1", (3, 1)), "phones: P0 and P3")
+    night.add(moves.result(night.state, "W1.2", (3, 1)), "phones: P1 and P2")
+    assert list(undoable(night.state)) == [drawn + 2, drawn]
+
+
 def test_an_entry_without_a_number_takes_back_the_last_one() -> None:
     night = Night("single", 4, 0)
     night.add(moves.call(night.state, "W1.1", 1))
