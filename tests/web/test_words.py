@@ -5,8 +5,10 @@ from string import Formatter
 
 import pytest
 
+from evenbreak.files.catalogues import face_in
 from evenbreak.files.store import evening_file
 from evenbreak.web.words.sentences import in_language, patterns
+from evenbreak.words import Sentence, in_face, say
 
 
 def fields(text: str) -> set[str]:
@@ -14,9 +16,10 @@ def fields(text: str) -> set[str]:
 
 
 @pytest.mark.parametrize("text", [*evening_file.WHY.values(), evening_file.DAMAGED])
-def test_what_is_wrong_with_the_file_is_said_in_german(text: str) -> None:
-    said = text.format(name="tonight.db", error="database disk image is malformed")
-    assert in_language("de", said) != said
+def test_what_is_wrong_with_the_file_is_said_in_german(text: Sentence) -> None:
+    values = {"name": "tonight.db", "error": "database disk image is malformed"}
+    sentence = say(text.template, **values)
+    assert in_face(sentence, face_in("de")) != sentence
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

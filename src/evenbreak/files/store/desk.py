@@ -16,8 +16,9 @@ from pathlib import Path
 
 from evenbreak.checks import made
 from evenbreak.errors import DataError
-from evenbreak.files.store.evening_file import DAMAGED, changing, copied, has_table, named, opened
+from evenbreak.files.store.evening_file import changing, copied, damaged, has_table, named, opened
 from evenbreak.tournaments.money.payouts import PrizeMoney
+from evenbreak.words import say
 
 _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
 _PRIZES = """
@@ -51,7 +52,7 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
         except DataError:
             pass
     if not all(isinstance(value, str) for value in kept.values()):
-        raise DataError([DAMAGED.format(name=Path(path).name, error="its PIN cannot be read")])
+        raise damaged(path, say("its PIN cannot be read"))
     return {**first, **kept}
 
 
@@ -87,7 +88,7 @@ def kept_prizes(path: str | Path) -> PrizeMoney | None:
         if not has_table(base, "prize"):
             return None
         row = base.execute("SELECT fee, added, house, payout FROM prize").fetchone()
-    with named(path, "its prizes"):
+    with named(path, say("its prizes")):
         return PrizeMoney(*row) if row else None
 
 
@@ -254,7 +255,7 @@ def _read(base: sqlite3.Connection, path: str | Path, match: str | None) -> list
     entries = []
     for table, asked in kept.items():
         for row in base.execute(asked).fetchall() if has_table(base, table) else ():
-            with named(path, "what the phones entered"):
+            with named(path, say("what the phones entered")):
                 values = dict(zip(names.replace("game", "match").split(", "), row, strict=True))
                 entries.append(made(Entry, {**values, "score": json.loads(values["score"])}))
     return [entry for entry in entries if match in (None, entry.match)]

@@ -23,6 +23,7 @@ from typing import Any, TypeVar
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.folder import sync
+from evenbreak.words import Command, say
 
 TOURNAMENT, TEAM_NIGHT = "event", "team_event"
 """The tables of what happened in a tournament, and on a team night."""
@@ -32,23 +33,25 @@ _MARK = 0x45564252  # application_id: an evening of this program
 _FORMAT = 2  # user_version: how its events are written; 1 in version 0.2.0
 _WAIT = 30.0  # seconds for another program to finish its move
 WHY = {  # by the code of SQLite's error
-    sqlite3.SQLITE_NOTADB: "{name} is not the file of a tournament",
-    sqlite3.SQLITE_FULL: (
+    sqlite3.SQLITE_NOTADB: say("{name} is not the file of a tournament"),
+    sqlite3.SQLITE_FULL: say(
         "there is no room on the disk of {name}, so nothing was changed; make room and try again"
     ),
-    sqlite3.SQLITE_IOERR: (
+    sqlite3.SQLITE_IOERR: say(
         "the disk of {name} reports an error, so nothing was changed ({error}); check whether "
         "there is room on it"
     ),
-    sqlite3.SQLITE_READONLY: (
+    sqlite3.SQLITE_READONLY: say(
         "{name} can only be read, so nothing was changed; allow writing to it and to its folder"
     ),
-    sqlite3.SQLITE_BUSY: "{name} is in use by another program; try again",
-    sqlite3.SQLITE_CANTOPEN: (
+    sqlite3.SQLITE_BUSY: say("{name} is in use by another program; try again"),
+    sqlite3.SQLITE_CANTOPEN: say(
         "{name} cannot be opened; check who may read and write it and its folder"
     ),
 }
-DAMAGED = "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
+DAMAGED = say(
+    "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
+)
 
 Result = TypeVar("Result")
 
@@ -165,8 +168,10 @@ def is_database(path: str | Path) -> bool:
 def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
     """Connect to the file of an evening, which must be there."""
     if not place.exists():
-        raise DataError(
-            [f"{place.name} does not exist; begin a tournament with evenbreak tournament new"]
+        raise refused(
+            place,
+            "{name} does not exist; start a tournament with {command}",
+            command=Command("tournament new"),
         )
     with _connected(place, reading=reading) as base:
         _check(base, place)
@@ -179,13 +184,13 @@ def _connected(
 ) -> Iterator[sqlite3.Connection]:
     """Connect to a file, or to the part that takes its place later; errors name the file."""
     if place.is_dir():
-        raise DataError([f"{place} is a folder; name the file of a tournament"])
+        raise refused(place, "{name} is a folder; name the file of a tournament")
     try:
         with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
             yield base
     except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite's own words may be damaged
-        words = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
-        raise DataError([words.format(name=place.name, error=error)]) from error
+        why = WHY.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, DAMAGED)
+        raise refused(place, why.template, error=str(error)) from error
 
 
 def _connection(place: Path, mode: str, reading: bool) -> sqlite3.Connection:
@@ -231,19 +236,20 @@ def _at_once(base: sqlite3.Connection) -> Iterator[None]:
 
 def _check(base: sqlite3.Connection, place: Path) -> None:
     """Refuse a database that is not the file of an evening, or not in a known format."""
-    mark, version, name = _number(base, "application_id"), _version(base), place.name
+    mark, version = _number(base, "application_id"), _version(base)
     if mark != _MARK:
-        raise DataError([f"{name} is not the file of a tournament"])
+        raise refused(place, "{name} is not the file of a tournament")
     if version > _FORMAT:
-        raise DataError(
-            [
-                f"{name} was written by a newer version of evenbreak, in format {version}, and "
-                f"this one knows formats up to {_FORMAT}; update evenbreak"
-            ]
+        raise refused(
+            place,
+            "{name} was written by a newer version of evenbreak, in format {version}, and this one "
+            "knows formats up to {newest}; update evenbreak",
+            version=version,
+            newest=_FORMAT,
         )
     if version < 1:
-        why = f"no version of evenbreak has written a format {version}"
-        raise DataError([DAMAGED.format(name=name, error=why)])
+        why = say("no version of evenbreak has written a format {version}", version=version)
+        raise damaged(place, why)
 
 
 def _update(base: sqlite3.Connection, place: Path) -> None:
@@ -308,7 +314,8 @@ def _placed(part: Path, place: Path) -> bool:
         try:
             part.rename(place)
         except OSError as error:
-            raise DataError([f"{place.name} cannot be written ({error.strerror})"]) from error
+            why = "{name} cannot be written ({error})"
+            raise refused(place, why, error=str(error.strerror)) from error
     sync(place.parent)
     return True
 
@@ -328,6 +335,25 @@ State = TypeVar("State")
 Entry = TypeVar("Entry")
 
 
+def refused(path: str | Path, template: str, /, **values: Any) -> DataError:
+    """Return the error that refuses the file of an evening; it is called {name} in the template."""
+    return DataError([say(template, name=Path(path).name, **values)])
+
+
+def damaged(path: str | Path, why: str) -> DataError:
+    """Return the error of a file that cannot have been written so."""
+    return refused(path, DAMAGED.template, error=why)
+
+
+def entry(number: object, kind: object) -> str:
+    """Return what an entry of the file is called.
+
+    >>> entry(3, "late")
+    'entry 3 (late)'
+    """
+    return say("entry {number} ({kind})", number=number, kind=str(kind))
+
+
 @contextmanager
 def named(path: str | Path, what: str) -> Iterator[None]:
     """Say of an error in the block in which file, and in what of it, something is wrong.
@@ -344,12 +370,14 @@ def named(path: str | Path, what: str) -> Iterator[None]:
     except DataError:
         raise
     except _FAULTS as error:
-        why = str(error) if isinstance(error, InputError) else "does not fit the entries before it"
-        raise DataError(
-            [
-                f"{Path(path).name}, {what}: {why}. Go on with a copy of the file, such as one "
-                "ending in .backup.db"
-            ]
+        raise refused(
+            path,
+            "{name}, {what}: {why}. Go on with a copy of the file, such as one ending in "
+            ".backup.db",
+            what=what,
+            why=error.sentence
+            if isinstance(error, InputError)
+            else say("does not fit the entries before it"),
         ) from error
 
 
@@ -363,13 +391,13 @@ def happened(at: Any, kind: Any, what: Any, event_of: Callable[[str, Any], Entry
     """
     for name, column in (("at", at), ("kind", kind), ("what", what)):
         if not isinstance(column, str):
-            raise InputError(f"{name} is not text")
+            raise InputError("{column} is not text", column=name)
     try:
         moment = datetime.fromisoformat(at)
     except ValueError:
         moment = datetime.max
     if moment.tzinfo or not 1970 <= moment.year < 3000:
-        raise InputError(f"at is {at[:40]!r}; give a time such as 2025-03-01T19:30:00")
+        raise InputError("at is {time!r}; give a time such as 2025-03-01T19:30:00", time=at[:40])
     try:
         data = json.loads(what)
     except (ValueError, RecursionError):
@@ -400,6 +428,6 @@ def folded(
         return fold(events)
     except _FAULTS:
         for count, event in enumerate(events, 1):
-            with named(path, f"entry {count} ({names[type(event.what)]})"):
+            with named(path, entry(count, names[type(event.what)])):
                 fold(events[:count])
         raise

@@ -15,6 +15,7 @@ from evenbreak.errors import InputError
 from evenbreak.files.store.evening_file import (
     TEAM_NIGHT,
     begin,
+    entry,
     folded,
     happened,
     has_table,
@@ -126,9 +127,9 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
     asked = f"SELECT number, at, kind, what, author FROM {TEAM_NIGHT} ORDER BY number"  # noqa: S608
     events = []
     for number, at, kind, what, by in base.execute(asked).fetchall():
-        with named(path, f"entry {number} ({kind})"):
+        with named(path, entry(number, kind)):
             if not isinstance(by, str):
-                raise InputError("author is not text")
+                raise InputError("{column} is not text", column="author")
             events.append(Event(at, happened(at, kind, what, event_of), by))
     return events
 

@@ -15,22 +15,26 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.evening_file import (
-    DAMAGED,
     TOURNAMENT,
     begin,
     changing,
+    damaged,
+    entry,
     folded,
     happened,
     has_table,
     named,
     opened,
+    refused,
 )
+from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.words import Command, say
 
 _TABLE = """
 CREATE TABLE event (
@@ -81,8 +85,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
 
     def write(base: sqlite3.Connection) -> None:
         if _count(base) != in_place_of:
-            name = Path(path).name
-            raise DataError([f"{name} is there already; give the new tournament another name"])
+            raise refused(path, "{name} is there already; give the new tournament another name")
         for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
         base.execute(_TABLE)
@@ -197,21 +200,22 @@ def _add(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> N
 
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
     if not has_table(base, TOURNAMENT):
-        raise DataError(
-            [
-                f"{Path(path).name} holds a team night and no tournament; open it with evenbreak "
-                "serve, or begin a tournament in it with evenbreak tournament new"
-            ]
+        raise refused(
+            path,
+            "{name} holds a team night and no tournament; open it with {serve}, or start a "
+            "tournament in it with {new}",
+            serve=Command("serve"),
+            new=Command("tournament new"),
         )
     rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number").fetchall()
     signed = has_table(base, "author")
     by = dict(base.execute("SELECT number, name FROM author").fetchall() if signed else ())
     events = []
     for number, at, kind, what in rows:
-        with named(path, f"entry {number} ({kind})"):
+        with named(path, entry(number, kind)):
             events.append(_event(at, kind, what, str(by.get(number, ""))))
     if not events:
-        raise DataError([DAMAGED.format(name=Path(path).name, error="its tournament is gone")])
+        raise damaged(path, say("its tournament is gone"))
     return events
 
 
@@ -269,11 +273,13 @@ def read_event_list(path: str | Path) -> list[Event]:
             _, at, kind, what, by = row if len(row) == len(TITLES) else (*row, "")
             events.append(Event(at, happened(at, kind, what, event_of), by))
         except (InputError, ValueError) as error:
-            raise DataError([f"{path}:{line}: is not an event of a tournament: {error}"]) from None
+            why = error.sentence if isinstance(error, InputError) else str(error)
+            problem = say("is not an event of a tournament: {why}", why=why)
+            raise refusal(str(path), problem, line) from None
     try:
         state = evening(events)
         if state.drawn:
             _ = state.standing
     except InputError as error:
-        raise DataError([f"{path}: {error}"]) from None
+        raise refusal(str(path), error.sentence) from None
     return events
