@@ -11,7 +11,7 @@ import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import luck_words
-from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, percent
@@ -131,21 +131,17 @@ def chip_odds_answer(
         if left is None:
             how += " The players come to the tables in an order that is drawn anew each time."
     order = np.argsort(-p_place[:, 0], kind="stable").tolist()
+    values: dict[Any, Any] = {"name": names, "rating": ratings, "chips": chips}
     places = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
-    columns = columns_of("name rating chips")
-    columns += [column_of("p_place", name=key, place=words) for key, words in places[: len(names)]]
-    rows: list[list[Any]] = [
-        [names[k], float(ratings[k]), chips[k], *p_place[k, :_SHOWN].tolist()] for k in order
-    ]
+    for k, (key, words) in enumerate(places[: len(names)]):
+        values[column_of("p_place", name=key, place=words)] = p_place[:, k]
     if error is not None:
-        columns.append(column_of("p_title_error"))
-        for row, k in zip(rows, order, strict=True):
-            row.append(float(error[k]))
+        values["p_title_error"] = error
     best = order[0]
     words = f"{names[best]} is the favourite and wins {percent(p_place[best, 0])} of the time."
     if left is None:
         words += f" An equal share would be {percent(1.0 / len(names))}."
-    table = Table("players", columns, rows)
+    table = table_by_column("players", values, order=order)
     heading = f"Chip tournament: {field.words}"
     if left is not None:
         heading = f"The last {len(names)} of a chip tournament; ratings {scale_words(field.scale)}"
@@ -153,13 +149,7 @@ def chip_odds_answer(
         heading += f"\nChips by the chart {chart.name}"
     parts: list[Part] = [
         words,
-        Quantities(
-            quantities_of(
-                {
-                    "exact": exact,
-                }
-            )
-        ),
+        Quantities(quantities_of({"exact": exact})),
         table,
         how,
     ]
@@ -228,9 +218,7 @@ def chip_design_answer(
         seed=seed,
     )
     chart = _chart_of(field.ratings, found, starts)
-    rows = [
-        [None if np.isinf(row.rating_from) else row.rating_from, row.chips] for row in chart.rows
-    ]
+    rows = [[_start(row), row.chips] for row in chart.rows]
     columns = columns_of("rating_from chips")
     table = Table("chart", columns, rows, title="The chart")
     parts: list[Part] = [_favour_words(field, found), _fairness(found), table]
@@ -282,14 +270,7 @@ def _favour_words(field: ChipField, found: ChipFairness) -> str:
 
 
 def _fairness(found: ChipFairness) -> Quantities:
-    return Quantities(
-        quantities_of(
-            {
-                "spread": found.spread,
-                "racks_mean": found.odds.racks_mean,
-            }
-        )
-    )
+    return Quantities(quantities_of({"spread": found.spread, "racks_mean": found.odds.racks_mean}))
 
 
 def _row_table(chart: ChipChart, found: ChipFairness) -> Table:

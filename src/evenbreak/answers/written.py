@@ -40,17 +40,8 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
         f"The demo, in {folder}",
         [
             f"{wrote}. The players are made up.",
-            Table(
-                "commands",
-                columns_of("who command"),
-                commands,
-                "Three commands to try next:",
-            ),
-            Table(
-                "files",
-                columns_of("file holds"),
-                list(files.items()),
-            ),
+            Table("commands", columns_of("who command"), commands, "Three commands to try next:"),
+            Table("files", columns_of("file holds"), list(files.items())),
         ],
     )
 
@@ -102,13 +93,6 @@ def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterabl
                     if verdicts.get(verdict)
                 ],
             ),
-            Quantities(
-                quantities_of(
-                    {
-                        "tables": tables,
-                        "figures": figures,
-                    }
-                )
-            ),
+            Quantities(quantities_of({"tables": tables, "figures": figures})),
         ],
     )

@@ -61,10 +61,7 @@ off its eigenvectors of eigenvalue 1.
     known = [(one, other) for one, other in pairs if one is not None and other is not None]
     apart = None if via == beside else max((abs(one - other) for one, other in known), default=0.0)
     listed = quantities_of(
-        {
-            "via": via,
-            "way_difference": apart,
-        },
+        {"via": via, "way_difference": apart},
         beside=beside,
         way="the kernel" if beside == "kernel" else beside,
     )

@@ -10,7 +10,7 @@ from evenbreak.answers.columns.league import LADDERS, LEAGUE, VALIDATION
 from evenbreak.answers.columns.match import CHAINS, CHARTS, MATCH
 from evenbreak.answers.columns.practice import FILES, PHYSICS, PRACTICE
 from evenbreak.answers.columns.tournament import TEAMS, TOURNAMENT
-from evenbreak.answers.kit.parts import Column, Quantity, Show
+from evenbreak.answers.kit.parts import Column, Quantity, Show, Table
 from evenbreak.words import say
 
 SUBJECTS = {
@@ -101,6 +101,33 @@ def in_files(
 ) -> list[Column]:
     """Return columns that are in files only, named as a record or a frame names them."""
     return [Column(str(name), exact=exact, cell=cell) for name in names]
+
+
+def table_by_column(
+    name: str,
+    values: Mapping[Any, Iterable[Any]],
+    *,
+    order: Iterable[int] | None = None,
+    title: str = "",
+) -> Table:
+    """Return a table whose values are known column by column.
+
+    Parameters
+    ----------
+    name, title
+        as for `Table`.
+    values
+        those of each column, which is given by its key if it needs no fields.
+    order
+        the rows by their places, if in another order than the values.
+
+    >>> table_by_column("ratings", {"player": ["Ann", "Bo"], "rating": [1, 2]}, order=[1, 0]).rows
+    [('Bo', 2), ('Ann', 1)]
+    """
+    columns = [column_of(key) if isinstance(key, str) else key for key in values]
+    plain = [part.tolist() if hasattr(part, "tolist") else part for part in values.values()]
+    rows = list(zip(*plain, strict=True))
+    return Table(name, columns, rows if order is None else [rows[k] for k in order], title)
 
 
 def quantity_of(key: str, value: Any, /, note: str = "", **fields: Any) -> Quantity:

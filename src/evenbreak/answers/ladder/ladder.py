@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of
+from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.chains.ways import Way
@@ -178,11 +178,7 @@ def _statistics(found: LadderFindings) -> Quantities:
     natural = None if found.natural is None else found.natural.sd
     return Quantities(
         quantities_of(
-            {
-                "error_sd": found.law.sd,
-                "error_mean": found.law.mean,
-                "natural_sd": natural,
-            }
+            {"error_sd": found.law.sd, "error_mean": found.law.mean, "natural_sd": natural}
         ),
         in_json=False,
     )
@@ -209,14 +205,8 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
 def _errors(found: LadderFindings) -> Table:
     law, ladder = found.law, found.ladder
     columns = in_files(("error", "probability", "cumulative", "p_win"))
-    rows = zip(
-        ladder.errors.tolist(),
-        map(float, law.probability),
-        map(float, law.cumulative),
-        ladder.wins.tolist(),
-        strict=True,
-    )
-    return Table("distribution", columns, list(rows))
+    values = (ladder.errors, map(float, law.probability), map(float, law.cumulative), ladder.wins)
+    return table_by_column("distribution", dict(zip(columns, values, strict=True)))
 
 
 def _data(found: LadderFindings) -> dict[str, Any]:

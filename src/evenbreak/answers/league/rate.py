@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import form_data, form_details, form_words, like_scale_words
 from evenbreak.answers.kit.wording import count_of, decimals, listed, percent
@@ -107,23 +107,18 @@ def _players_table(ratings: Ratings) -> Table:
     """Return every player, group by group, the strongest of each first."""
     by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
     columns = [
-        *columns_of("player rating standard_error quasi_error", show={"rating": decimals(1)}),
+        *columns_of("rating standard_error quasi_error", show={"rating": decimals(1)}),
         *columns_of("games won lost" if ratings.games.any() else "-games -won -lost"),
         *columns_of("races_won races_lost" if by_winner else "-races_won -races_lost"),
         column_of("component" if ratings.component.max() > 1 else "-component"),
-        *(columns_of("match_form") if ratings.match_form else []),
-        *columns_of("scale"),
     ]
-    shared = [*([ratings.match_form] if ratings.match_form else []), ratings.scale.text]
-    order = ratings.strongest_first()
-    order.sort(key=lambda k: ratings.component[k])
-    values = [
-        np.asarray(getattr(ratings, str(one.name)))[order].tolist()
-        for one in columns[1 : -len(shared)]
-    ]
-    values += [[value] * len(order) for value in shared]
-    names = [ratings.players[k] for k in order]
-    return Table("players", columns, list(zip(names, *values, strict=True)))
+    values: dict[Any, Any] = {"player": ratings.players}
+    values |= {column: np.asarray(getattr(ratings, column.names[0])) for column in columns}
+    if ratings.match_form:
+        values["match_form"] = [ratings.match_form] * len(ratings.players)
+    values["scale"] = [ratings.scale.text] * len(ratings.players)
+    order = sorted(ratings.strongest_first(), key=lambda k: ratings.component[k])
+    return table_by_column("players", values, order=order)
 
 
 _PAIR_COLUMNS = columns_of(

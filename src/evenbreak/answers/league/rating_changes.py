@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from evenbreak.answers.columns.shown import points_or_new
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.columns import columns_of, in_files, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, some_of
 from evenbreak.errors import DataError, InputError
@@ -163,8 +163,8 @@ def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | Non
         "why": ["; ".join(why.get(place, ())) for place in range(len(after))],
         "scale": [scale] * len(after),
     }
-    rows = [[values[place] for values in columns.values()] for place in order]
-    return Table("players", in_files(columns), rows)
+    named = dict(zip(in_files(columns), columns.values(), strict=True))
+    return table_by_column("players", named, order=order)
 
 
 def _stated(values: NDArray[Any]) -> list[Any]:

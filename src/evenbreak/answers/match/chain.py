@@ -11,7 +11,7 @@ import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import chance, count_of, games, listed
 from evenbreak.chains.chain import Chain
@@ -61,24 +61,21 @@ def chain_answer(
     limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = mean_steps_of(chain)
     states, structure = list(chain.states), chain.structure
-    columns = columns_of("state kind")
-    values: list[Sequence[Any]] = [states, structure.kinds]
+    values: dict[Any, Any] = {"state": states, "kind": structure.kinds}
     sentences = [in_the_end(limit, structure.kinds, mean_steps)]
     density = None
     if steps is not None:
         after = f"after {count_of(steps, 'step')}"
         density = dict(zip(states, propagate(chain, steps=steps).tolist(), strict=True))
-        columns.append(column_of("density", after=after))
-        values.append(list(density.values()))
+        values[column_of("density", after=after)] = density.values()
         sentences.insert(0, f"A{after[1:]} the chain is in {_places(density)}.")
-    columns.append(column_of("limit"))
-    values.append(limit.probability.tolist())
+    values["limit"] = limit.probability
     classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
     return Answer(
         f"A chain of {count_of(len(states), 'state')} that starts in {chain.start!r}",
         [
             "\n".join(sentences),
-            Table("", columns, list(zip(*values, strict=True))),
+            table_by_column("", values),
             *_way(via, limit),
         ],
         [

@@ -8,7 +8,13 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of, quantity_of
+from evenbreak.answers.kit.columns import (
+    columns_of,
+    in_files,
+    quantities_of,
+    quantity_of,
+    table_by_column,
+)
 from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.answers.match.chain import Road, in_the_end, mean_steps_of
@@ -210,21 +216,15 @@ def eigenvector_table(road: Road) -> Table:
     The columns are right_1, right_2, ..., left_1, left_2, ..., numbered as the eigenvalues;
     where vectors are complex, each is followed by its imaginary part.
     """
-    pairs = road.spectrum
-    if pairs is None:
-        return Table(
-            "eigenvectors", columns_of("-state"), [(state,) for state in road.chain.states]
-        )
-    names, columns = ["state"], [list(road.chain.states)]
-    for side, vectors in (("right", pairs.right), ("left", pairs.left.T)):
+    pairs, entries = road.spectrum, dict[str, Any]()
+    sides = () if pairs is None else (("right", pairs.right), ("left", pairs.left.T))
+    for side, vectors in sides:
         for k, vector in enumerate(vectors.T, 1):
-            names.append(f"{side}_{k}")
-            columns.append(vector.real.tolist())
+            entries[f"{side}_{k}"] = vector.real
             if np.iscomplexobj(vectors):
-                names.append(f"{side}_{k}_imaginary")
-                columns.append(vector.imag.tolist())
-    rows = list(zip(*columns, strict=True))
-    return Table("eigenvectors", [*columns_of("-state"), *in_files(names[1:], exact=True)], rows)
+                entries[f"{side}_{k}_imaginary"] = vector.imag
+    columns = dict(zip(in_files(entries, exact=True), entries.values(), strict=True))
+    return table_by_column("eigenvectors", {"-state": road.chain.states, **columns})
 
 
 def arcs_table(road: Road) -> Table:
@@ -240,21 +240,17 @@ def states_table(road: Road) -> Table:
     """Return the states in the order of the matrix, with all that is known of each."""
     structure = road.chain.structure
     nodes = [attributes for _, attributes in road.graph.nodes(data=True)]
-    return Table(
+    return table_by_column(
         "states",
-        columns_of("-state -kind -winner class class_kind -period -limit"),
-        list(
-            zip(
-                road.chain.states,
-                [node["kind"] for node in nodes],
-                [node["winner"] for node in nodes],
-                (structure.label + 1).tolist(),
-                structure.kinds,
-                structure.periods[structure.label].tolist(),
-                road.limit.probability.tolist(),
-                strict=True,
-            )
-        ),
+        {
+            "-state": road.chain.states,
+            "-kind": [node["kind"] for node in nodes],
+            "-winner": [node["winner"] for node in nodes],
+            "class": structure.label + 1,
+            "class_kind": structure.kinds,
+            "-period": structure.periods[structure.label],
+            "-limit": road.limit.probability,
+        },
     )
 
 
@@ -263,31 +259,22 @@ def classes_table(road: Road) -> Table:
     structure, limit = road.chain.structure, road.limit.probability
     kinds = [structure.kinds[i] for i in structure.order[structure.offsets[:-1]]]
     sums = np.bincount(structure.label, weights=limit, minlength=structure.count)
-    return Table(
+    return table_by_column(
         "classes",
-        columns_of("class states -kind -period -limit"),
-        list(
-            zip(
-                range(1, structure.count + 1),
-                np.diff(structure.offsets).tolist(),
-                kinds,
-                structure.periods.tolist(),
-                sums.tolist(),
-                strict=True,
-            )
-        ),
+        {
+            "class": range(1, structure.count + 1),
+            "states": np.diff(structure.offsets),
+            "-kind": kinds,
+            "-period": structure.periods,
+            "-limit": sums,
+        },
     )
 
 
 def limit_table(road: Road) -> Table:
     """Return the limit of each state by every way; a way that cannot has empty cells."""
-    missing = [None] * len(road.chain)
-    columns = [
-        road.limits[way].probability.tolist() if way in road.limits else missing
-        for way in WAY_WORDS
-    ]
-    return Table(
-        "limit",
-        [*columns_of("-state"), *in_files(WAY_WORDS, exact=True)],
-        list(zip(road.chain.states, *columns, strict=True)),
-    )
+    values: dict[Any, Any] = {"-state": road.chain.states}
+    for column in in_files(WAY_WORDS, exact=True):
+        limit = road.limits.get(column.names[0])
+        values[column] = [None] * len(road.chain) if limit is None else limit.probability
+    return table_by_column("limit", values)

@@ -411,11 +411,7 @@ def fair_answer(
         [
             f"The {wish} is {m}:{n}. {a} wins it {percent(p_win)} of the time, and it lasts "
             f"{mean:.1f} games on average.",
-            Table(
-                "races",
-                columns_of("race_a race_b wins_a mean_games games_p90", a=a, b=b),
-                rows,
-            ),
+            Table("races", columns_of("race_a race_b wins_a mean_games games_p90", a=a, b=b), rows),
             *_fair_way(via, players, races),
             *filter(None, [players.averaged, players.by_form]),
         ],

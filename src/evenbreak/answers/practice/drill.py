@@ -51,16 +51,7 @@ def drill_answer(
         description,
         [*parts, Table("levels", columns, list(rows)), *_way(via, statistics)],
         details=[
-            Quantities(
-                [
-                    *quantities_of(
-                        {
-                            "mean_level": law.mean,
-                        }
-                    ),
-                    *spread(law),
-                ]
-            ),
+            Quantities([*quantities_of({"mean_level": law.mean}), *spread(law)]),
             GAIN_WORDS,
         ],
         data={"practise_next": statistics.practise_next, "period": statistics.period},
@@ -97,13 +88,7 @@ GAIN_WORDS = (
 
 def spread(law: Distribution) -> list[Quantity]:
     """Return the summary of the level in the long run, without its mean."""
-    return quantities_of(
-        {
-            "median_level": law.median,
-            "mode_level": law.mode,
-            "sd_level": law.sd,
-        }
-    )
+    return quantities_of({"median_level": law.median, "mode_level": law.mode, "sd_level": law.sd})
 
 
 def better(p: float) -> str:

@@ -80,14 +80,7 @@ def lineup_answer(
     tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
         _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
-        Quantities(
-            quantities_of(
-                {
-                    "-p_win_night": found.worth,
-                    "best": _name(found.best),
-                }
-            )
-        ),
+        Quantities(quantities_of({"-p_win_night": found.worth, "best": _name(found.best)})),
         table,
     ]
     data: dict[str, Any] = {"set": found.set_number, "ours": found.ours, "blind": found.blind}
@@ -308,14 +301,7 @@ def sealed_answer(
         f"{scale_words(meeting.scale)}",
         [
             f"{words}: you win the night {percent(found.worth)} of the time, whatever they do.",
-            Quantities(
-                quantities_of(
-                    {
-                        "-p_win_night": found.worth,
-                        "best": _best(found.ours),
-                    }
-                )
-            ),
+            Quantities(quantities_of({"-p_win_night": found.worth, "best": _best(found.ours)})),
             table,
             f"Against a random order, every order of theirs is worth the same.{more}",
         ],

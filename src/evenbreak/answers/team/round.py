@@ -97,12 +97,7 @@ there are no ties.
         b=names[1],
     )
     data = quantities_of(
-        {
-            "mean_lead_1": law.mean,
-            "fair_start_1": fair,
-            "csi_start_1": csi,
-        },
-        a=names[0],
+        {"mean_lead_1": law.mean, "fair_start_1": fair, "csi_start_1": csi}, a=names[0]
     )
     return Answer(
         f"{count_of(len(teams[0]), 'player')} against {len(teams[1])}, {played}\n"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import column_of, columns_of
+from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, listed, percent
 from evenbreak.arrays import Ints
@@ -92,19 +92,20 @@ def _in_words(found: SeasonChances) -> str:
 def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
     season, teams = found.season, len(found.season.teams)
     played = _matches(season.played, teams)
-    columns = columns_of("team played points p_title")
-    values: list[Any] = [season.teams, played.tolist(), _of_points(season.points)]
-    values.append(found.p_first(1).tolist())
+    values: dict[Any, Any] = {
+        "team": season.teams,
+        "played": played,
+        "points": _of_points(season.points),
+        "p_title": found.p_first(1),
+    }
     if up is not None and up > 1:
-        columns.append(column_of("p_up", places=up))
-        values.append(found.p_first(up).tolist())
+        values[column_of("p_up", places=up)] = found.p_first(up)
     if down is not None:
-        columns.append(column_of("p_down", places=down))
-        values.append(found.p_place[:, teams - down :].sum(axis=1).tolist())
-    columns.append(column_of("place_mean"))
-    values.append(found.mean_place.tolist())
+        below = found.p_place[:, teams - down :].sum(axis=1)
+        values[column_of("p_down", places=down)] = below
+    values["place_mean"] = found.mean_place
     order = sorted(range(teams), key=lambda k: (found.mean_place[k], -season.points[k]))
-    return Table("teams", columns, [[column[k] for column in values] for k in order])
+    return table_by_column("teams", values, order=order)
 
 
 def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table:

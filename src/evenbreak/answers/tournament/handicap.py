@@ -141,10 +141,7 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
     ]
     columns = columns_of("side round race_text race_today")
     quantities = quantities_of(
-        {
-            "unfairness_by_round": best.found.spread,
-            "games_mean_by_round": best.found.games_mean,
-        }
+        {"unfairness_by_round": best.found.spread, "games_mean_by_round": best.found.games_mean}
     )
     said = (
         f"Round by round, races of other lengths bring unfairness from {today.spread:.2f} down to "

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
+from evenbreak.answers.kit.columns import column_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
@@ -73,10 +73,7 @@ def tournament_odds_answer(
     found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
     plug_in, odds = found
     quantities = quantities_of(
-        {
-            "exact": plug_in.exact and (not found.averaged),
-            "ratings_averaged": found.averaged,
-        }
+        {"exact": plug_in.exact and (not found.averaged), "ratings_averaged": found.averaged}
     )
     words = _in_words(odds)
     if isinstance(odds, TitleOdds):
@@ -135,36 +132,27 @@ def odds_table(
         whether to say how many times an equal share the title odds are.
     """
     places = odds.bracket.places
-    columns = columns_of("seed name -rating")
-    columns += [
-        column_of("p_place", detail=k >= _SHOWN, name=place_key(place), place=place_words(place))
-        for k, place in enumerate(places)
-    ]
     seats = range(len(odds.title))
-    rows: list[list[Any]] = [
-        [k + 1, odds.bracket.players[k], float(ratings[k]), *odds.p_place[k].tolist()]
-        for k in seats
-    ]
+    values: dict[Any, Any] = {
+        "seed": range(1, len(seats) + 1),
+        "name": odds.bracket.players,
+        "-rating": ratings.astype(float),
+    }
+    for k, place in enumerate(places):
+        column = column_of(
+            "p_place", detail=k >= _SHOWN, name=place_key(place), place=place_words(place)
+        )
+        values[column] = odds.p_place[:, k]
     if odds is not plug_in:
-        columns.append(column_of("p_title_if_sure"))
-        for k in seats:
-            rows[k].append(float(plug_in.title[k]))
+        values["p_title_if_sure"] = plug_in.title
     if not odds.exact:
-        first = places.index(Place(1, 1))
-        columns.append(column_of("p_title_error"))
-        for k in seats:
-            rows[k].append(float(odds.error[k, first]))
+        values["p_title_error"] = odds.error[:, places.index(Place(1, 1))]
     if shares:
-        wide = odds is not plug_in
-        columns.append(column_of("times_equal_share", detail=wide))
-        for k in seats:
-            rows[k].append(float(len(seats) * odds.title[k]))
+        column = column_of("times_equal_share", detail=odds is not plug_in)
+        values[column] = len(seats) * odds.title
     if prizes:
-        columns.append(column_of("prize_mean"))
-        for k, prize in enumerate(odds.expected_prize(prizes).tolist()):
-            rows[k].append(prize)
-    order = sorted(seats, key=lambda k: -odds.title[k])
-    return Table("players", columns, [rows[k] for k in order])
+        values["prize_mean"] = odds.expected_prize(prizes)
+    return table_by_column("players", values, order=sorted(seats, key=lambda k: -odds.title[k]))
 
 
 def place_key(place: Place) -> str:

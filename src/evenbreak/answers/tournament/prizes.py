@@ -62,14 +62,7 @@ def tournament_prizes_answer(
     parts: list[Part] = [
         f"{paid:.2f} is paid to {count_of(len(amounts), 'place')} of "
         f"{count_of(entrants, 'player')}: {amounts[0]:.2f} for the winner{left}.",
-        Quantities(
-            quantities_of(
-                {
-                    "pot": pot,
-                    "paid": paid,
-                }
-            )
-        ),
+        Quantities(quantities_of({"pot": pot, "paid": paid})),
         places,
     ]
     csv = places

@@ -67,17 +67,7 @@ def finish_quantities(finishes: Floats, *more: Quantity) -> Quantities:
         quantity_of("finish", at, quantile=f"p{100 * q:.0f}")
         for q, at in zip(QUANTILES, bands, strict=True)
     ]
-    return Quantities(
-        [
-            *times,
-            *quantities_of(
-                {
-                    "finish_error": error,
-                }
-            ),
-            *more,
-        ]
-    )
+    return Quantities([*times, *quantities_of({"finish_error": error}), *more])
 
 
 def finish_luck(finishes: Floats) -> str:

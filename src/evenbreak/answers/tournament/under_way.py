@@ -67,18 +67,12 @@ def odds_under_way(
     odds = plug_in if sure else outlook.odds
     table = odds_table(state.ratings, plug_in, odds, prizes)
     quantities = quantities_of(
-        {
-            "exact": plug_in.exact and odds is plug_in,
-            "ratings_averaged": odds is not plug_in,
-        }
+        {"exact": plug_in.exact and odds is plug_in, "ratings_averaged": odds is not plug_in}
     )
     if isinstance(odds, TitleOdds):
         quantities = [
             *quantities_of(
-                {
-                    "p_second_final": odds.p_second_final,
-                    "matches_mean": odds.matches_mean,
-                }
+                {"p_second_final": odds.p_second_final, "matches_mean": odds.matches_mean}
             ),
             *quantities,
         ]
