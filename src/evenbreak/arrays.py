@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from functools import cached_property, wraps
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,13 @@ Places = NDArray[np.intp]
 """Positions in other arrays."""
 
 Bools = NDArray[np.bool_]
+
+FloatOrArray: TypeAlias = Any
+"""A number or an array of numbers, and what is calculated from them element by element.
+
+As with numpy's own functions, a type checker takes it for either: a float where all arguments are
+numbers (`evenbreak.checks.plain`), otherwise an array of the shape to which they broadcast.
+"""
 
 Class = TypeVar("Class", bound=type)
 Array = TypeVar("Array", bound=NDArray[Any])

@@ -23,7 +23,7 @@ from scipy import fft
 from scipy.special import ndtr, ndtri
 
 from evenbreak.arrays import Floats, own_arrays
-from evenbreak.checks import kind_of, number
+from evenbreak.checks import kind_of, number, plain
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.matches.quantiles import TIE
 
@@ -57,18 +57,18 @@ class MatchMinutes:
     @property
     def mean(self) -> Any:
         """The mean in minutes."""
-        return _plain(self.probability @ self.means)
+        return plain(self.probability @ self.means)
 
     @property
     def sd(self) -> Any:
         """The standard deviation in minutes."""
         square = self.probability @ (self.means**2 * math.exp(self.log_sd**2))
-        return _plain(np.sqrt(np.maximum(square - self.mean**2, 0.0)))
+        return plain(np.sqrt(np.maximum(square - self.mean**2, 0.0)))
 
     def cdf(self, minutes: ArrayLike) -> Any:
         """Return P(the match takes at most so many minutes)."""
         ended = ended_by(np.asarray(minutes, dtype=float)[..., np.newaxis], self.means, self.log_sd)
-        return _plain((self.probability * ended).sum(axis=-1))
+        return plain((self.probability * ended).sum(axis=-1))
 
     def quantile(self, q: float) -> Any:
         """Return the minutes within which the match ends with probability q, 0 < q < 1."""
@@ -82,7 +82,7 @@ class MatchMinutes:
         def reached(minutes: Floats) -> Any:
             return self.cdf(minutes) >= q * (1.0 - TIE)
 
-        return _plain(between(np.full(shape, least), np.full(shape, most), reached))
+        return plain(between(np.full(shape, least), np.full(shape, most), reached))
 
 
 def match_minutes(games: ArrayLike, probability: ArrayLike, pace: Pace) -> MatchMinutes:
@@ -121,10 +121,6 @@ def mean_up_to(minutes: ArrayLike, mean: ArrayLike, log_sd: float) -> Floats:
     tilted = np.asarray(mean) * ended_by(minutes, np.asarray(mean) * math.exp(log_sd**2), log_sd)
     cut: Floats = tilted + np.asarray(minutes) * (1.0 - ended_by(minutes, mean, log_sd))
     return cut
-
-
-def _plain(found: Any) -> Any:
-    return found if np.ndim(found) else float(found)
 
 
 def between(low: Any, high: Any, reached: Callable[[Any], Any]) -> Any:

@@ -15,13 +15,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
-from evenbreak.checks import number, positive
+from evenbreak.arrays import FloatOrArray, Floats
+from evenbreak.checks import number, plain, positive
 from evenbreak.errors import InputError
 
 
@@ -63,11 +62,10 @@ class Pace:
         for name in ("overhead", "match_sd", "evening_sd"):
             number(getattr(self, name), name, low=0.0)
 
-    def mean_minutes(self, games: ArrayLike) -> Any:
+    def mean_minutes(self, games: FloatOrArray) -> FloatOrArray:
         """Return the mean time of matches with these numbers of games; none for no games."""
         games = np.asarray(games)
-        minutes = np.where(games > 0, self.overhead + self.per_game * games, 0.0)
-        return minutes if games.ndim else float(minutes)
+        return plain(np.where(games > 0, self.overhead + self.per_game * games, 0.0))
 
     @property
     def log_sd(self) -> float:

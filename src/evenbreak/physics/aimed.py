@@ -152,8 +152,8 @@ def aimed_shot(
         if now is None:
             return 0.0
         spin = spin_ratios(now, strike.ball.radius)
-        found = throw_angle(cut, *spin, mu=mu, friction=friction, speed=now.speed)
-        return -found if cut < 0.0 else found
+        thrown: float = throw_angle(cut, *spin, mu=mu, friction=friction, speed=now.speed)
+        return -thrown if cut < 0.0 else thrown
 
     def short(cut: float, thrown: float) -> float:
         return wanted - (cut - thrown - math.asin(diameter * math.sin(cut) / distance))

@@ -12,12 +12,11 @@ tan(cut + theta) = (1 + k)/k tan(cut), which is 7/2 tan(cut) in natural roll.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray
 from evenbreak.checks import plain
 from evenbreak.physics.throw import shot_of
 from evenbreak.physics.units import LEAST, numbers, positive
@@ -36,13 +35,7 @@ class EnergyShares(NamedTuple):
     cue_ball: Any
 
 
-@overload
-def deflection(cut: float, topspin: float = ...) -> float: ...
-
-
-@overload
-def deflection(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
-def deflection(cut: Any, topspin: Any = 1.0) -> Any:
+def deflection(cut: FloatOrArray, topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cue ball's deflection angle once it rolls, in radians, 0 to pi.
 
     Parameters
@@ -67,13 +60,7 @@ def deflection(cut: Any, topspin: Any = 1.0) -> Any:
     return plain(np.arctan2(sin * np.cos(cut), sin * sin + 0.4 * topspin))
 
 
-@overload
-def deflection_slope(cut: float, topspin: float = ...) -> float: ...
-
-
-@overload
-def deflection_slope(cut: ArrayLike, topspin: ArrayLike = ...) -> Floats: ...
-def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
+def deflection_slope(cut: FloatOrArray, topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return d theta / d cut, how the cue ball's path depends on the size of the cut (P4.15).
 
     In natural roll it falls from 5/2 at small cut angles (P4.18) to -5/7; for stun it is -1 at
@@ -97,13 +84,7 @@ def deflection_slope(cut: Any, topspin: Any = 1.0) -> Any:
     return plain(k * (1.0 + k) / np.maximum(below, 1e-300) - 1.0)
 
 
-@overload
-def largest_deflection_cut(topspin: float = ...) -> float: ...
-
-
-@overload
-def largest_deflection_cut(topspin: ArrayLike = ...) -> Floats: ...
-def largest_deflection_cut(topspin: Any = 1.0) -> Any:
+def largest_deflection_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut angle of the largest deflection with topspin, in radians (P4.15, P4.16).
 
     The largest deflection is pi/2 minus twice this angle.
@@ -121,13 +102,7 @@ def largest_deflection_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arcsin(np.sqrt(2.0 * spin / (5.0 + 4.0 * spin))))
 
 
-@overload
-def unit_slope_cut(topspin: float = ...) -> float: ...
-
-
-@overload
-def unit_slope_cut(topspin: ArrayLike = ...) -> Floats: ...
-def unit_slope_cut(topspin: Any = 1.0) -> Any:
+def unit_slope_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut at which both paths are equally sensitive to the cut, in radians.
 
     At smaller cuts d theta / d cut is more than 1 (P4.19).
@@ -144,13 +119,7 @@ def unit_slope_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arcsin(np.sqrt(k * (1.0 - k) / (2.0 + 4.0 * k))))
 
 
-@overload
-def right_angle_cut(topspin: float = ...) -> float: ...
-
-
-@overload
-def right_angle_cut(topspin: ArrayLike = ...) -> Floats: ...
-def right_angle_cut(topspin: Any = -1.0) -> Any:
+def right_angle_cut(topspin: FloatOrArray = -1.0) -> FloatOrArray:
     """Return the cut at which draw deflects the cue ball by a right angle, in radians (P4.25).
 
     Parameters
@@ -164,13 +133,7 @@ def right_angle_cut(topspin: Any = -1.0) -> Any:
     return plain(np.arcsin(np.sqrt(-0.4 * numbers(topspin, "topspin", low=-2.5, high=0.0))))
 
 
-@overload
-def split_cut(topspin: float = ...) -> float: ...
-
-
-@overload
-def split_cut(topspin: ArrayLike = ...) -> Floats: ...
-def split_cut(topspin: Any = 1.0) -> Any:
+def split_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut that splits the energy evenly just after the hit, in radians (P4.22).
 
     For natural roll this is the answer of P4.19, for stun that of P4.20.
@@ -188,13 +151,7 @@ def split_cut(topspin: Any = 1.0) -> Any:
     return plain(np.arccos(np.sqrt(np.minimum(0.5 + 0.2 * spin**2, 1.0))))
 
 
-@overload
-def split_roll_cut(topspin: float = ...) -> float: ...
-
-
-@overload
-def split_roll_cut(topspin: ArrayLike = ...) -> Floats: ...
-def split_roll_cut(topspin: Any = 1.0) -> Any:
+def split_roll_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut that splits the energy evenly once both balls roll, in radians (P4.22, P4.24).
 
     At this cut the deflection equals the cut angle, whatever the spin.

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, TypeAlias, overload
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray, Floats
 from evenbreak.checks import number, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.units import GRAVITY, LARGEST, numbers, positive
@@ -90,13 +90,7 @@ def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float
     return plain((first - second) * (first + second) / (2.0 * pull * distance))
 
 
-@overload
-def friction_of_throw(sideways: float, ahead: float) -> float: ...
-
-
-@overload
-def friction_of_throw(sideways: ArrayLike, ahead: ArrayLike) -> Floats: ...
-def friction_of_throw(sideways: Any, ahead: Any) -> Any:
+def friction_of_throw(sideways: FloatOrArray, ahead: FloatOrArray) -> FloatOrArray:
     """Return the friction between balls, from how far a frozen ball is thrown off line (P1.6).
 
     Exercise 1.2 measures it with several sets of balls, with chalk, talc or water between them.
@@ -205,13 +199,7 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
     return plain(-slowing * mass * speed)
 
 
-@overload
-def miscue_offset(friction: float) -> float: ...
-
-
-@overload
-def miscue_offset(friction: ArrayLike) -> Floats: ...
-def miscue_offset(friction: Any) -> Any:
+def miscue_offset(friction: FloatOrArray) -> FloatOrArray:
     """Return the largest offset b/R from the centre without a miscue (P1.7).
 
     Parameters
@@ -226,13 +214,7 @@ def miscue_offset(friction: Any) -> Any:
     return plain(friction / np.hypot(1.0, friction))
 
 
-@overload
-def tip_friction_of(offset: float) -> float: ...
-
-
-@overload
-def tip_friction_of(offset: ArrayLike) -> Floats: ...
-def tip_friction_of(offset: Any) -> Any:
+def tip_friction_of(offset: FloatOrArray) -> FloatOrArray:
     """Return the static friction of a tip that starts to slip at an offset b/R (P1.7).
 
     Exercise 1.3 finds the offset with the shaft upright on a ball.

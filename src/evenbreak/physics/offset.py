@@ -8,12 +8,11 @@ topspin; J_z above 0, counterclockwise from above, comes from a tip to the right
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import tip_friction_of
@@ -43,13 +42,7 @@ class ContactPoint(NamedTuple):
     z: Any
 
 
-@overload
-def spin_of_offset(offset: float) -> float: ...
-
-
-@overload
-def spin_of_offset(offset: ArrayLike) -> Floats: ...
-def spin_of_offset(offset: Any) -> Any:
+def spin_of_offset(offset: FloatOrArray) -> FloatOrArray:
     """Return the spin J = R omega / V that an offset b/R gives (P3.4).
 
     Parameters
@@ -63,13 +56,7 @@ def spin_of_offset(offset: Any) -> Any:
     return plain(2.5 * _offset(offset))
 
 
-@overload
-def offset_for(spin: float) -> float: ...
-
-
-@overload
-def offset_for(spin: ArrayLike) -> Floats: ...
-def offset_for(spin: Any) -> Any:
+def offset_for(spin: FloatOrArray) -> FloatOrArray:
     """Return the offset b/R that gives a spin J; beyond 1 the tip misses the ball (P3.4).
 
     Parameters
@@ -83,13 +70,7 @@ def offset_for(spin: Any) -> Any:
     return plain(numbers(spin, "spin") / 2.5)
 
 
-@overload
-def strike_side(y: float) -> float: ...
-
-
-@overload
-def strike_side(y: ArrayLike) -> Floats: ...
-def strike_side(y: Any) -> Any:
+def strike_side(y: FloatOrArray) -> FloatOrArray:
     """Return the sidespin J_z just after a hit at y, at any height (P3.6).
 
     Parameters
@@ -103,13 +84,7 @@ def strike_side(y: Any) -> Any:
     return plain(-2.5 * _offset(y, "y"))
 
 
-@overload
-def roll_side(y: float, z: float) -> float: ...
-
-
-@overload
-def roll_side(y: ArrayLike, z: ArrayLike) -> Floats: ...
-def roll_side(y: Any, z: Any) -> Any:
+def roll_side(y: FloatOrArray, z: FloatOrArray) -> FloatOrArray:
     """Return the sidespin J_z of a ball struck at (y, z), once it rolls (P3.6).
 
     Parameters
@@ -150,13 +125,7 @@ def small_circle_point(side: Any) -> ContactPoint:
     return ContactPoint(plain(-slope * z), plain(z))
 
 
-@overload
-def largest_roll_side(offset: float) -> float: ...
-
-
-@overload
-def largest_roll_side(offset: ArrayLike) -> Floats: ...
-def largest_roll_side(offset: Any) -> Any:
+def largest_roll_side(offset: FloatOrArray) -> FloatOrArray:
     """Return the largest sidespin in natural roll for an offset from the centre (P3.8).
 
     At the miscue limit of a tip it is 7/2 of the tip's friction.
@@ -252,13 +221,7 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
     return ContactPoint(plain(-side * z / 3.5), plain(z))
 
 
-@overload
-def stun_offset(speed: float, distance: float, cloth: Cloth) -> float: ...
-
-
-@overload
-def stun_offset(speed: ArrayLike, distance: ArrayLike, cloth: Cloth) -> Floats: ...
-def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
+def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> FloatOrArray:
     """Return how far below the centre to strike so that the backspin is gone after a distance.
 
     Parameters
@@ -300,13 +263,7 @@ def stun_offset(speed: Any, distance: Any, cloth: Cloth) -> Any:
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))
 
 
-@overload
-def ball_speed_ratio(offset: float, ball_ratio: float) -> float: ...
-
-
-@overload
-def ball_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
-def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
+def ball_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrArray:
     """Return the speed of the ball over that of the stick, for a hit off centre (P3.10).
 
     Parameters
@@ -324,13 +281,7 @@ def ball_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain(2.0 / (1.0 + ratio + 2.5 * offset**2))
 
 
-@overload
-def roll_speed_ratio(offset: float, ball_ratio: float) -> float: ...
-
-
-@overload
-def roll_speed_ratio(offset: ArrayLike, ball_ratio: ArrayLike) -> Floats: ...
-def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
+def roll_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrArray:
     """Return the speed of natural roll over that of the stick, by offset up or down (P3.11).
 
     Parameters
@@ -347,13 +298,7 @@ def roll_speed_ratio(offset: Any, ball_ratio: Any) -> Any:
     return plain((5.0 + 5.0 * _offset(offset)) / 7.0 * ratio)
 
 
-@overload
-def best_lag_offset(ball_ratio: float) -> float: ...
-
-
-@overload
-def best_lag_offset(ball_ratio: ArrayLike) -> Floats: ...
-def best_lag_offset(ball_ratio: Any) -> Any:
+def best_lag_offset(ball_ratio: FloatOrArray) -> FloatOrArray:
     """Return the offset above the centre, b/R, at which a ball rolls farthest (P3.11).
 
     There the length of a lag depends least on where the tip meets the ball.

@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.physics.objects import Ball, Cloth, PoolTable
 from evenbreak.physics.units import GRAVITY, INCH, numbers, positive
@@ -210,15 +209,9 @@ def lag_distance(table: PoolTable, ball: Ball) -> float:
     return kind_of(table, "table", PoolTable).length - kind_of(ball, "ball", Ball).diameter
 
 
-@overload
-def table_speed(lag_time: float, *, distance: float = ..., gravity: float = ...) -> float: ...
-
-
-@overload
 def table_speed(
-    lag_time: ArrayLike, *, distance: ArrayLike = ..., gravity: float = ...
-) -> Floats: ...
-def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY) -> Any:
+    lag_time: FloatOrArray, *, distance: FloatOrArray = None, gravity: float = GRAVITY
+) -> FloatOrArray:
     """Return the table speed from the time that a ball takes to roll a distance and stop.
 
     Exercise 1.1 times it with a ball let go on a ramp of two cues.
@@ -245,13 +238,7 @@ def table_speed(lag_time: Any, *, distance: Any = None, gravity: float = GRAVITY
     return plain(0.5 * pull * time**2 / metres)
 
 
-@overload
-def lag_speed(lag_time: float, *, distance: float = ...) -> float: ...
-
-
-@overload
-def lag_speed(lag_time: ArrayLike, *, distance: ArrayLike = ...) -> Floats: ...
-def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
+def lag_speed(lag_time: FloatOrArray, *, distance: FloatOrArray = None) -> FloatOrArray:
     """Return the speed off the last cushion of a ball that rolls a distance and stops (P1.5).
 
     In m/s; it is twice the mean speed. The parameters are those of `table_speed`.
@@ -273,13 +260,7 @@ def lag_speed(lag_time: Any, *, distance: Any = None) -> Any:
     return plain(2.0 * metres / time)
 
 
-@overload
-def roll_time(speed: float, cloth: Cloth) -> float: ...
-
-
-@overload
-def roll_time(speed: ArrayLike, cloth: Cloth) -> Floats: ...
-def roll_time(speed: Any, cloth: Cloth) -> Any:
+def roll_time(speed: FloatOrArray, cloth: Cloth) -> FloatOrArray:
     """Return how long a ball rolls until it stops, in seconds, from its speed in m/s.
 
     Parameters
@@ -296,13 +277,7 @@ def roll_time(speed: Any, cloth: Cloth) -> Any:
     return plain(numbers(speed, "speed", low=0.0) / resistance)
 
 
-@overload
-def roll_distance(speed: float, cloth: Cloth) -> float: ...
-
-
-@overload
-def roll_distance(speed: ArrayLike, cloth: Cloth) -> Floats: ...
-def roll_distance(speed: Any, cloth: Cloth) -> Any:
+def roll_distance(speed: FloatOrArray, cloth: Cloth) -> FloatOrArray:
     """Return how far a ball rolls until it stops, in metres, from its speed in m/s.
 
     Parameters

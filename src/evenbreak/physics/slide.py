@@ -18,12 +18,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, own_arrays
+from evenbreak.arrays import FloatOrArray, Floats, own_arrays
 from evenbreak.checks import kind_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.objects import Ball, Cloth
@@ -49,13 +48,7 @@ def sliding_ball_speed(speed: Any, rim_speed: Any, rim_speed_now: Any) -> Any:
     return plain(speed - 0.4 * (now - before))
 
 
-@overload
-def roll_speed(speed: float, rim_speed: float) -> float: ...
-
-
-@overload
-def roll_speed(speed: ArrayLike, rim_speed: ArrayLike) -> Floats: ...
-def roll_speed(speed: Any, rim_speed: Any) -> Any:
+def roll_speed(speed: FloatOrArray, rim_speed: FloatOrArray) -> FloatOrArray:
     """Return the speed of natural roll that a ball with topspin or draw reaches (P2.2).
 
     Parameters
@@ -118,13 +111,7 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     return plain(along / across * x + 0.5 * _pull_of(cloth) * (x / across) ** 2)
 
 
-@overload
-def stun_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
-
-
-@overload
-def stun_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
-def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
+def stun_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> FloatOrArray:
     """Return how far a ball slides until its backspin is gone, in metres: a stun shot from there.
 
     Parameters
@@ -150,13 +137,7 @@ def stun_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
     return plain(speed * time * (1.0 + 0.2 * spin))
 
 
-@overload
-def drag_distance(speed: float, spin: float, cloth: Cloth) -> float: ...
-
-
-@overload
-def drag_distance(speed: ArrayLike, spin: ArrayLike, cloth: Cloth) -> Floats: ...
-def drag_distance(speed: Any, spin: Any, cloth: Cloth) -> Any:
+def drag_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> FloatOrArray:
     """Return how far a ball slides until natural roll begins, in metres.
 
     Parameters

@@ -11,12 +11,11 @@ and the stick keeps V_s - m/M_s V.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray, Floats
 from evenbreak.checks import kind_or_usual, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import miscue_offset
@@ -226,13 +225,7 @@ def centre_hit(stick_ratio: Any) -> CentreHit:
     return CentreHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
 
 
-@overload
-def energy_share(stick_ratio: float) -> float: ...
-
-
-@overload
-def energy_share(stick_ratio: ArrayLike) -> Floats: ...
-def energy_share(stick_ratio: Any) -> Any:
+def energy_share(stick_ratio: FloatOrArray) -> FloatOrArray:
     """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
 
     Parameters
@@ -273,13 +266,7 @@ def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> An
     return plain(energy * (1.0 + forearm / (3.0 * stick)))
 
 
-@overload
-def break_energy_share(stick_ratio: float, forearm_ratio: float) -> float: ...
-
-
-@overload
-def break_energy_share(stick_ratio: ArrayLike, forearm_ratio: ArrayLike) -> Floats: ...
-def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
+def break_energy_share(stick_ratio: FloatOrArray, forearm_ratio: FloatOrArray) -> FloatOrArray:
     """Return the share of the energy of stick and forearm that goes into the ball (P3.3).
 
     Parameters
@@ -298,13 +285,7 @@ def break_energy_share(stick_ratio: Any, forearm_ratio: Any) -> Any:
     return plain(4.0 * stick**2 / ((1.0 + stick) ** 2 * (stick + forearm / 3.0)))
 
 
-@overload
-def best_stick_ratio(forearm_ratio: float) -> float: ...
-
-
-@overload
-def best_stick_ratio(forearm_ratio: ArrayLike) -> Floats: ...
-def best_stick_ratio(forearm_ratio: Any) -> Any:
+def best_stick_ratio(forearm_ratio: FloatOrArray) -> FloatOrArray:
     """Return the mass of the best stick to break with, over that of the ball (P3.3).
 
     Parameters

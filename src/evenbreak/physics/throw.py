@@ -22,17 +22,15 @@ with the other sidespin. Throw above 0 is forward for both.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray, Floats
 from evenbreak.checks import one_of, plain, together
 from evenbreak.errors import InputError
 from evenbreak.physics.friction import (
     BALL_FRICTION,
-    BallFriction,
     SlipFriction,
     checked_friction,
     friction_of_slip,
@@ -45,13 +43,9 @@ FRICTION_LAWS = ("limited", "shepard")
 """The laws of friction: limited by the slip, or the law of the source text."""
 
 
-@overload
-def throw_factor(cut: float, topspin: float = ..., side: float = ...) -> float: ...
-
-
-@overload
-def throw_factor(cut: ArrayLike, topspin: ArrayLike = ..., side: ArrayLike = ...) -> Floats: ...
-def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
+def throw_factor(
+    cut: FloatOrArray, topspin: FloatOrArray = 1.0, side: FloatOrArray = 0.0
+) -> FloatOrArray:
     """Return cos(gamma), the share of the friction that acts sideways (P4.2).
 
     Parameters
@@ -80,37 +74,15 @@ def throw_factor(cut: Any, topspin: Any = 1.0, side: Any = 0.0) -> Any:
     return plain(hand_of(cut) * left / _length(left, up))
 
 
-@overload
 def throw_angle(
-    cut: float,
-    topspin: float = ...,
-    side: float = ...,
-    *,
-    mu: float | SlipFriction = ...,
-    friction: str = ...,
-    speed: float | None = ...,
-) -> float: ...
-
-
-@overload
-def throw_angle(
-    cut: ArrayLike,
-    topspin: ArrayLike = ...,
-    side: ArrayLike = ...,
-    *,
-    mu: BallFriction = ...,
-    friction: str = ...,
-    speed: ArrayLike | None = ...,
-) -> Floats: ...
-def throw_angle(
-    cut: Any,
-    topspin: Any = 1.0,
-    side: Any = 0.0,
+    cut: FloatOrArray,
+    topspin: FloatOrArray = 1.0,
+    side: FloatOrArray = 0.0,
     *,
     mu: Any = BALL_FRICTION,
     friction: str = "limited",
     speed: Any = None,
-) -> Any:
+) -> FloatOrArray:
     """Return the angle between the object ball's path and the line of centres, in radians (P4.2).
 
     Parameters
@@ -158,13 +130,7 @@ def throw_angle(
     return plain(np.arctan2(hand_of(cut) * sideways, cos))
 
 
-@overload
-def full_throw_cut(mu: float = ...) -> float: ...
-
-
-@overload
-def full_throw_cut(mu: ArrayLike = ...) -> Floats: ...
-def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
+def full_throw_cut(mu: FloatOrArray = BALL_FRICTION) -> FloatOrArray:
     """Return the smallest cut angle at which a stun shot has its full throw, in radians.
 
     In fuller hits the slip ends before the hit does, and tan(throw) = tan(cut) / 7. From here on
@@ -181,13 +147,7 @@ def full_throw_cut(mu: Any = BALL_FRICTION) -> Any:
     return plain(np.arctan(7.0 * numbers(mu, "mu", low=0.0)))
 
 
-@overload
-def gearing_side(cut: float) -> float: ...
-
-
-@overload
-def gearing_side(cut: ArrayLike) -> Floats: ...
-def gearing_side(cut: Any) -> Any:
+def gearing_side(cut: FloatOrArray) -> FloatOrArray:
     """Return the sidespin J_z that leaves no sideways slip, and so no throw (P4.26).
 
     The cut angle is in radians, to the left below 0.
@@ -203,13 +163,7 @@ def gearing_side(cut: Any) -> Any:
     return plain(-np.sin(cut_of(cut)))
 
 
-@overload
-def throw_sensitivity(cut: float, topspin: float, side: float) -> float: ...
-
-
-@overload
-def throw_sensitivity(cut: ArrayLike, topspin: ArrayLike, side: ArrayLike) -> Floats: ...
-def throw_sensitivity(cut: Any, topspin: Any, side: Any) -> Any:
+def throw_sensitivity(cut: FloatOrArray, topspin: FloatOrArray, side: FloatOrArray) -> FloatOrArray:
     """Return how fast cos(gamma) changes with the spin: the length of its gradient (P4.5).
 
     Parameters

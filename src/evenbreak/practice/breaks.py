@@ -15,12 +15,11 @@ breaks a = b = 1 (P5.24). Only positive numbers are added and multiplied, so no 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number, one_of, plain
 from evenbreak.errors import InputError
@@ -32,17 +31,14 @@ _SQUARABLE = 1e100
 """Values beyond this are scaled before they are squared."""
 
 
-@overload
 def long_run_share(
-    p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1, via: Way | None = None
-) -> float: ...
-@overload
-def long_run_share(
-    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> Floats: ...
-def long_run_share(
-    p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1, via: Way | None = None
-) -> Any:
+    p1: FloatOrArray,
+    p2: FloatOrArray,
+    breaks: BreakFormat,
+    *,
+    first_breaker: int = 1,
+    via: Way | None = None,
+) -> FloatOrArray:
     """Return the fraction of racks that player 1 wins in the long run; elementwise.
 
     Parameters
@@ -102,13 +98,9 @@ def _shares_by_limit(series: Series, via: Way) -> tuple[float, float]:
     return win, lose
 
 
-@overload
-def long_run_sd(p1: float, p2: float, breaks: BreakFormat, *, first_breaker: int = 1) -> float: ...
-@overload
 def long_run_sd(
-    p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat, *, first_breaker: int = 1
-) -> Floats: ...
-def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1) -> Any:
+    p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat, *, first_breaker: int = 1
+) -> FloatOrArray:
     """Return the standard deviation of the racks that player 1 wins, per square root of racks.
 
     Over a large number N of racks player 1 wins N W of them on average (see `long_run_share`),
@@ -154,11 +146,7 @@ def long_run_sd(p1: Any, p2: Any, breaks: BreakFormat, *, first_breaker: int = 1
     return plain(np.sqrt(variance) * unit)
 
 
-@overload
-def first_break_worth(p1: float, p2: float, breaks: BreakFormat) -> float: ...
-@overload
-def first_break_worth(p1: ArrayLike, p2: ArrayLike, breaks: BreakFormat) -> Floats: ...
-def first_break_worth(p1: Any, p2: Any, breaks: BreakFormat) -> Any:
+def first_break_worth(p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat) -> FloatOrArray:
     """Return how many more racks player 1 wins in all by breaking first instead of second.
 
     This head start stays the same however long the session is; it is infinite if the break

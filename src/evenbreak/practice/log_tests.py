@@ -24,7 +24,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import xlog1py, xlogy
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, FloatOrArray, Floats, Ints
+from evenbreak.checks import plain
 from evenbreak.errors import InputError
 from evenbreak.practice.drill_log import AFTER_MISS, AFTER_START, AFTER_SUCCESS, DrillLog
 from evenbreak.practice.drills import chances_seen, level_laws
@@ -313,7 +314,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     )
 
 
-def likeliest_p(successes: Ints, failures: Ints) -> Floats:
+def likeliest_p(successes: Ints, failures: Ints) -> FloatOrArray:
     """Return the maximum-likelihood p of each of many logs.
 
     Parameters
@@ -341,10 +342,10 @@ def likeliest_p(successes: Ints, failures: Ints) -> Floats:
     any_won, any_lost = won.any(-1), lost.any(-1)
     p = np.where(any_lost, np.exp(-np.exp((low + high) / 2.0)), 1.0)
     p = np.where(any_won, p, 0.0)
-    return np.asarray(np.where(any_won | any_lost, p, np.nan))[()]
+    return plain(np.where(any_won | any_lost, p, np.nan))
 
 
-def deviance(successes: Ints, failures: Ints) -> Floats:
+def deviance(successes: Ints, failures: Ints) -> FloatOrArray:
     """Return twice the log-likelihood that the model loses against a free chance for each level.
 
     Shapes are as in `likeliest_p`. It is 0 where the model fits as well as free chances.
@@ -356,7 +357,7 @@ def deviance(successes: Ints, failures: Ints) -> Floats:
     won, lost = successes[..., 1:], failures[..., 1:]
     total = np.maximum(won + lost, 1)
     free = (xlogy(won, won / total) + xlogy(lost, lost / total)).sum(-1)
-    return np.asarray(np.maximum(2.0 * (free - _log_likelihood(p, successes, failures)), 0.0))[()]
+    return plain(np.maximum(2.0 * (free - _log_likelihood(p, successes, failures)), 0.0))
 
 
 def _log_likelihood(p: float | Floats, successes: Ints, failures: Ints) -> Floats:

@@ -17,12 +17,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import FloatOrArray
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.checks import number_probability, one_of, plain, probability, together
 from evenbreak.errors import InputError
@@ -36,13 +35,9 @@ CHOICE_LOOK_AHEADS = (*LOOK_AHEADS, "all shots")
 """The same for a `ShotChoice`: or its later shots in turn, and an even game after them."""
 
 
-@overload
 def one_ball_win(
-    p1: float, p2: float, *, look_ahead: str = "infinite", via: Way | None = None
-) -> float: ...
-@overload
-def one_ball_win(p1: ArrayLike, p2: ArrayLike, *, look_ahead: str = "infinite") -> Floats: ...
-def one_ball_win(p1: Any, p2: Any, *, look_ahead: str = "infinite", via: Way | None = None) -> Any:
+    p1: FloatOrArray, p2: FloatOrArray, *, look_ahead: str = "infinite", via: Way | None = None
+) -> FloatOrArray:
     """Return P(player 1 wins the one-ball game), given that player 1 shoots first; elementwise.
 
     Parameters
@@ -126,11 +121,7 @@ def look_ahead_win(game: OneBallLookAhead, *, via: Way | None = None) -> float:
     return win
 
 
-@overload
-def critical_p2(p1: float) -> float: ...
-@overload
-def critical_p2(p1: ArrayLike) -> Floats: ...
-def critical_p2(p1: Any) -> Any:
+def critical_p2(p1: FloatOrArray) -> FloatOrArray:
     """Return the p2 above which player 2 is the favourite, p1 / (1 - p1); elementwise.
 
     The curve is the same for both look-aheads. For p1 > 1/2 it is above 1 (infinity for

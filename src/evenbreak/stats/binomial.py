@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.checks import (
     floats,
@@ -22,9 +22,7 @@ from evenbreak.stats.beta_tail import beta_tail
 from evenbreak.stats.counts import CountLaw, exact
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from evenbreak.arrays import Floats
+    from evenbreak.arrays import FloatOrArray, Floats
 
 
 _NEAR = 1e-9
@@ -32,13 +30,7 @@ _NEAR = 1e-9
 decides; if that comes as near, relatively, it is decided in fractions."""
 
 
-@overload
-def score_probability(p: Fraction, m: int, n: int) -> Fraction: ...
-@overload
-def score_probability(p: float, m: float, n: float) -> float: ...
-@overload
-def score_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Floats: ...
-def score_probability(p: Any, m: Any, n: Any) -> Any:
+def score_probability(p: FloatOrArray, m: FloatOrArray, n: FloatOrArray) -> FloatOrArray:
     """Return P(p; m, n), the chance that the score is m:n after m + n games.
 
     Parameters
@@ -286,15 +278,11 @@ class GamesWon(CountLaw):
             return distance > 0
         outside, rest = self.cumulative(low - 1) + self.at_least(high + 1), float(1 - wanted)
         if abs(outside - rest) > _NEAR * rest:
-            return outside < rest
+            return bool(outside < rest)
         return self.exact_cumulative(high) - self.exact_cumulative(low - 1) >= wanted
 
 
-@overload
-def critical_value(coverage: float) -> float: ...
-@overload
-def critical_value(coverage: ArrayLike) -> Floats: ...
-def critical_value(coverage: Any) -> Any:
+def critical_value(coverage: FloatOrArray) -> FloatOrArray:
     """Return the z with P(-z <= Z <= z) = coverage, for Z standard normal.
 
     Parameters
@@ -323,11 +311,7 @@ def critical_value(coverage: Any) -> Any:
     return plain(math.sqrt(2) * erfinv(checked))
 
 
-@overload
-def coverage_within(z: float) -> float: ...
-@overload
-def coverage_within(z: ArrayLike) -> Floats: ...
-def coverage_within(z: Any) -> Any:
+def coverage_within(z: FloatOrArray) -> FloatOrArray:
     """Return P(-z <= Z <= z) for Z standard normal: how much lies within z standard deviations.
 
     Parameters

@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.checks import number_probability, plain, whole_numbers
 from evenbreak.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from evenbreak.arrays import Floats
+    from evenbreak.arrays import FloatOrArray, Floats
 
 
 _HALF = Fraction(1, 2)
@@ -82,35 +80,19 @@ class CountLaw(ABC):
     def _at_least(self, n: Floats) -> Floats:
         """Return P(count >= n), elementwise."""
 
-    @overload
-    def probability(self, n: float) -> float: ...
-    @overload
-    def probability(self, n: ArrayLike) -> Floats: ...
-    def probability(self, n: Any) -> Any:
+    def probability(self, n: FloatOrArray) -> FloatOrArray:
         """Return P(count = n); a float for a number, an array for an array."""
         return plain(self._probability(whole_numbers(n, "n")))
 
-    @overload
-    def cumulative(self, n: float) -> float: ...
-    @overload
-    def cumulative(self, n: ArrayLike) -> Floats: ...
-    def cumulative(self, n: Any) -> Any:
+    def cumulative(self, n: FloatOrArray) -> FloatOrArray:
         """Return P(count <= n); a float for a number, an array for an array."""
         return plain(self._cumulative(whole_numbers(n, "n")))
 
-    @overload
-    def at_least(self, n: float) -> float: ...
-    @overload
-    def at_least(self, n: ArrayLike) -> Floats: ...
-    def at_least(self, n: Any) -> Any:
+    def at_least(self, n: FloatOrArray) -> FloatOrArray:
         """Return P(count >= n); a float for a number, an array for an array."""
         return plain(self._at_least(whole_numbers(n, "n")))
 
-    @overload
-    def between(self, low: float, high: float) -> float: ...
-    @overload
-    def between(self, low: ArrayLike, high: ArrayLike) -> Floats: ...
-    def between(self, low: Any, high: Any) -> Any:
+    def between(self, low: FloatOrArray, high: FloatOrArray) -> FloatOrArray:
         """Return P(low <= count <= high), both ends included; 0 where high is below low.
 
         A float for numbers, an array for arrays.
