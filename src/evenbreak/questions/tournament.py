@@ -112,13 +112,16 @@ class TournamentOdds(OfEntrants):
     ] = False
     before_draw: Annotated[
         bool,
-        Field(Flag(), "The odds before a blind draw: every draw is equally likely."),
+        Field(
+            Flag(), "The odds before a blind draw: every draw is equally likely.", section="Details"
+        ),
     ] = False
     fairest: Annotated[
         bool,
         Field(
             Flag(),
             "With {race_to} or {chart}: also list fairer races of about the same length.",
+            section="Details",
             more="The races by side, and by round, that make the tournament fairest for about as "
             "many games.",
         ),
@@ -128,6 +131,7 @@ class TournamentOdds(OfEntrants):
         Field(
             CHANCE,
             "The chance that a match is a walkover; in real double eliminations it is 0.047.",
+            section="Details",
         ),
     ] = 0.0
     prizes: Prizes = None
@@ -190,11 +194,13 @@ class TournamentTime(OfEntrants, Pace):
             "The time between two matches on a table, on average.",
             usual="as in real events",
             metavar="MINUTES",
+            section="Details",
             more="In real events most matches start at once, and the average is 4.",
         ),
     ] = None
     start: Annotated[
-        int | None, Field(TIME_OF_DAY, "When the tournament starts: shows times of day.")
+        int | None,
+        Field(TIME_OF_DAY, "When the tournament starts: shows times of day.", section="Details"),
     ] = None
 
     def check(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from inspect import cleandoc
 from typing import Any, TypeVar
 
@@ -11,7 +11,7 @@ from click.core import ParameterSource
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.faces import faces
+from evenbreak.cli.kit.faces import FACES, faces
 from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import say
 from evenbreak.errors import InputError
@@ -209,7 +209,7 @@ class AskedCommand(click.Command):
                 folded.append((section, ", ".join(names)))
         if not all_asked:
             with formatter.section(f"More, explained by {ALL_HELP}"):
-                formatter.write_dl([*folded, (_ANSWER, _COMMON)])
+                formatter.write_dl([*folded, (_ANSWER, ", ".join(_faces(self.params)))])
 
 
 _FEW = 8
@@ -217,7 +217,15 @@ _FEW = 8
 _WIDEST = 24
 """The columns of a help text that options have; those of wider ones begin a line below."""
 _ANSWER = "The answer"
-_COMMON = "--text, --csv, --json, --html FILE, --verbose (-v)"
+
+
+def _faces(params: Iterable[click.Parameter]) -> Iterator[str]:
+    """Yield the options that choose the form of the answer."""
+    for param in params:
+        if param.name in FACES:
+            short, option = min(param.opts, key=len), max(param.opts, key=len)
+            value = f" {param.metavar}" if param.metavar else ""
+            yield f"{option}{value}" + (f" ({short})" if short != option else "")
 
 
 def _show_all(ctx: click.Context, param: click.Parameter, value: bool) -> None:  # noqa: ARG001

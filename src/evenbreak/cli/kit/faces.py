@@ -13,6 +13,9 @@ from evenbreak.cli.kit.progress import Working
 from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
+FACES = ("face", "page_file", "verbose")
+"""The parameters of every command that choose the form of its answer."""
+
 Function = Callable[..., "Answer"]
 
 
