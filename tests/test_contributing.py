@@ -1,5 +1,6 @@
 """CONTRIBUTING.md followed from end to end, in a copy of the checkout where the tests then pass."""
 
+import json
 import os
 import re
 import shutil
@@ -21,7 +22,7 @@ EDIT = re.compile(r"^```diff\n\+\+\+ (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTAL
 PLACE = re.compile(r"`(\w+[/.][^`]*)`")
 RUN = re.compile(r"`python -m pytest ([^`]+)`")
 
-NEW = ("ghost", "example_7", "shutout")
+NEW = ("ghost", "example_7", "shutout", "page_playoff", "every_route_is_declared")
 """What the page adds."""
 
 OLD = ("test_lazy", "test_layers and not starting_up and not import_each_other")
@@ -107,13 +108,14 @@ def followed(tmp_path_factory: pytest.TempPathFactory) -> Followed:
     return Followed(checkout, new, checkout.passes(*sorted(asked), "-k", chosen))
 
 
-def test_the_map_has_every_room_in_the_order_of_its_layers() -> None:
-    drawn = "".join(re.findall(r"^    (.*)\n", WHERE, re.MULTILINE))
-    for room, inner in re.findall(r"(\w+) \((.*?)\)", drawn):
-        rows = [f"{room}.{part}" for part in inner.split(" -> ")]
-        drawn = drawn.replace(f"{room} ({inner})", " -> ".join((*rows, room)))
-    rows = [{*re.findall(r"[\w.]+", row)} for row in drawn.split("->")]
-    assert rows == [{*row} for row in LAYERS if row != ("__main__",)]
+def drawn_layers() -> str:
+    """Return the layers as the page draws them, one below the other."""
+    rows = [" | ".join(row) for row in LAYERS if row != ("__main__",)]
+    return "".join(f"    {'  -> ' if k else ''}{row}\n" for k, row in enumerate(rows))
+
+
+def test_the_map_is_that_of_the_layers() -> None:
+    assert drawn_layers() in WHERE, f"draw the layers so:\n\n{drawn_layers()}"
 
 
 def test_every_room_is_among_what_there_is_to_change() -> None:
@@ -126,7 +128,10 @@ def test_every_room_is_among_what_there_is_to_change() -> None:
 
 
 def test_the_page_has_a_section_for_each_kind() -> None:
-    assert set(SECTIONS) == {"Add a game", "Add a chart", "Add a handicap system"}
+    assert {*SECTIONS} == {
+        *("Add a game", "Add a chart", "Add a handicap system"),
+        *("Add a tournament format", "Add a page", "Add a column"),
+    }
 
 
 @pytest.mark.slow
@@ -159,6 +164,30 @@ def test_a_system(followed: Followed) -> None:
 
 
 @pytest.mark.slow
+def test_a_format(followed: Followed) -> None:
+    entrants = followed.checkout.place / "four.csv"
+    entrants.write_text("Ann 600\nBo 590\nCy 580\nDi 570\n", encoding="utf-8")
+    asked = f"tournament odds {entrants} --format page-playoff --race 5 --scale fargo --csv"
+    lines = followed.checkout.asks(asked).splitlines()
+    chances = [float(line.split(",")[lines[0].split(",").index("p_title")]) for line in lines[1:]]
+    assert len(chances) == 4
+    assert chances[0] > chances[1] > chances[2] > chances[3] > 0
+    assert "page-playoff" in followed.checkout.asks("tournament new --help-all")
+
+
+@pytest.mark.slow
+def test_a_page(followed: Followed) -> None:
+    assert followed.count("test_every_route_is_declared") > 0
+
+
+@pytest.mark.slow
+def test_a_column(followed: Followed) -> None:
+    shown = followed.checkout.asks("odds --p .6 --race 7:5 --json")
+    assert 0.2 < json.loads(shown)["p_upset"] < 0.5
+    assert "the underdog wins" in followed.checkout.asks("odds --p .6 --race 7:5 --text")
+
+
+@pytest.mark.slow
 def test_the_examples_pass_the_linter(followed: Followed) -> None:
     code = [str(path) for path in followed.new if path.suffix == ".py"]
     assert code
@@ -168,4 +197,8 @@ def test_the_examples_pass_the_linter(followed: Followed) -> None:
 
 @pytest.mark.parametrize("path", re.findall(r"\]\(([^)]+)\)", PAGE))
 def test_links_lead_somewhere(path: str) -> None:
-    assert (ROOT / path).exists()
+    file, _, place = path.partition("#")
+    assert not file or (ROOT / file).exists()
+    headings = re.findall(r"^## (.*)$", PAGE, re.MULTILINE)
+    slugs = {re.sub(r"[^\w-]", "", one.lower().replace(" ", "-")) for one in headings}
+    assert file or place in slugs
