@@ -95,7 +95,6 @@ CHIPS = Schema(
         filled=True,
         least=1,
         most=1000,
-        write=say("1, 2, ..."),
     ),
 )
 """A chip chart."""

@@ -38,7 +38,6 @@ DRILL_LOG = Schema(
         filled=True,
         least=1,
         most=MOST_LEVELS,
-        write=say("1, 2, 3, ..."),
     ),
     success=YesNo(
         "made, made it, succeeded, result, outcome",

@@ -74,7 +74,7 @@ def test_the_least_whole_number_can_be_raised():
     table = table_of("0", "1")
     assert Whole(least=1, filled=True).read(table, "x").good.tolist() == [False, True]
     assert told(table) == [
-        "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 0, 1, 2, ..."
+        "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 1, 2, 3, ..."
     ]
 
 

@@ -95,7 +95,7 @@ def without_folders(warnings: Iterable[str], *paths: str | None) -> list[str]:
     >>> without_folders(["'Bo' is not in /home/ann/club.csv"], "/home/ann/club.csv", None)
     ["'Bo' is not in club.csv"]
     """
-    public = list(warnings)
+    public = [said(text) for text in warnings]
     for path in filter(None, paths):
         public = [text.replace(path, PurePath(path).name) for text in public]
     return public

@@ -70,7 +70,6 @@ ROSTER = Schema(
         "group",
         "players linked by a chain of opponents have the same number",
         least=1,
-        write=say("1, 2, 3, ..."),
     ),
     matches=_COUNT.called(
         "matches played",

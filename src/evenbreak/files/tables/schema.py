@@ -52,7 +52,7 @@ class Column:
     empty
         what an empty cell means, such as "for a new player"; None: other columns settle that.
     write
-        what to write in place of a cell that cannot be read.
+        what to write in place of a cell that cannot be read; '' for what is usual.
     nothing
         the value of an empty cell.
     """
@@ -79,13 +79,19 @@ class Column:
         return say("any text")
 
     @property
+    def usual(self) -> str:
+        """What to write in place of a cell where `write` does not say it."""
+        return self.wanted
+
+    @property
     def remedy(self) -> str:
         """How to correct a cell."""
+        it = self.write or self.usual
         if self.filled or self.empty is None:
-            return say("write {it}", it=self.write)
+            return say("write {it}", it=it)
         if not self.empty:
-            return say("write {it}, or leave it empty", it=self.write)
-        return say("write {it}, or leave it empty {meaning}", it=self.write, meaning=self.empty)
+            return say("write {it}, or leave it empty", it=it)
+        return say("write {it}, or leave it empty {meaning}", it=it, meaning=self.empty)
 
     def called(self, also: str, about: str = "", **changes: Any) -> Self:
         """Return a column whose cells mean the same, with other names."""
@@ -155,7 +161,6 @@ class Whole(Column):
 
     least: int = 0
     most: int = LARGEST_WHOLE
-    write: str = say("0, 1, 2, ...")
     nothing: int = 0
 
     dtype: ClassVar[Any] = np.int64
@@ -164,6 +169,11 @@ class Whole(Column):
     def wanted(self) -> str:
         """What a cell should be."""
         return say("a whole number from {least} to {most:,}", least=self.least, most=self.most)
+
+    @property
+    def usual(self) -> str:
+        """What to write in place of a cell."""
+        return say("1, 2, 3, ...") if self.least else say("0, 1, 2, ...")
 
     def meaning(self, text: str) -> int | None:
         """Return the number."""
@@ -234,11 +244,6 @@ class Word(Column):
     def wanted(self) -> str:
         """What a cell should be."""
         return self.choices
-
-    @property
-    def remedy(self) -> str:
-        """How to correct a cell."""
-        return replace(self, write=self.choices).remedy if not self.write else super().remedy
 
     def meaning(self, text: str) -> Any:
         """Return the value of a word."""
