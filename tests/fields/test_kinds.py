@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import Choice, Flag, Folder, Kind, Named, Number, TwoWhole, Whole
+from evenbreak.fields.kinds import Choice, Flag, Kind, Named, Number, TwoWhole, Whole
 
 PAIR = TwoWhole(wanted="give M:N", one=True)
 SPAN = TwoWhole(r"\.\.", wanted="give LO..HI", metavar="LO..HI", rising=True)
@@ -22,7 +22,6 @@ SPAN = TwoWhole(r"\.\.", wanted="give LO..HI", metavar="LO..HI", rising=True)
         (Choice({"half-shift": "half shift"}), "half-shift", "half shift"),
         (Flag(), "yes", True),
         (Flag(), "", False),
-        (Folder(), ".", "."),
         (Named(str.upper), "npl", "NPL"),
     ],
 )
@@ -42,7 +41,6 @@ def test_a_text_is_read(kind: Kind, text: str, value: object) -> None:
         (SPAN, "9..5", "give LO..HI"),
         (SPAN, "9", "give LO..HI"),
         (Choice(("a", "b")), "c", "'a', 'b'"),
-        (Folder(), " ", "name a folder"),
     ],
 )
 def test_what_is_wrong_is_refused_with_the_remedy(kind: Kind, text: str, wanted: str) -> None:

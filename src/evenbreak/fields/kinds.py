@@ -65,19 +65,6 @@ class File(Kind):
 
 
 @dataclass(frozen=True)
-class Folder(Kind):
-    """The name of a folder."""
-
-    metavar: str = "DIR"
-
-    def read(self, text: str) -> str:
-        """Return the name; refuse an empty one."""
-        if not text.strip():
-            raise InputError("the name is empty; name a folder, or . for this one")
-        return text
-
-
-@dataclass(frozen=True)
 class Flag(Kind):
     """Yes or no; no unless it is there."""
 

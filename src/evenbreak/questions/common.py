@@ -8,7 +8,7 @@ from typing import Annotated, Any, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import LONGEST, Choice, File, Folder, Named, Number, TwoWhole, Whole
+from evenbreak.fields.kinds import LONGEST, Choice, File, Named, Number, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 
@@ -106,8 +106,20 @@ def picture(text: str) -> str:
     return text
 
 
+def folder(text: str) -> str:
+    """Return the name of a folder that can be written to."""
+    if not text.strip():
+        raise InputError("the name is empty; name a folder, or . for this one")
+    if Path(text).is_file():
+        raise InputError(f"{text!r} is a file; name a folder")
+    return text
+
+
 OutFolder: TypeAlias = Annotated[
-    str, Field(Folder(), "Where the files go; created if it does not exist.")
+    str,
+    Field(
+        Named(folder, "DIR", offers="files"), "Where the files go; created if it does not exist."
+    ),
 ]
 
 

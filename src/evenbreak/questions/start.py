@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from evenbreak.fields.kinds import Folder
+from evenbreak.fields.kinds import Named
 from evenbreak.fields.question import Field, Question
-from evenbreak.questions.common import OutFolder
+from evenbreak.questions.common import OutFolder, folder
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +22,7 @@ class Demo(Question):
   evenbreak demo
   evenbreak demo data
 """
-    folder: Annotated[str, Field(Folder("[FOLDER]"), argument=True)] = "evenbreak-demo"
+    folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "evenbreak-demo"
 
 
 @dataclass(frozen=True, kw_only=True)

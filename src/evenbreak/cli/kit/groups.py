@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from evenbreak.cli.kit.said import runs
-
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
@@ -64,6 +62,8 @@ class LazyGroup(click.Group):
             from evenbreak.cli.kit.completion import complete_files
 
             complete_files(command)
+        from evenbreak.cli.kit.said import runs
+
         runs(command)
         return command
 
