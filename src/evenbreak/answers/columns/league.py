@@ -133,7 +133,9 @@ LADDERS = registry(
     number("largest_e", "highest", shown.evidence),
     number("alarm_match", "flagged\nat match"),
     number("alarm_date", "on"),
+    number("flagged", cell=shown.yes_or_blank),
+    number("league_wide", cell=shown.yes_or_blank),
     number("ratings", "ratings"),
     number("factor", "weight", 2),
-    files_only="inflation error cumulative",
+    files_only="inflation error cumulative e_any e_established",
 )

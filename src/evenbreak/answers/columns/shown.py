@@ -82,6 +82,11 @@ def yes_or_blank(truth: bool) -> str:
     return "yes" if truth else ""
 
 
+def no_time(match: str) -> str:
+    """Return a match as CSV has it: a bare 9:5 is a time of day to a spreadsheet."""
+    return f"race {match}" if match[0].isdigit() else match
+
+
 def who_breaks(breaks: str) -> str:
     """Return a break format."""
     return f"always {breaks.upper()}" if breaks in ("a", "b") else breaks

@@ -59,7 +59,7 @@ def part_lines(part: Part) -> Iterator[str]:
             yield "<table>" + _caption(part.title)
             heads = "".join(_head(column) for _, column in shown)
             yield f"<thead><tr>{heads}</tr></thead><tbody>"
-            for row in part.rows:
+            for row in part.shown_rows:
                 cells = "".join(
                     f"<td{_look(column.left)}>{_text(column.text(row[k]))}</td>"
                     for k, column in shown

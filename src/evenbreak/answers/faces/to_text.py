@@ -81,7 +81,7 @@ def _quantities(part: Quantities, verbose: bool) -> Iterator[str]:
 def _table(part: Table, width: int, verbose: bool) -> Iterator[str]:
     shown = part.shown(verbose=verbose)
     heads = _heading_lines([column.words or "" for _, column in shown])
-    rows = [[printable(column.text(row[k])) for k, column in shown] for row in part.rows]
+    rows = [[printable(column.text(row[k])) for k, column in shown] for row in part.shown_rows]
     flush = [place for place, (_, column) in enumerate(shown) if column.left]
     broken = [place for place in flush if not shown[place][1].whole]
     cells = _folded([*heads, *rows], broken, width)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.columns.league import LADDERS, LEAGUE, VALIDATION
 from evenbreak.answers.columns.match import CHAINS, CHARTS, MATCH
@@ -12,6 +12,9 @@ from evenbreak.answers.columns.practice import FILES, PHYSICS, PRACTICE
 from evenbreak.answers.columns.tournament import TEAMS, TOURNAMENT
 from evenbreak.answers.kit.parts import Column, Quantity, Show, Table
 from evenbreak.words import say
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SUBJECTS = {
     "match": MATCH,
@@ -128,6 +131,13 @@ def table_by_column(
     plain = [part.tolist() if hasattr(part, "tolist") else part for part in values.values()]
     rows = list(zip(*plain, strict=True))
     return Table(name, columns, rows if order is None else [rows[k] for k in order], title)
+
+
+def frame_table(name: str, frame: pd.DataFrame) -> Table:
+    """Return a frame as a table that is in files only."""
+    from evenbreak.files.csv_writer import rows_of
+
+    return Table(name, in_files(frame.columns), rows_of(frame))
 
 
 def quantity_of(key: str, value: Any, /, note: str = "", **fields: Any) -> Quantity:

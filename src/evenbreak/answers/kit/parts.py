@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ class Column:
     ----------
     name
         its name in files and JSON, with the unit in it; or several names, where a person reads
-        as one what files keep apart, such as a race: its values are then tuples.
+        as one what files keep apart, such as a race: its values are then tuples. Without any
+        name, (), only a person reads it.
     words
         what a person reads above it, its lines parted by line breaks; None: it is in files only.
     show
@@ -72,12 +74,20 @@ class Table:
         the values, a row at a time; whatever can be gone through more than once.
     title
         a line above it.
+    most
+        how many of its rows a person reads, the first; None: all.
     """
 
     name: str
     columns: Sequence[Column]
     rows: Iterable[Sequence[Any]]
     title: str = ""
+    most: int | None = None
+
+    @property
+    def shown_rows(self) -> Iterator[Sequence[Any]]:
+        """The rows that a person reads."""
+        return islice(self.rows, self.most)
 
     def shown(self, *, verbose: bool = False) -> list[tuple[int, Column]]:
         """Return the columns that a person reads, each with its place in a row."""
@@ -98,7 +108,7 @@ class Table:
         for row in self.rows:
             record: list[Any] = []
             for value, many in zip(row, wide, strict=True):
-                if isinstance(value, tuple):
+                if isinstance(value, tuple) and many:
                     record += value
                 else:
                     record += [value] * many  # one value, or None for all

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.answers.kit.parts import Show
 from evenbreak.answers.kit.wording import percent, some_of
 from evenbreak.ratings.scale import NAMES, SCALES, Scale
 
@@ -54,6 +55,16 @@ def decimals_of(scale: Scale) -> int:
     (1, 0)
     """
     return max(0, 2 - math.floor(math.log10(scale.points_per_doubling)))
+
+
+def points_on(scale: Scale, sign: str = "") -> Show:
+    """Return how a rating on a scale is shown; with the sign "+", how a change of it is.
+
+    >>> from evenbreak.ratings import scale_of
+    >>> points_on(scale_of("npl"))(81.26), points_on(scale_of("fargo"), "+")(12.4)
+    ('81.3', '+12')
+    """
+    return f"{{:{sign}.{decimals_of(scale)}f}}".format
 
 
 def game_chance(scale: Scale) -> str:

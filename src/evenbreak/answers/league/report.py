@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import column_of, columns_of, in_files
-from evenbreak.answers.kit.parts import Column, Table
+from evenbreak.answers.kit.columns import column_of, columns_of, frame_table
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name, fingerprints
-from evenbreak.answers.kit.scales import decimals_of, form_used_words, game_chance, like_scale_words
+from evenbreak.answers.kit.scales import form_used_words, game_chance, like_scale_words, points_on
 from evenbreak.answers.kit.wording import count_of, percent, race
 from evenbreak.answers.league.prior import level_words, prior_warnings
 from evenbreak.answers.league.sheet import MOST_ON_SHEET, NO_RACE, Sheet, count_groups, dates_of
@@ -61,9 +61,9 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
         ],
         details=[rating_model(sheet)],
         warnings=list(prior_warnings(sheet.file, sheet.ratings, sheet.choice)),
-        csv=Table("matchups", _columns(sheet.paired), rows_of(sheet.paired)),
+        csv=frame_table("matchups", sheet.paired),
         data={
-            "ratings": _records(sheet.rated),
+            "ratings": frame_table("", sheet.rated).to_dicts(),
             "summary": dict(rows_of(sheet.summary)),
             "left_out": [str(item) for item in items],
         },
@@ -91,35 +91,16 @@ def _race_table(sheet: Sheet) -> Table:
 
 
 def _ratings_table(sheet: Sheet) -> Table:
-    decimals = decimals_of(sheet.ratings.scale)
-
-    def points(value: float) -> str:
-        return f"{value:.{decimals}f}"
-
-    counts = ["games", "won", "lost"]
-    listed = sheet.listed
+    points, listed = points_on(sheet.ratings.scale), sheet.listed
+    keys = "player rating standard_error games won lost"
     if count_groups(sheet.ratings) > 1:
-        counts.append("component")
-    columns = [
-        *columns_of(
-            "place_number player rating standard_error",
-            show={"rating": points, "standard_error": points},
-        ),
-        *columns_of(" ".join(counts)),
-    ]
-    frame = listed[["player", "rating", "standard_error", *counts]]
+        keys += " component"
+    columns = columns_of(f"place_number {keys}", show={"rating": points, "standard_error": points})
+    frame = listed[keys.split()]
     rows = [(place + 1, *row) for place, row in zip(frame.index, rows_of(frame), strict=True)]
     more = len(sheet.rated) > len(listed)
     title = f"#: place among all {len(sheet.rated):,} players. " if more else ""
     return Table("", columns, rows, f"{title}Give or take: one standard error.")
-
-
-def _columns(frame: pd.DataFrame) -> list[Column]:
-    return in_files(frame.columns)
-
-
-def _records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    return Table("", _columns(frame), rows_of(frame)).to_dicts()
 
 
 NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player is on this sheet."

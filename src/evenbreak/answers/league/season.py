@@ -11,11 +11,10 @@ import pandas as pd
 
 from evenbreak import __version__
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import columns_of, in_files, quantities_of
+from evenbreak.answers.kit.columns import columns_of, frame_table, quantities_of
 from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.answers.league.season_tables import SeasonTables, weeks_with_players
-from evenbreak.files.csv_writer import rows_of
 from evenbreak.handicaps.ladders.comparison import NEAR
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.season import Season, Tally
@@ -65,8 +64,7 @@ def season_answer(
     rows = summary_rows(season, tally, tables, settings)
     summary = Table("summary", columns_of("quantity value -standard_error"), rows)
     data: dict[str, Any] = {name: value for name, value, _ in rows}
-    columns = in_files(tables.standings.columns)
-    data["standings"] = Table("", columns, rows_of(tables.standings)).to_dicts()
+    data["standings"] = frame_table("", tables.standings).to_dicts()
     data["standard_errors"] = {
         name: error for name, _, error in rows if error is not None and math.isfinite(error)
     }

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import column_of, columns_of, in_files
+from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.scales import decimals_of, like_scale_words
+from evenbreak.answers.kit.scales import like_scale_words, points_on
 from evenbreak.answers.kit.wording import percent, race
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces
@@ -111,14 +111,13 @@ def why_answer(
 
 def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
     a, b = names
-    decimals = decimals_of(scale)
-    first, second = now.ratings
-    text = f"{a} is rated {first:.{decimals}f} and {b} {second:.{decimals}f}"
+    points, (first, second) = points_on(scale), now.ratings
+    text = f"{a} is rated {points(first)} and {b} {points(second)}"
     if now.race is None or now.p_win is None or now.difference_error is None:
         return f"{text}. No chain of opponents links the two, so they cannot be compared."
     return (
-        f"{text}: {abs(first - second):.{decimals}f} points apart, give or take "
-        f"{now.difference_error:.{decimals}f}. Their fairest race is {race(now.race)}, and {a} "
+        f"{text}: {points(abs(first - second))} points apart, give or take "
+        f"{points(now.difference_error)}. Their fairest race is {race(now.race)}, and {a} "
         f"wins it {percent(now.p_win)} of the time."
     )
 
@@ -136,17 +135,11 @@ def _more_in_words(more: Sequence[OneMore], now: Standing) -> str:
 
 
 def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
-    decimals = decimals_of(ratings.scale)
-
-    def points(value: float) -> str:
-        return f"{value:.{decimals}f}"
-
-    columns = [
-        *columns_of(
-            "player rating standard_error", show={"rating": points, "standard_error": points}
-        ),
-        *columns_of("games won lost"),
-    ]
+    points = points_on(ratings.scale)
+    columns = columns_of(
+        "player rating standard_error games won lost",
+        show={"rating": points, "standard_error": points},
+    )
     rows = [
         (
             ratings.players[k],
@@ -161,11 +154,7 @@ def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
 
 def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
     """Return what each rating is made of."""
-    decimals = decimals_of(ratings.scale)
-
-    def points(value: float | None) -> str:
-        return "" if value is None else f"{value:.{decimals}f}"
-
+    points = points_on(ratings.scale)
     columns = columns_of(
         "player rating_source rating_alone standard_error weight",
         show={
@@ -187,19 +176,12 @@ def _more_table(
     more: Sequence[OneMore], now: Standing, names: tuple[str, str], scale: Scale
 ) -> Table:
     a, b = names
-    decimals = decimals_of(scale)
-
-    def over(name: str) -> str:
-        return "\n".join(name.split())
-
-    def change(value: float) -> str:
-        return f"{value:+.{decimals}f}"
-
+    change = points_on(scale, "+")
     columns = columns_of(
         "one_match change_a change_b fair_race wins_a",
         show={"change_a": change, "change_b": change},
-        a=over(a),
-        b=over(b),
+        a="\n".join(a.split()),
+        b="\n".join(b.split()),
     )
     rows = [
         (
@@ -216,20 +198,13 @@ def _more_table(
 
 
 def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) -> Table:
-    decimals = decimals_of(scale)
     own = [match for match in matches if match[0] == name]
     most = sorted(own, key=lambda match: -abs(match[-1]))[:MOST_LISTED]
     dated = any(match[1] for match in own)
-    columns = [
-        column_of("date" if dated else "-date"),
-        *columns_of(
-            "opponent opponent_rating result score worth",
-            show={
-                "opponent_rating": lambda value: f"{value:.{decimals}f}",
-                "worth": lambda value: f"{value:+.{decimals}f}",
-            },
-        ),
-    ]
+    columns = columns_of(
+        f"{'date' if dated else '-date'} opponent opponent_rating result score worth",
+        show={"opponent_rating": points_on(scale), "worth": points_on(scale, "+")},
+    )
     rows = [
         (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most
     ]

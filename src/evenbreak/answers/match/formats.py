@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
-from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import chance, count_of, listed, percent
 from evenbreak.answers.match.odds import TwoPlayers
@@ -61,10 +61,10 @@ def compare_answer(
     """
     names = [str(one.format) for one in compared]
     axis = "p1" if players.rack.break_matters else "p"
-    parts: list[Part] = [_advice(compared, players), _formats(compared, players, axis)]
+    formats = _formats(compared, players, axis)
+    parts: list[Part] = [_advice(compared, players), formats]
     if len(compared) > 1:
         parts.append(_turns(names, pairs, players, _stays(axis, hold)))
-    formats = Table("", in_files(_COLUMNS), [_format_row(one) for one in compared])
     if players.taken_as_right:
         parts.append(players.taken_as_right)
     return Answer(
@@ -74,12 +74,8 @@ def compare_answer(
         data={
             **players.named,
             "formats": [
-                {
-                    **dict(zip(_COLUMNS, _format_row(one), strict=True)),
-                    "format": name,
-                    "even": [_point(point) for point in one.even],
-                }
-                for name, one in zip(names, compared, strict=True)
+                {**row, "even": [_point(point) for point in one.even]}
+                for row, one in zip(formats.to_dicts(), compared, strict=True)
             ],
             "crossings": [
                 {
@@ -92,24 +88,6 @@ def compare_answer(
                 for (i, j), found in pairs.items()
             ],
         },
-        csv=formats,
-    )
-
-
-_COLUMNS = ("format", "p_win_a", "from_even", "mean_games", "games_p90", "even_p1", "even_places")
-
-
-def _format_row(one: Compared) -> tuple[Any, ...]:
-    text = str(one.format)
-    return (
-        # A bare 9:5 is a time of day to a spreadsheet.
-        f"race {text}" if text[0].isdigit() else text,
-        one.odds.p_win_1,
-        one.odds.p_win_1 - 0.5,
-        one.odds.mean_games,
-        one.odds.games_p90,
-        one.even[0].p1 if one.even else None,
-        len(one.even),
     )
 
 
@@ -118,16 +96,18 @@ def _point(point: Crossing) -> dict[str, float | None]:
 
 
 def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Table:
-    a = players.names[0]
-    columns = columns_of("format wins_a from_even mean_games games_p90 even", a=a, axis=axis)
-    rows = [
-        (
-            str(one.format),
-            *_format_row(one)[1:5],
-            listed([chance(point.p1) for point in one.even]) if one.even else "none",
-        )
-        for one in compared
-    ]
+    columns = columns_of(
+        "format wins_a from_even mean_games games_p90 even even_p1 even_places",
+        a=players.names[0],
+        axis=axis,
+    )
+    rows = []
+    for one in compared:
+        p, places = one.odds.p_win_1, [point.p1 for point in one.even]
+        length = (one.odds.mean_games, one.odds.games_p90)
+        even = listed(list(map(chance, places))) if places else "none"
+        first = places[0] if places else None
+        rows.append((str(one.format), p, p - 0.5, *length, even, first, len(places)))
     return Table("", columns, rows)
 
 

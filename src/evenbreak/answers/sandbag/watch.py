@@ -9,7 +9,7 @@ import numpy as np
 from evenbreak.answers.columns.shown import evidence
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, in_files
-from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of, listed, percent, race, some_of
 from evenbreak.league.sandbag_watch import PlayedNight, Watched
 from evenbreak.ratings.day_form import day_form
@@ -88,7 +88,15 @@ def sandbag_watch_answer(
         what may be wrong with what was given.
     """
     rows = watch_rows(watched, results)
-    players = Table("players", in_files(WatchRow._fields, cell=_yes), rows)
+    players = Table(
+        "players",
+        columns_of(
+            "player matches won e_value_now largest_e -p_value -e_any -e_established -flagged "
+            "alarm_match alarm_date -league_wide -event"
+        ),
+        rows,
+        most=max(SHOWN, sum(row.flagged for row in rows)),
+    )
     if not rows:
         data: dict[str, Any] = {"alpha": None, "honest": None, "tried_events": []}
         return Answer(source, ["No match was played."], warnings=warnings, data=data, csv=players)
@@ -98,7 +106,8 @@ def sandbag_watch_answer(
         f"{source}: {matches} of {count_of(len(rows), 'player')}",
         [
             " ".join([_who_is_flagged(rows), *_where(rows)]),
-            *_players(rows),
+            players,
+            *_more(len(rows) - (players.most or 0)),
             f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
             "1, rises with each result that is likelier from a sandbagger than from an honest "
             "player, and falls with the others. It is not a verdict: look at the player's matches "
@@ -116,7 +125,6 @@ def sandbag_watch_answer(
         ],
         warnings=warnings,
         data={"alpha": alpha, "honest": honest, "tried_events": _events(watched[0])},
-        csv=players,
     )
 
 
@@ -236,13 +244,9 @@ def _tried(one: Watched) -> Iterator[str]:
         )
 
 
-def _players(rows: Sequence[WatchRow]) -> Iterator[Part]:
-    shown = rows[: max(SHOWN, sum(row.flagged for row in rows))]
-    columns = columns_of("player matches won e_value_now largest_e alarm_match alarm_date")
-    names = [column.name for column in columns]
-    yield Table("", columns, [[getattr(row, str(name)) for name in names] for row in shown])
-    if len(rows) > len(shown):
-        yield f"{len(rows) - len(shown):,} more players have less evidence against them."
+def _more(players: int) -> Iterator[str]:
+    if players > 0:
+        yield f"{players:,} more players have less evidence against them."
 
 
 def sandbag_player_answer(
