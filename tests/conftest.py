@@ -5,7 +5,7 @@ import signal
 from collections import Counter
 
 import pytest
-from hypothesis import is_hypothesis_test, settings
+from hypothesis import settings
 
 from tiers import examples
 
@@ -30,7 +30,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("slow")
         if not isinstance(item, pytest.Function):
             continue
-        if hasattr(item.module, "tries") or is_hypothesis_test(item.obj):
+        if hasattr(item.module, "tries") or getattr(item.obj, "is_hypothesis_test", False):
             item.add_marker("drawn")
         if mark := item.get_closest_marker("slow_after"):
             test = (item.parent.nodeid if item.parent else "", item.originalname)
