@@ -104,7 +104,7 @@ class Counting:
 
     def tally(self, ended: Ended) -> Tally:
         """Return the tally of the chunk."""
-        known = None if ended.skill.shape[1] > 1 else self.season.fifths
+        fixed_fifths = None if ended.skill.shape[1] > 1 else self.season.fifths
         wins, games = self._across(ended.wins), ended.games
         start = self.season.players.rating[:, None].astype(np.int16)
         moved = self._across(ended.rating) - start
@@ -128,7 +128,7 @@ class Counting:
             gap_width=width,
             gaps=self._gaps(width),
             weeks=self.weeks,
-            fifths=self._fifths(ended, share, known),
+            fifths=self._fifths(ended, share, fixed_fifths),
         )
 
     def _across(self, rows: NDArray[Any]) -> NDArray[Any]:
@@ -148,19 +148,19 @@ class Counting:
         )
         played *= share
         pairs = (won, won), (won, played), (played, played), (gone, gone)
-        sums = [(one * two).sum(axis=1) for one, two in pairs]
-        sums += [self.replicas * one.sum(axis=1) for one in (won, gone)]
+        sums = [(left * right).sum(axis=1) for left, right in pairs]
+        sums += [self.replicas * left.sum(axis=1) for left in (won, gone)]
         return np.column_stack(sums)
 
-    def _fifths(self, ended: Ended, share: int, known: Any) -> Ints:
+    def _fifths(self, ended: Ended, share: int, fixed_fifths: Any) -> Ints:
         """Return matches and wins by batch and fifth of true skill at the start."""
         many = len(self.season.players)
-        found = np.empty((self.batches, FIFTHS, 2), dtype=np.int64)
+        sums = np.empty((self.batches, FIFTHS, 2), dtype=np.int64)
         for batch in range(self.batches):
             rows = slice(batch * many, (batch + 1) * many)
-            fifth = fifths_of(ended.skill[rows]) if known is None else known
-            found[batch] = _by_fifth(ended.wins[rows], ended.matches[rows], share, fifth)
-        return found
+            fifth = fifths_of(ended.skill[rows]) if fixed_fifths is None else fixed_fifths
+            sums[batch] = _by_fifth(ended.wins[rows], ended.matches[rows], share, fifth)
+        return sums
 
     def _gaps(self, width: int) -> Floats:
         look = self.look
@@ -197,12 +197,12 @@ def _add_up(tables: Ints, where: NDArray[Any], played: Any) -> None:
 
 def _squares(values: NDArray[Any]) -> Ints:
     """Return the sum of squares of each row."""
-    found = np.empty(len(values), dtype=np.int64)
+    squares = np.empty(len(values), dtype=np.int64)
     step = max(1, _BLOCK // values.shape[1])
     for start in range(0, len(values), step):
         some = values[start : start + step].astype(np.int64)
-        found[start : start + step] = np.sum(some * some, axis=1)
-    return found
+        squares[start : start + step] = np.sum(some * some, axis=1)
+    return squares
 
 
 def _by_player(values: NDArray[Any], most: int) -> Ints | None:
@@ -216,13 +216,13 @@ def _by_player(values: NDArray[Any], most: int) -> Ints | None:
 
 def _by_fifth(wins: NDArray[Any], matches: NDArray[Any], share: int, fifth: Ints) -> Ints:
     """Return matches and wins by fifth of true skill at the start."""
-    found = np.zeros((FIFTHS, 2), dtype=np.int64)
+    sums = np.zeros((FIFTHS, 2), dtype=np.int64)
     for column, values, times in ((0, matches, share), (1, wins, 1)):
         if fifth.shape[1] == 1:
             by_player = values.sum(axis=1, dtype=np.int64) * times
-            np.add.at(found[:, column], fifth[:, 0], by_player)
+            np.add.at(sums[:, column], fifth[:, 0], by_player)
         else:
             # A single column of matches stands for all replicas and counts in each of them.
             each = np.broadcast_to(values, fifth.shape).astype(np.int64)
-            np.add.at(found[:, column], fifth.ravel(), each.ravel())
-    return found
+            np.add.at(sums[:, column], fifth.ravel(), each.ravel())
+    return sums

@@ -116,7 +116,7 @@ def _cycles(
     # Where a dumped match takes each error, and where no match does.
     falls, here = dump.argmax(axis=0), np.arange(errors.size)
     played, matches = np.eye(errors.size), 0
-    found = []
+    cycles = []
     for down, many in sorted(counts, key=lambda count: count[1]):
         played, matches = np.linalg.matrix_power(step, many - matches) @ played, many
         low = here
@@ -130,8 +130,8 @@ def _cycles(
             held += float(law[last].sum()) / many
             law = step @ law
         gain = stake * many * (won - honest) - dumped_stake * down * honest
-        found.append(DumpCycle(down, many, first, won, gain / (down + many), held))
-    return found
+        cycles.append(DumpCycle(down, many, first, won, gain / (down + many), held))
+    return cycles
 
 
 def best_cycle(
@@ -170,10 +170,10 @@ def best_cycle(
     if not listed:
         raise InputError("lengths is empty; give the matches of a cycle, such as 10")
     counts = [(down, length - down) for length in set(listed) for down in range(length)]
-    found = _cycles(ladder, counts, stake, dumped_stake)
+    cycles = _cycles(ladder, counts, stake, dumped_stake)
     allowed = [
         cycle
-        for cycle in found
+        for cycle in cycles
         if not cycle.dumped
         or (cycle.held < MOST_HELD and (lowest is None or cycle.rating_error >= lowest))
     ]

@@ -102,20 +102,20 @@ class Lookup:
         """
         table = self.table
         moves = table.moves
-        found = np.empty((self.width, 2, 2), dtype=np.int16)
+        scores = np.empty((self.width, 2, 2), dtype=np.int16)
         for won in (0, 1):
             side = ((table.won == bool(won)) & (table.games[..., 0] >= 0))[..., None]
             most = np.max(moves, axis=1, where=side, initial=-(2**15))
             if (most != np.min(moves, axis=1, where=side, initial=2**15)).any():
                 return None
-            found[:, won] = most
-        return np.ascontiguousarray(found[..., 0]).ravel(), found[..., 1].ravel()
+            scores[:, won] = most
+        return np.ascontiguousarray(scores[..., 0]).ravel(), scores[..., 1].ravel()
 
     @cached_property
     def moves(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
         """Points of player 1 and of player 2, flat by (rating difference, final score)."""
-        one, two = np.moveaxis(self.table.moves.astype(np.int16), 2, 0)
-        return one.ravel(), two.ravel()
+        first, second = np.moveaxis(self.table.moves.astype(np.int16), 2, 0)
+        return first.ravel(), second.ravel()
 
     @cached_property
     def needs(self) -> tuple[NDArray[np.int8], NDArray[np.int8]]:
@@ -154,8 +154,8 @@ class Lookup:
     @cached_property
     def won_games(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Games of player 1 and of player 2, flat by (rating difference, final score)."""
-        one, two = np.moveaxis(self.table.games.astype(np.int32), 2, 0)
-        return one.ravel(), two.ravel()
+        first, second = np.moveaxis(self.table.games.astype(np.int32), 2, 0)
+        return first.ravel(), second.ravel()
 
     @cached_property
     def expected(self) -> Floats:

@@ -306,10 +306,10 @@ class _Chunk:
         look = self.lookup
         if look.steps is not None:
             up, down = look.steps
-            one = won * np.int16(up - down)
-            two = np.int16(up) - one
-            one += np.int16(down)
-            return one, two
+            of_a = won * np.int16(up - down)
+            of_b = np.int16(up) - of_a
+            of_a += np.int16(down)
+            return of_a, of_b
         place = apart.astype(np.intp) + look.widest
         if look.by_winner is not None:
             tables = look.by_winner

@@ -163,13 +163,13 @@ class LeaguePlayers:
         return np.asarray(stays & (self.joins <= week))
 
 
-def _column(given: Any, name: str, many: int) -> NDArray[Any]:
+def _column(values: Any, name: str, many: int) -> NDArray[Any]:
     whole, low, high = _COLUMNS[name]
     wanted = "whole numbers " if whole else "numbers "
     wanted += f"from {low} to {high}" if high < math.inf else f"of {low} or more"
-    numbers = floats(given, name, low=low, high=high, wanted=wanted)
+    numbers = floats(values, name, low=low, high=high, wanted=wanted)
     if whole:
-        whole_numbers(given, name, wanted=wanted)
+        whole_numbers(values, name, wanted=wanted)
     if numbers.shape not in ((), (many,)):
         raise InputError(
             "{name} has the shape {numbers_shape}; give one value for each of {many} players",

@@ -132,12 +132,12 @@ class SandbagEvidence:
 
     def log_e(self, honest: str) -> Floats:
         """Return log e against honest players of a kind of `HONEST`, shape (players,)."""
-        other = np.log(self.other.sum(axis=(1, 2, 3))) + self._log["other"]
+        sandbagger = np.log(self.other.sum(axis=(1, 2, 3))) + self._log["other"]
         if honest == "any":
             return np.asarray(
-                other - np.log(self.drifting.max(axis=(1, 2))) - self._log["drifting"]
+                sandbagger - np.log(self.drifting.max(axis=(1, 2))) - self._log["drifting"]
             )
-        return np.asarray(other - np.log(self.steady.sum(axis=1)) - self._log["steady"])
+        return np.asarray(sandbagger - np.log(self.steady.sum(axis=1)) - self._log["steady"])
 
 
 def _ahead(prior: Floats, points: int) -> Floats:

@@ -177,7 +177,7 @@ def sandbagging(
             widest=-ladder.widest,
         )
     p_honest = honest @ wins
-    p_win = np.stack([_laws(step, one, many) @ wins for one in after])
+    p_win = np.stack([_laws(step, after_dumps, many) @ wins for after_dumps in after])
     extra = p_win.sum(axis=1) - [p_honest[k : k + many].sum() for k in range(most + 1)]
     away = np.append(0.0, np.cumsum(p_honest[:most]))
     row = after @ wins**streak

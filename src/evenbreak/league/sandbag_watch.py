@@ -183,19 +183,19 @@ def watch(
         for match in night.changes.matches:
             row = int(night.rows[match.row])
             sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
-            for player, other, turn in sides:
+            for player, opponent, turn in sides:
                 start.setdefault(player, units(float(rating[player]), system.scale))
                 rows.setdefault(player, []).append(row)
                 results.setdefault(player, []).append(
                     Result(
-                        units(float(rating[other]), system.scale),
+                        units(float(rating[opponent]), system.scale),
                         _turned(match.games, turn),
                         _turned(match.race, turn),
                         turn == 1,
                     )
                 )
     likelihood = Likelihood(system.scale, error, day_sd)
-    found = []
+    watched = []
     for player in sorted(results, key=lambda place: names[place]):
         try:
             log_e = {
@@ -209,10 +209,10 @@ def watch(
         of_any, established = np.logaddexp.reduce(list(log_e.values())) - math.log(len(log_e))
         kind = HONEST.index(honest)
         by_event = {name: pair[kind] for name, pair in log_e.items()} if tried else {}
-        found.append(
+        watched.append(
             Watched(names[player], place, won, of_any, established, honest, alpha, by_event)
         )
-    return found
+    return watched
 
 
 def _if_dumped(

@@ -161,8 +161,8 @@ class FixedSchedule:
     b: Ints = field(repr=False)
 
     def __init__(self, week: ArrayLike, a: ArrayLike, b: ArrayLike) -> None:
-        for name, given, least in (("week", week, 1), ("a", a, 0), ("b", b, 0)):
-            object.__setattr__(self, name, _whole_column(given, name, least))
+        for name, column, least in (("week", week, 1), ("a", a, 0), ("b", b, 0)):
+            object.__setattr__(self, name, _whole_column(column, name, least))
         if not len(self.week) == len(self.a) == len(self.b):
             raise InputError(
                 "week, a and b have {n_week}, {n_a} and {n_b} values; give one of each for "
@@ -234,15 +234,15 @@ def rounds_of(a: NDArray[Any], b: NDArray[Any]) -> list[Round]:
     """
     free: dict[int, int] = {}
     place = np.zeros(len(a), dtype=np.intp)
-    for row, (one, other) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
-        place[row] = max(free.get(one, 0), free.get(other, 0))
-        free[one] = free[other] = int(place[row]) + 1
+    for row, (player, opponent) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
+        place[row] = max(free.get(player, 0), free.get(opponent, 0))
+        free[player] = free[opponent] = int(place[row]) + 1
     rounds = [np.flatnonzero(place == k) for k in range(int(place.max(initial=-1)) + 1)]
     return [(a[rows].astype(np.intp), b[rows].astype(np.intp)) for rows in rounds]
 
 
-def _whole_column(given: ArrayLike, name: str, least: int) -> Ints:
-    numbers = whole_numbers(given, name, at_least=least)
+def _whole_column(values: ArrayLike, name: str, least: int) -> Ints:
+    numbers = whole_numbers(values, name, at_least=least)
     if numbers.ndim != 1:
         raise InputError(
             "{name} has shape {numbers_shape}; give one whole number for each match",

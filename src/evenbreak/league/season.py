@@ -125,8 +125,8 @@ class Season:
 
     def __reduce__(self) -> Any:
         # Tables are not sent: they are larger than what they are made from.
-        given = (self.players, self.system, self.chart, self.schedule, self.weeks, self.play)
-        return Season, given
+        arguments = (self.players, self.system, self.chart, self.schedule, self.weeks, self.play)
+        return Season, arguments
 
 
 def _check_schedule(schedule: Any, players: int) -> None:
@@ -307,10 +307,10 @@ class Tally:
                 squares = ww - 2 * won * wn + won**2 * (n @ n)
                 squares_moved = rr - 2 * moved * rn + moved**2 * (n @ n)
                 squares_rate = ww - 2 * rate * wm + rate**2 * mm
-            found = (squares, seasons), (squares_rate, self.matches), (squares_moved, seasons)
+            sums = (squares, seasons), (squares_rate, self.matches), (squares_moved, seasons)
             one, two, three = (
                 np.sqrt(batches / (batches - 1) * np.maximum(off, 0.0)) / total
-                for off, total in found
+                for off, total in sums
             )
         return one, two, three
 
@@ -338,8 +338,8 @@ _IN_BATCHES = ("replicas", "gaps", "weeks", "fifths")
 _WIDENED = ("wins_counts",)
 
 
-def _added(one: Tally, other: Tally, name: str) -> Any:
-    mine, theirs = getattr(one, name), getattr(other, name)
+def _added(first: Tally, second: Tally, name: str) -> Any:
+    mine, theirs = getattr(first, name), getattr(second, name)
     if name == "gap_width":
         return mine
     if mine is None or theirs is None:

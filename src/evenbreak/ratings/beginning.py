@@ -176,7 +176,9 @@ class Beginning:
         information = precision - prior
         # An error as large as the prior's says nothing.
         said = information > 1e-9 * np.maximum(precision, 1.0)
-        return Known(*(self._of(players, np.where(said, one, 0.0)) for one in (information, pull)))
+        return Known(
+            *(self._of(players, np.where(said, figure, 0.0)) for figure in (information, pull))
+        )
 
     def kept(self, half_life: float | None, results: Results, day: np.datetime64 | None) -> float:
         """Return the part of their weight that the ratings still have on a day.
@@ -272,7 +274,7 @@ class PriorMeans:
         """Return the same prior, with earlier results reduced to a part of their weight."""
         if self.known is None or keep == 1.0:
             return self
-        return replace(self, known=Known(*(keep * one for one in self.known)))
+        return replace(self, known=Known(*(keep * figure for figure in self.known)))
 
     @property
     def information(self) -> Floats:

@@ -85,8 +85,8 @@ class Curvature:
     @cached_property
     def _diagonal(self) -> Floats:
         low, high = (np.bincount(ends, self.weight, self.size) for ends in (self.low, self.high))
-        known = 0.0 if self.means is None else self.means.information
-        return np.asarray(low + high + self.precision + known)
+        beforehand = 0.0 if self.means is None else self.means.information
+        return np.asarray(low + high + self.precision + beforehand)
 
     @cached_property
     def _across(self) -> Floats:
@@ -229,9 +229,9 @@ class Curvature:
         scale = 1.0 / np.sqrt(diagonal)
         upper = self._upper(self.weight * scale[self.low] * scale[self.high])
         lower = upper.T
-        own, other = scale[: self.size], scale[self.size :]
-        across = self._across * own[:, None] * other
-        levels = self._levels * other[:, None] * other
+        of_players, of_levels = scale[: self.size], scale[self.size :]
+        across = self._across * of_players[:, None] * of_levels
+        levels = self._levels * of_levels[:, None] * of_levels
 
         def times(v: Floats) -> Floats:
             skill, level = v[: self.size], v[self.size :]

@@ -69,10 +69,10 @@ def form_variance(
         log = won[:, None] * log_expit(x) + lost[:, None] * log_expit(-x) + np.log(weights)
         return np.asarray(logsumexp(log, axis=1))
 
-    found = minimize_scalar(
+    likeliest = minimize_scalar(
         lambda v: -float(log_likelihood(v).sum()), bounds=(0.0, LARGEST), method="bounded"
     )
-    v = float(found.x) if found.x > _STEP else 0.0
+    v = float(likeliest.x) if likeliest.x > _STEP else 0.0
     here, above, below = (log_likelihood(max(v, _STEP) + step) for step in (0.0, _STEP, -_STEP))
     bend = float((2.0 * here - above - below).sum()) / _STEP**2
     _, cluster = np.unique(cluster, return_inverse=True)
@@ -133,8 +133,8 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
     p = expit(difference)
     left = 1.0 - np.minimum(variance * weight * (won + lost) * p * (1.0 - p), 0.99)
     without = difference - variance * weight * (won - (won + lost) * p) / left
-    found = form_variance(without, np.sqrt(variance / left), won, lost, _clusters(scored))
-    return DayForm(found, len(scored))
+    varies = form_variance(without, np.sqrt(variance / left), won, lost, _clusters(scored))
+    return DayForm(varies, len(scored))
 
 
 def _clusters(results: Results) -> NDArray[np.int64]:

@@ -135,15 +135,15 @@ def fit(
         mode = find_mode(pairs, prior_sd**-2)
     else:
         breaks = break_advantage is not None
-        known = known_advantage(break_advantage, scale) if breaks else 0.0
+        known_break = known_advantage(break_advantage, scale) if breaks else 0.0
         weights = weights_of(scored, won_only, half_life, day)
         played = terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
         break_games = terms.games_with_breaker if breaks else 0.0
-        break_precision = BREAK_SD**-2 if known is None and break_games else None
+        break_precision = BREAK_SD**-2 if known_break is None and break_games else None
         mode = find_mixed_mode(
             terms,
             prior_sd**-2,
-            advantage=known or 0.0,
+            advantage=known_break or 0.0,
             break_precision=break_precision,
             means=means,
         )
@@ -262,12 +262,12 @@ def _refuse_nonsense(scored: Results, won_only: Results) -> None:
             )
 
 
-def _components(graph: sparse.csr_array, known: Floats | None) -> Ints:
+def _components(graph: sparse.csr_array, information: Floats | None) -> Ints:
     """Return the component of each player, numbered from 1, the largest first.
 
     Players about whom something is `known` are linked by the ratings that they bring along.
     """
-    linked = np.flatnonzero(known) if known is not None else np.zeros(0, dtype=np.int64)
+    linked = np.flatnonzero(information) if information is not None else np.zeros(0, dtype=np.int64)
     if len(linked) > 1:
         ends = linked[:-1], linked[1:]
         chain = sparse.csr_array((np.ones(len(linked) - 1), ends), shape=graph.shape)

@@ -320,11 +320,11 @@ class Ratings:
         covariance = contrast @ self._curvature.level_covariance @ contrast.T
         above = self.scale.points_per_log_odds * contrast @ self._level
         error = self.scale.points_per_log_odds * np.sqrt(np.diagonal(covariance))
-        found = [
+        groups = [
             Group(kind, name, float(points), float(sd))
             for (kind, name), points, sd in zip(self.prior_means.names, above, error, strict=True)
         ]
-        return tuple(sorted(found, key=lambda one: (one.kind, -one.above, one.name)))
+        return tuple(sorted(groups, key=lambda group: (group.kind, -group.above, group.name)))
 
     @property
     def break_error(self) -> float | None:
@@ -477,7 +477,7 @@ def rating_sources(ratings: Ratings, player: int) -> list[RatingSource]:
     """
     means = ratings.prior_means
     unit = ratings.scale.points_per_log_odds
-    rating, error = (float(one[player]) for one in (ratings.rating, ratings.standard_error))
+    rating, error = (float(column[player]) for column in (ratings.rating, ratings.standard_error))
     prior = 1.0 / (ratings.prior_sd**2 + float(means.design[player] ** 2 @ means.level_sd**2))
     said = {"prior": (prior, float(ratings.expected[player]))}
     if means.known is not None and (brought := float(means.information[player])) > 0.0:

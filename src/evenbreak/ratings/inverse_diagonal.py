@@ -111,10 +111,10 @@ def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) ->
     """Return the diagonal of the inverse, parents before children."""
     diagonal = np.zeros(sum(len(front.pivots) for front in fronts))
     position = np.zeros(len(diagonal), dtype=np.intp)
-    known: dict[int, Floats] = {}
+    outer_parts: dict[int, Floats] = {}
     for number in range(len(fronts) - 1, -1, -1):
         front, root, link = fronts[number], roots[number], links[number]
-        outer = known.pop(number, _NOTHING)
+        outer = outer_parts.pop(number, _NOTHING)
         cross = -outer @ link
         # Most fronts have no children: their inverse is not made for its diagonal alone.
         diagonal[front.pivots] = _sums(root, root) - _sums(link, cross)
@@ -126,7 +126,7 @@ def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) ->
         position[front.rows] = len(front.pivots) + np.arange(len(front.rows))
         for child in front.children:
             at = position[fronts[child].rows]
-            known[child] = whole[np.ix_(at, at)]
+            outer_parts[child] = whole[np.ix_(at, at)]
     return diagonal
 
 
@@ -302,8 +302,8 @@ def _fills_in(matrix: sparse.csc_array) -> bool:
     for row in range(0, size, max(size // 16, 1)):
         near = matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]]
         seen = np.zeros(size, dtype=bool)
-        for other in near:
-            seen[matrix.indices[matrix.indptr[other] : matrix.indptr[other + 1]]] = True
+        for neighbor in near:
+            seen[matrix.indices[matrix.indptr[neighbor] : matrix.indptr[neighbor + 1]]] = True
         reached.append(int(seen.sum()))
     return bool(np.median(reached) > size / 6)
 

@@ -82,15 +82,15 @@ class Levels:
     beginning: Beginning | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        for one in fields(self):
-            if one.name == "beginning":
+        for size in fields(self):
+            if size.name == "beginning":
                 continue
-            low = 0.0 if one.name.endswith("_sd") else -100.0
-            number(getattr(self, one.name), one.name, low=low, high=100.0)
+            low = 0.0 if size.name.endswith("_sd") else -100.0
+            number(getattr(self, size.name), size.name, low=low, high=100.0)
 
     def __bool__(self) -> bool:
         """Return whether anything is known."""
-        return any(getattr(self, one.name) not in (0.0, None) for one in fields(self))
+        return any(getattr(self, size.name) not in (0.0, None) for size in fields(self))
 
 
 def begun(beginning: Beginning | None) -> Levels:
@@ -181,7 +181,8 @@ class Knowledge:
         """Return the means of the players' priors, 0 on average over those who have played."""
         design = [groups.design for groups in self._groups]
         sds = [
-            np.full(len(one.names), getattr(self._levels, f"{one.kind}_sd")) for one in self._groups
+            np.full(len(group.names), getattr(self._levels, f"{group.kind}_sd"))
+            for group in self._groups
         ]
         mean = -self._levels.newcomers * newness(self._behind)
         if self._levels.joined:
@@ -192,7 +193,7 @@ class Knowledge:
             mean,
             np.hstack([np.zeros((self._players, 0)), *design]),
             np.concatenate([np.zeros(0), *sds]),
-            tuple((one.kind, name) for one in self._groups for name in one.names),
+            tuple((group.kind, name) for group in self._groups for name in group.names),
             self._known,
         )
         return whole.centred((self._behind > 0).astype(float))
@@ -233,7 +234,7 @@ def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[
         "newcomers": True,
         "brought_sd": beginning is not None and beginning.unknown_error,
     }
-    return tuple(name for name, one in says.items() if one)
+    return tuple(name for name, says_it in says.items() if says_it)
 
 
 def has_groups(results: Results, kind: str) -> bool:
@@ -262,11 +263,11 @@ def means_of(results: Results, levels: Levels, stated: StatedStrength | None = N
     >>> means_of(season, Levels(newcomers=0.6)).mean.round(3)
     array([ 0. ,  0. , -0.4])
     """
-    known = Knowledge(results, levels, stated)
+    knowledge = Knowledge(results, levels, stated)
     rows = slice(None)
-    known.see(rows)
-    known.play(rows)
-    return known.means()
+    knowledge.see(rows)
+    knowledge.play(rows)
+    return knowledge.means()
 
 
 RIDGE = 0.01

@@ -172,9 +172,9 @@ def likelihood_terms(
     own_breaks, own_break_weight = BreakWinsTerms.of([]), np.zeros(0)
     if breaks:
         won, lost, pattern, own_breaks = count_broken(scored)
-        known = pattern >= 0
+        with_breaker = pattern >= 0
         own_break_weight = np.bincount(
-            pattern[known], weights[0][known], len(own_breaks.value)
+            pattern[with_breaker], weights[0][with_breaker], len(own_breaks.value)
         ).astype(np.float64)
     turned = scored.player_a > scored.player_b
     low_won, low_lost = np.where(turned, lost, won), np.where(turned, won, lost)

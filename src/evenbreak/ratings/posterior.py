@@ -223,16 +223,16 @@ def find_mixed_mode(
         if the gradient does not come down to that, or to rounding.
     """
     players = terms.players
-    known = PriorMeans.none(players) if means is None else means
+    beforehand = PriorMeans.none(players) if means is None else means
 
     def cost(point: Floats) -> float:
         skill, level, advantage = point[:players], point[players:-1], float(point[-1])
         prior = 0.5 * (break_precision or 0.0) * advantage**2
-        prior -= known.log_density(skill, level, precision)
+        prior -= beforehand.log_density(skill, level, precision)
         return prior - terms.log_likelihood(skill, advantage)
 
-    skill = known.mean if start is None else start
-    begin = np.concatenate([skill, np.zeros(len(known.level_sd)), [advantage]])
+    skill = beforehand.mean if start is None else start
+    begin = np.concatenate([skill, np.zeros(len(beforehand.level_sd)), [advantage]])
     # Games alone need no search for the length of a step.
     games_alone = not len(terms.race_pair) and break_precision is None
     value = 0.0 if games_alone else cost(begin)
@@ -240,7 +240,7 @@ def find_mixed_mode(
     def gradient_at(point: Floats) -> tuple[Floats, Callable[[], Floats]]:
         skill, level, advantage = point[:players], point[players:-1], float(point[-1])
         pull, slope = terms.derivatives(skill, advantage)
-        of_skill, of_level = known.slopes(skill, level, precision)
+        of_skill, of_level = beforehand.slopes(skill, level, precision)
         pull = np.append(pull + of_skill, of_level)
         slope = slope + break_precision * advantage if break_precision is not None else 0.0
         whole = np.append(pull, slope)
@@ -262,7 +262,7 @@ def find_mixed_mode(
 
         return whole, step
 
-    known_best = float(known.information.max(initial=0.0))
+    known_best = float(beforehand.information.max(initial=0.0))
     most = max(float(terms.race_m.max(initial=0)), terms.amount, known_best)
     return find_zero(begin, gradient_at, tolerance(precision, most, gradient))
 
@@ -363,11 +363,13 @@ class _Season:
         self._own_break_weight = np.array([way.terms.own_break_weight for way in ways])
         self._estimated = np.array([way.break_precision is not None for way in ways])
         self._break_precision = np.array([way.break_precision or 0.0 for way in ways])
-        known = [way.means or PriorMeans.none(self._players) for way in ways]
-        priors = [_prior_of(one, way.precision) for one, way in zip(known, ways, strict=True)]
+        beforehand = [way.means or PriorMeans.none(self._players) for way in ways]
+        priors = [
+            _prior_of(means, way.precision) for means, way in zip(beforehand, ways, strict=True)
+        ]
         self.mean = np.array([mean for mean, _ in priors])
         self._precision = np.array([precision for _, precision in priors])
-        brought = max(float(one.information.max(initial=0.0)) for one in known)
+        brought = max(float(means.information.max(initial=0.0)) for means in beforehand)
         most = max(float(terms.race_m.max(initial=0)), terms.amount, brought)
         self.enough = np.array([tolerance(way.precision, most, GRADIENT) for way in ways])
         many = len(terms.low)
@@ -403,12 +405,12 @@ class _Season:
         """Return the gradients, and the Hessians."""
         games, races = self._differences(point)
         played, p = self._won + self._lost, expit(games)
-        found = race_slopes(races, self._terms.race_m, self._terms.race_n)
+        of_race = race_slopes(races, self._terms.race_m, self._terms.race_n)
         miss = played * p - self._won
-        slope = -self._race_weight * self._terms.race_side * found.slope
+        slope = -self._race_weight * self._terms.race_side * of_race.slope
         pull = np.hstack([miss, slope]) @ self._to_pairs
         of_games = played * p * (1.0 - p)
-        bend = np.hstack([of_games, -self._race_weight * found.curvature]) @ self._to_pairs
+        bend = np.hstack([of_games, -self._race_weight * of_race.curvature]) @ self._to_pairs
         n = self._players
         gradient, curvature = np.zeros((len(point), n + 1)), np.zeros((len(point), n + 1, n + 1))
         gradient[:, :n] = pull @ self._ends + self._pull(point)
@@ -446,11 +448,13 @@ def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
 
     What earlier results say is part of it: it is normal in the skills, too.
     """
-    one = np.eye(len(means.mean))
-    prior = precision * one
+    identity = np.eye(len(means.mean))
+    prior = precision * identity
     if len(means.level_sd):
         spread = means.design * means.level_sd
-        prior = np.asarray(np.linalg.inv(one / precision + spread @ spread.T), dtype=np.float64)
+        prior = np.asarray(
+            np.linalg.inv(identity / precision + spread @ spread.T), dtype=np.float64
+        )
     if means.known is None:
         return means.mean, prior
     both = prior + np.diag(means.known.information)

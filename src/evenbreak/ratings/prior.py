@@ -96,7 +96,7 @@ class Evidence(NamedTuple):
     @property
     def gain(self) -> Estimate:
         """What the best of the sizes tried gains."""
-        return max(self.gains, key=lambda one: one.value)
+        return max(self.gains, key=lambda gain: gain.value)
 
 
 class PriorChoice(NamedTuple):
@@ -214,17 +214,17 @@ def best_prior(
         if name == "half_life" and way != chosen_for:
             # Under a prior that is too wide, old games would seem to count too much.
             choice, chosen_for = search.width(tried, way)._replace(learnt=True), way
-        found = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd})
-        evidence.append(found)
-        if found.used:
-            way = _with(way, name, found.value)
-    if any(found.used for found in evidence):
+        tested = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd})
+        evidence.append(tested)
+        if tested.used:
+            way = _with(way, name, tested.value)
+    if any(tested.used for tested in evidence):
         if way != chosen_for:
             choice = search.width(tried, way)._replace(learnt=True)
         best = {**way, "prior_sd": choice.prior_sd}
-        evidence = [search.sharpened(found, best) for found in evidence]
-        for found in evidence:
-            way = _with(way, found.of, found.value) if found.used else way
+        evidence = [search.sharpened(tested, best) for tested in evidence]
+        for tested in evidence:
+            way = _with(way, tested.of, tested.value) if tested.used else way
     return choice._replace(
         levels=way["levels"], half_life=way["half_life"], evidence=tuple(evidence)
     )
@@ -251,70 +251,70 @@ class _Search:
         def progress(done: int, stretches: int) -> None:
             self._progress(100 * self._done + 100 * done // stretches, 100 * steps)
 
-        found = self._season.losses(ways, progress=progress)
+        losses = self._season.losses(ways, progress=progress)
         self._done += 1
-        return found
+        return losses
 
     def width(self, tried: Floats, way: Mapping[str, Any]) -> PriorChoice:
         """Return the width that predicts best, rating in some way."""
-        found = self._losses([{**way, "prior_sd": width} for width in tried.tolist()])
-        total = found.losses.sum(0)
+        of_width = self._losses([{**way, "prior_sd": width} for width in tried.tolist()])
+        total = of_width.losses.sum(0)
         good = tried[total <= total.min() + AS_GOOD]
-        predicted = int(found.predicted.sum())
+        predicted = int(of_width.predicted.sum())
         learnt = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
         best = total if learnt else _from_default(tried)
         return PriorChoice(
             float(tried[best.argmin()]),
             tuple(tried.tolist()),
-            tuple(found.means.tolist()),
+            tuple(of_width.means.tolist()),
             predicted,
             float(good[0]),
             float(good[-1]),
             learnt,
-            _as_it_went(found, tried),
+            _as_it_went(of_width, tried),
             half_life=way["half_life"],
         )
 
     def add(self, name: str, sizes: Sequence[float], way: Mapping[str, Any]) -> Evidence:
         """Return what it gains to let one more thing count."""
-        found = self._losses([way, *(_with(way, name, size) for size in sizes)])
-        best = sizes[int(found.means[1:].argmin())]
-        return Evidence(name, tuple(sizes), gains_over(found), is_clear(found), best)
+        of_sizes = self._losses([way, *(_with(way, name, size) for size in sizes)])
+        best = sizes[int(of_sizes.means[1:].argmin())]
+        return Evidence(name, tuple(sizes), gains_over(of_sizes), is_clear(of_sizes), best)
 
-    def sharpened(self, found: Evidence, way: Mapping[str, Any]) -> Evidence:
+    def sharpened(self, coarse: Evidence, way: Mapping[str, Any]) -> Evidence:
         """Return the same with the best size between those tried, and its standard error.
 
         One step of Newton's method from the best of them; the error is the sandwich's, stretches
         being independent of each other.
         """
-        if not found.used or found.of not in ("newcomers", "joined", "race"):
-            return found
-        sizes = found.value + np.array([-STEP, 0.0, STEP])
-        losses = self._losses([_with(way, found.of, size) for size in sizes.tolist()]).losses
+        if not coarse.used or coarse.of not in ("newcomers", "joined", "race"):
+            return coarse
+        sizes = coarse.value + np.array([-STEP, 0.0, STEP])
+        losses = self._losses([_with(way, coarse.of, size) for size in sizes.tolist()]).losses
         slope = (losses[:, 2] - losses[:, 0]) / (2.0 * STEP)
         bend = float((losses[:, 0] - 2.0 * losses[:, 1] + losses[:, 2]).sum()) / STEP**2
         if bend <= 0.0:
-            return found
+            return coarse
         shift = -float(slope.sum()) / bend
         error = float(np.sqrt(((slope - slope.mean()) ** 2).sum())) / bend
-        if error > max(abs(found.value), STEP):  # the losses are nearly straight: nothing to see
-            return found
-        apart = max(np.diff(found.tried).max(), 4.0 * STEP)
-        value = found.value + float(np.clip(shift, -apart, apart))
-        return found._replace(value=value, standard_error=error)
+        if error > max(abs(coarse.value), STEP):  # the losses are nearly straight: nothing to see
+            return coarse
+        apart = max(np.diff(coarse.tried).max(), 4.0 * STEP)
+        value = coarse.value + float(np.clip(shift, -apart, apart))
+        return coarse._replace(value=value, standard_error=error)
 
 
 def _from_default(widths: Floats) -> Floats:
     return np.abs(np.log(widths / PRIOR_SD))
 
 
-def _as_it_went(found: StretchLosses, tried: Floats) -> float:
+def _as_it_went(of_width: StretchLosses, tried: Floats) -> float:
     """Return the log-loss where each stretch has the width that did best before it."""
-    before = np.cumsum(found.losses, axis=0) - found.losses
+    before = np.cumsum(of_width.losses, axis=0) - of_width.losses
     # Before the first stretch nothing is known: then the width nearest to the default is used.
     before[0] = _from_default(tried)
-    chosen = found.losses[np.arange(len(before)), before.argmin(1)]
-    return float(chosen.sum() / found.predicted.sum())
+    chosen = of_width.losses[np.arange(len(before)), before.argmin(1)]
+    return float(chosen.sum() / of_width.predicted.sum())
 
 
 FEWEST_STRETCHES = 10
@@ -327,21 +327,21 @@ SEED = 1
 """Of the bootstrap, so that the same file always has the same answer."""
 
 
-def gains_over(found: StretchLosses) -> tuple[Estimate, ...]:
+def gains_over(of_ways: StretchLosses) -> tuple[Estimate, ...]:
     """Return how much log-loss a game each way but the first saves over the first.
 
     All ways predict the same stretches, so the intervals are those of the differences, the
     stretches resampled.
     """
-    stretches = np.arange(len(found.losses))
+    stretches = np.arange(len(of_ways.losses))
     drawn = _samples(len(stretches))
     return tuple(
-        ratio_over(saved, found.predicted, stretches, drawn)
-        for saved in (found.losses[:, :1] - found.losses[:, 1:]).T
+        ratio_over(saved, of_ways.predicted, stretches, drawn)
+        for saved in (of_ways.losses[:, :1] - of_ways.losses[:, 1:]).T
     )
 
 
-def is_clear(found: StretchLosses) -> bool:
+def is_clear(of_ways: StretchLosses) -> bool:
     """Return whether some way but the first clearly predicts better than the first.
 
     Either the gain of one is above 0 with 99% confidence, stretches being resampled; or the mean
@@ -352,13 +352,13 @@ def is_clear(found: StretchLosses) -> bool:
     >>> is_clear(few)
     False
     """
-    if len(found.losses) < FEWEST_STRETCHES:
+    if len(of_ways.losses) < FEWEST_STRETCHES:
         return False
-    gains = gains_over(found)
-    saved = found.losses.sum(0)[0] - found.losses.sum(0)[1:]
+    gains = gains_over(of_ways)
+    saved = of_ways.losses.sum(0)[0] - of_ways.losses.sum(0)[1:]
     score = float(logsumexp(saved)) - math.log(len(saved))
-    best = max(gains, key=lambda one: one.value)
-    return any(_errors(one) > 2.576 for one in gains) or (
+    best = max(gains, key=lambda gain: gain.value)
+    return any(_errors(gain) > 2.576 for gain in gains) or (
         score >= math.log(EVIDENCE) and _errors(best) > 1.282
     )
 
@@ -397,7 +397,7 @@ def half_lives_for(results: Results) -> tuple[float, ...]:
     """Return the half-lives to try: those up to a year, and those that the file is longer than."""
     dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
     days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
-    return tuple(one for one in HALF_LIVES if one <= max(days, 365.0))
+    return tuple(half_life for half_life in HALF_LIVES if half_life <= max(days, 365.0))
 
 
 def half_life_gains(
@@ -424,7 +424,7 @@ def half_life_gains(
     tried = half_lives_for(results) if half_lives is None else half_lives
     how = {"prior_sd": prior_sd, "levels": levels}
     ways = [{**how, "half_life": days} for days in (None, *tried)]
-    found = stretch_losses(results, ways, progress=progress)
-    if len(found.losses) < FEWEST_STRETCHES:
+    of_ways = stretch_losses(results, ways, progress=progress)
+    if len(of_ways.losses) < FEWEST_STRETCHES:
         return ()
-    return tuple(map(HalfLifeGain, tried, gains_over(found)))
+    return tuple(map(HalfLifeGain, tried, gains_over(of_ways)))

@@ -135,10 +135,10 @@ class Results:
         object.__setattr__(self, "players", names(self.players, "players"))
         rows = len(self.player_a)
         for name, kind in _TYPES.items():
-            given = getattr(self, name)
-            if given is None:
+            stated = getattr(self, name)
+            if stated is None:
                 continue
-            values = column(given, name, rows, "rows", kind)
+            values = column(stated, name, rows, "rows", kind)
             object.__setattr__(self, name, values)
             limit = len(self.players) if name.startswith("player_") else _CODES.get(name)
             if limit is not None and rows and not (0 <= values.min() <= values.max() < limit):

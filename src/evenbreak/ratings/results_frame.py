@@ -44,30 +44,30 @@ class FrameReader:
 
     def _found(self, frame: pd.DataFrame) -> dict[str, list[Any]]:
         """Return the cells of each known column; None for empty cells."""
-        known = {letters(name): name for name in COLUMNS}
-        found: dict[str, list[Any]] = {}
+        spellings = {letters(name): name for name in COLUMNS}
+        cells_of: dict[str, list[Any]] = {}
         unused = []
         for place, title in enumerate(frame.columns):
-            name = known.get(letters(str(title)))
+            name = spellings.get(letters(str(title)))
             if name is None:
                 unused.append(str(title))
-            elif name in found:
+            elif name in cells_of:
                 self.problems.append(f"two columns mean {name}; drop one")
             else:
                 cells, empty = frame.iloc[:, place], frame.iloc[:, place].isna()
-                found[name] = [
+                cells_of[name] = [
                     None if gap or (isinstance(cell, str) and not cell.strip()) else cell
                     for cell, gap in zip(cells.tolist(), empty.tolist(), strict=True)
                 ]
         if unused:
             warnings.warn(f"columns not used: {', '.join(unused)}", stacklevel=4)
-        missing = [name for name in (*NAMES, *SCORES) if name not in found]
+        missing = [name for name in (*NAMES, *SCORES) if name not in cells_of]
         if missing:
             titles = ", ".join(map(repr, map(str, frame.columns)))
             self.problems.append(
                 f"there is no column {' or '.join(missing)} among {titles}; add it"
             )
-        return found
+        return cells_of
 
     def __contains__(self, name: str) -> bool:
         return name in self._columns
@@ -78,10 +78,10 @@ class FrameReader:
         """Return the meaning of each cell of a column, `empty` where there is none."""
         read = []
         for row, cell in enumerate(self.cells(name)):
-            found = empty if cell is None else meaning(cell)
-            if found is None:
+            value = empty if cell is None else meaning(cell)
+            if value is None:
                 self.add(row, f"{name} is {cell!r}; give {wanted}")
-            read.append(empty if found is None else found)
+            read.append(empty if value is None else value)
         return read
 
     def cells(self, name: str) -> list[Any]:
@@ -161,12 +161,12 @@ def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
     unscored, scores = [], [(name, reader.cells(name)) for name in SCORES]
     for row in range(len(reader.rows)):
         empty = [name for name, cells in scores if cells[row] is None]
-        known = len(empty) == 2 and all(columns[name][row] for name in (*RACES, "winner"))
-        if not known and not columns["forfeit"][row]:
+        has_winner = len(empty) == 2 and all(columns[name][row] for name in (*RACES, "winner"))
+        if not has_winner and not columns["forfeit"][row]:
             for name in empty:
                 if name in reader:
                     reader.add(row, f"{name} is empty; give the games won")
-        unscored.append(known and not columns["forfeit"][row])
+        unscored.append(has_winner and not columns["forfeit"][row])
     return unscored
 
 

@@ -159,8 +159,8 @@ def _with_schedule(before: Results, coming: Results) -> Results:
     """
     unplayed = coming.unplayed()
     if coming.date is not None and has_handicaps(coming):
-        known = _first_days(coming, coming.date)
-        race_a, race_b = (np.where(known, race, 0) for race in coming.races)
+        scheduled = _first_days(coming, coming.date)
+        race_a, race_b = (np.where(scheduled, race, 0) for race in coming.races)
         unplayed = replace(unplayed, race_a=race_a, race_b=race_b)
     return before.joined(unplayed)
 
@@ -256,15 +256,15 @@ class SeasonSoFar:
         levels: Levels | None = None,
     ) -> WayToRate:
         breaks = break_advantage is not None
-        known = known_advantage(break_advantage, scale_of(scale)) if breaks else 0.0
+        known_break = known_advantage(break_advantage, scale_of(scale)) if breaks else 0.0
         terms = self._terms_of(half_life, breaks=breaks)
         # Without such games there is nothing to estimate.
         some = bool(terms.games_with_breaker)
         return WayToRate(
             terms,
             checked_prior(prior_sd) ** -2,
-            (known or 0.0) * some,
-            BREAK_SD**-2 if known is None and some else None,
+            (known_break or 0.0) * some,
+            BREAK_SD**-2 if known_break is None and some else None,
             self._means_of(levels or Levels(), half_life),
         )
 

@@ -101,9 +101,9 @@ def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratin
         # The day from which ages were counted: a match left out must not make the others younger.
         day = results.date[results.counted].max()
 
-    def again(other: Results) -> Ratings:
+    def again(matches: Results) -> Ratings:
         return fit(
-            other.select(other.counted),  # forfeits may lack a date
+            matches.select(matches.counted),  # forfeits may lack a date
             prior_sd=ratings.prior_sd,
             scale=ratings.scale,
             half_life=ratings.half_life,

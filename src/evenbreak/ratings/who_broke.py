@@ -267,8 +267,8 @@ def _by_score(
         break_wins(FORMATS[f], breaker, (i, j), winner)
         for f, breaker, winner, i, j in distinct.tolist()
     ]
-    middle = np.array([(one.won[0] + one.won[-1]) / 2 for one in wins])[place]
-    broke_a = np.array([one.broke_a for one in wins])[place]
+    middle = np.array([(wins_of.won[0] + wins_of.won[-1]) / 2 for wins_of in wins])[place]
+    broke_a = np.array([wins_of.broke_a for wins_of in wins])[place]
     score_a, score_b = results.score_a[rows], results.score_b[rows]
     pattern[rows] = place
     won[1, rows], lost[1, rows] = middle, broke_a - middle

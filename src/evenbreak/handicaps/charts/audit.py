@@ -371,11 +371,11 @@ def win_matrix(
     rating, component = ratings.rating[places], ratings.component[places]
     variance = np.diag(covariance)
     spread = variance[:, None] + variance - 2.0 * covariance
-    known = component[:, None] == component
-    np.fill_diagonal(known, val=False)
-    chance = np.full(known.shape, np.nan)
+    linked = component[:, None] == component
+    np.fill_diagonal(linked, val=False)
+    chance = np.full(linked.shape, np.nan)
     error = np.sqrt(np.maximum(spread, 0.0))
     gap = Gap(rating[:, None] - rating, error, ratings.scale)
-    chance[known] = gap[known].win(m, n)
+    chance[linked] = gap[linked].win(m, n)
     names = pd.Index(named, name="player")
     return pd.DataFrame(chance, index=names, columns=names)

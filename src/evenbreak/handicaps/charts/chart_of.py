@@ -91,20 +91,20 @@ _KINDS: dict[type, _Kind] = {
 }
 
 
-def _found(given: Any, cls: type[AnyChart]) -> AnyChart:
+def _found(wanted: Any, cls: type[AnyChart]) -> AnyChart:
     """Return a chart of one kind, as it is or by its name, or refuse what is none."""
-    if isinstance(given, cls):
-        return given
-    name, kind = catalogue_name(given) if isinstance(given, str) else "", _KINDS[cls]
+    if isinstance(wanted, cls):
+        return wanted
+    name, kind = catalogue_name(wanted) if isinstance(wanted, str) else "", _KINDS[cls]
     if name in kind.names:
-        found: AnyChart = kind.read(name)
-        return found
+        named: AnyChart = kind.read(name)
+        return named
     others = (
-        f", {one.words}"
-        for other, one in _KINDS.items()
-        if isinstance(given, other) or name in one.names
+        f", {other_kind.words}"
+        for other_class, other_kind in _KINDS.items()
+        if isinstance(wanted, other_class) or name in other_kind.names
     )
-    shown = given.name if isinstance(given, Chart | LevelChart | PointsChart) else given
+    shown = wanted.name if isinstance(wanted, Chart | LevelChart | PointsChart) else wanted
     raise InputError(
         "chart is {shown!r}{others}; give {words}: {names}, or a {name} of your own",
         shown=shown,

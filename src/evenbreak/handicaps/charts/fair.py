@@ -242,10 +242,10 @@ def shortest_of_ties(candidates: list[Candidate]) -> list[Candidate]:
     tied: list[Candidate] = []
     for candidate in candidates:
         if tied and candidate.distance > tied[0].distance + _TIE:
-            ordered += sorted(tied, key=lambda one: one[1:])
+            ordered += sorted(tied, key=lambda race: race[1:])
             tied = []
         tied.append(candidate)
-    return ordered + sorted(tied, key=lambda one: one[1:])
+    return ordered + sorted(tied, key=lambda race: race[1:])
 
 
 def _describe(

@@ -106,16 +106,16 @@ def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None
     apart = _differences(season, by_chart)
     if apart is None or (by_chart is None and len(np.unique(race_a - race_b)) < FEWEST_STARTS):
         return None
-    known = ~np.isnan(apart)
-    slope = handicap_slope(season.select(known), apart[known])
+    rated = ~np.isnan(apart)
+    slope = handicap_slope(season.select(rated), apart[rated])
     if slope is None or slope.low <= 0.0:
         return None
     least = _usual(np.maximum(race_a, race_b), RARE), _usual(np.minimum(race_a, race_b), RARE)
     longest = race_a + race_b - 1
     return FairScale(
         Estimate(*(math.log(2.0) / end for end in (slope.value, slope.high, slope.low))),
-        _assumed(season.select(known), apart[known], by_chart),
-        int(known.sum()),
+        _assumed(season.select(rated), apart[rated], by_chart),
+        int(rated.sum()),
         (_usual(longest, RARE), _usual(longest, 1.0 - RARE)),
         least,
     )

@@ -149,18 +149,18 @@ def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> I
     points = scale.points_per_doubling
     for i, level in enumerate(chart.levels):
         for j, opponent in enumerate(chart.levels[: i + 1]):
-            own, other = chart.race(level, opponent)
+            own, theirs = chart.race(level, opponent)
             gap = strength[i] - strength[j]
             nearest, farthest = (low[i] - high[j] if i > j else 0.0), high[i] - low[j]
             middle = gap if i > j else farthest / 2.0
             p = scale.win_probability(points * np.array([nearest, middle, farthest]))
-            low_end, centre, high_end = race_win_probability(p, own, other).tolist()
+            low_end, centre, high_end = race_win_probability(p, own, theirs).tolist()
             easier = [even[k] for k in ((i - 1, j), (i, j + 1)) if i > j]
             yield LevelCell(
                 level,
                 opponent,
                 own,
-                other,
+                theirs,
                 p_win_low=low_end,
                 p_win_middle=centre,
                 p_win_high=high_end,
@@ -340,8 +340,14 @@ def audit_points(chart: PointsChart | str, *, innings: float = INNINGS) -> Point
             for (level, points), more in zip(rows, following, strict=True)
         ),
         tuple(
-            PointsPair(high, low, own, other, _win((own, other), (own, other), innings))
-            for (low, other), (high, own) in combinations(rows, 2)
+            PointsPair(
+                high,
+                low,
+                needs_high,
+                needs_low,
+                _win((needs_high, needs_low), (needs_high, needs_low), innings),
+            )
+            for (low, needs_low), (high, needs_high) in combinations(rows, 2)
         ),
     )
 

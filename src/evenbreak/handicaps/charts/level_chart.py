@@ -108,9 +108,9 @@ class LevelChart:
 
     def _places(self, levels: ArrayLike, name: str) -> Ints:
         array = whole_numbers(levels, name, wanted=self._wanted)
-        known = np.array(self.levels)
-        place = np.minimum(np.searchsorted(known, array), len(known) - 1)
-        wrong = known[place] != array
+        own_levels = np.array(self.levels)
+        place = np.minimum(np.searchsorted(own_levels, array), len(own_levels) - 1)
+        wrong = own_levels[place] != array
         if wrong.any():
             held = f"holds {array[wrong].flat[0]:g}" if array.ndim else f"is {levels!r}"
             raise InputError(
@@ -130,8 +130,8 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
         )
     square = tuple(
         tuple(
-            whole(games, f"needs of level {own} against {other}", at_least=1)
-            for games, other in zip(row, levels, strict=True)
+            whole(games, f"needs of level {own} against {opponent}", at_least=1)
+            for games, opponent in zip(row, levels, strict=True)
         )
         for row, own in zip(rows, levels, strict=True)
     )
@@ -177,9 +177,11 @@ def level_chart(name: str) -> LevelChart:
 
 @cache
 def _read(name: str) -> LevelChart:
-    needs = {(own, other): games for own, other, games, _ in catalogue_rows(name)}
+    needs = {(own, opponent): games for own, opponent, games, _ in catalogue_rows(name)}
     levels = sorted({own for own, _ in needs})
-    return LevelChart(name, levels, [[needs[own, other] for other in levels] for own in levels])
+    return LevelChart(
+        name, levels, [[needs[own, opponent] for opponent in levels] for own in levels]
+    )
 
 
 # Charts of points: how many points a player of a skill level needs, whoever the opponent is.
@@ -243,12 +245,12 @@ class PointsChart:
 
     def _needs(self, level: Any, name: str) -> int:
         wanted = f"a level of the chart: {', '.join(map(str, self.levels))}"
-        found = whole(level, name, at_least=None, wanted=wanted)
-        if found not in self.levels:
+        number = whole(level, name, at_least=None, wanted=wanted)
+        if number not in self.levels:
             raise InputError(
                 "{name} is {level!r}; give {wanted}", name=name, level=level, wanted=wanted
             )
-        return self.points[self.levels.index(found)]
+        return self.points[self.levels.index(number)]
 
 
 def points_chart(name: str) -> PointsChart:

@@ -101,18 +101,22 @@ def played_chart(results: Results) -> PlayedChart | None:
     if (race_a != race_b).sum() < FEWEST:
         return None
     level = tuple(level_numbers_of(season))
-    known = ~np.isnan(level[0]) & ~np.isnan(level[1])
-    if known.mean() > HALF:
-        found = _by_level(season.select(known), *(one[known] for one in level))
+    stated = ~np.isnan(level[0]) & ~np.isnan(level[1])
+    if stated.mean() > HALF:
+        compared = _by_level(season.select(stated), *(side[stated] for side in level))
     else:
-        found = _by_race(season)
-    near = [one for one in found if one.agree > HALF * one.matches]
-    near = [one for one in near if len(one.changed) <= HALF * one.cells or one.by == "race"]
+        compared = _by_race(season)
+    near = [played for played in compared if played.agree > HALF * played.matches]
+    near = [
+        played
+        for played in near
+        if len(played.changed) <= HALF * played.cells or played.by == "race"
+    ]
     return max(near, key=_closeness, default=None)
 
 
-def _closeness(one: PlayedChart) -> tuple[float, int]:
-    return one.agree / one.matches, -len(one.changed)
+def _closeness(played: PlayedChart) -> tuple[float, int]:
+    return played.agree / played.matches, -len(played.changed)
 
 
 def level_numbers_of(results: Results) -> Iterator[Floats]:
@@ -128,11 +132,13 @@ def _by_level(season: Results, level_a: Floats, level_b: Floats) -> Iterator[Pla
     high, low = np.maximum(level_a, level_b), np.minimum(level_a, level_b)
     whole = np.rint(high).astype(np.int64), np.rint(low).astype(np.int64)
     for name, title in CHARTS.items():
-        one = chart(name)
-        starts = np.array([row.difference_from for row in one.rows])
+        by_rating = chart(name)
+        starts = np.array([row.difference_from for row in by_rating.rows])
         place = np.searchsorted(starts, whole[0] - whole[1], side="right") - 1
-        texts = [_points_apart(one, k) for k in range(len(starts))]
-        yield _compared(name, title, "rating", races, one.races(whole[0] - whole[1]), place, texts)
+        texts = [_points_apart(by_rating, k) for k in range(len(starts))]
+        yield _compared(
+            name, title, "rating", races, by_rating.races(whole[0] - whole[1]), place, texts
+        )
     for name, title in LEVEL_CHARTS.items():
         by_level = level_chart(name)
         if not np.isin([high, low], by_level.levels).all():
@@ -144,8 +150,8 @@ def _by_level(season: Results, level_a: Floats, level_b: Floats) -> Iterator[Pla
         yield _compared(name, title, "level", races, said, place.ravel(), texts)
 
 
-def _points_apart(one: Chart, place: int) -> str:
-    row = one.rows[place]
+def _points_apart(by_rating: Chart, place: int) -> str:
+    row = by_rating.rows[place]
     last = "or more" if row.difference_to is None else f"to {row.difference_to}"
     return f"{row.difference_from} {last} points apart"
 
@@ -192,9 +198,9 @@ def _by_race(season: Results) -> Iterator[PlayedChart]:
         yield PlayedChart(name, title, "race", len(season), agree, len(of_chart), tuple(changed))
 
 
-def _races_of(one: Chart | LevelChart) -> Iterator[Race]:
-    if isinstance(one, Chart):
-        yield from ((row.stronger_needs, row.weaker_needs) for row in one.rows)
+def _races_of(of_chart: Chart | LevelChart) -> Iterator[Race]:
+    if isinstance(of_chart, Chart):
+        yield from ((row.stronger_needs, row.weaker_needs) for row in of_chart.rows)
         return
-    for high, row in enumerate(one.needs):
-        yield from ((needs, one.needs[low][high]) for low, needs in enumerate(row[: high + 1]))
+    for high, row in enumerate(of_chart.needs):
+        yield from ((needs, of_chart.needs[low][high]) for low, needs in enumerate(row[: high + 1]))

@@ -173,8 +173,10 @@ def on_front(points: Sequence[tuple[float, float]]) -> list[bool]:
     [True, True, False]
     """
     return [
-        not any(other[0] <= one[0] and other[1] <= one[1] and other != one for other in points)
-        for one in points
+        not any(
+            better[0] <= point[0] and better[1] <= point[1] and better != point for better in points
+        )
+        for point in points
     ]
 
 

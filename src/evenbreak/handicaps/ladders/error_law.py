@@ -133,7 +133,7 @@ def _average_over_night(
         joint.append(_after(joint[-1], *_falling(steps, each[:-1], fall)))
     average = _average(chances, joint)
     steps, moves = _falling(steps, average[:-1], fall)
-    law = np.mean([one.sum(axis=1) for one in joint], axis=0)
+    law = np.mean([of_match.sum(axis=1) for of_match in joint], axis=0)
     return LongRun(steps, moves.T, average[-1], law, opponents, changes)
 
 
@@ -193,9 +193,9 @@ def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
         start=np.zeros(chances[0].shape[:2]),
     )
     weight = np.sum(joint, axis=(0, 2))
-    known = weight > _FULL_DIGITS
+    reached = weight > _FULL_DIGITS
     # Where the weight is hardly larger than any float, one form is as good as another.
-    return np.where(known, flow / np.where(known, weight, 1.0), chances[0].mean(axis=2))
+    return np.where(reached, flow / np.where(reached, weight, 1.0), chances[0].mean(axis=2))
 
 
 def _after(joint: Floats, steps: Ints, chances: Floats) -> Floats:

@@ -248,12 +248,12 @@ class Ladder(ErrorWalk):
 
     def _given_error(self) -> Floats | None:
         """Return the opponents' error on the line, its ends holding what lies beyond."""
-        given = self.opponents.error
-        if given is None:
+        law = self.opponents.error
+        if law is None:
             return None
-        values = np.array(given.values, dtype=np.int64)
+        values = np.array(law.values, dtype=np.int64)
         places = np.clip(values, -self.widest, self.widest) + self.widest
-        weights = np.array(given.probability, dtype=float)
+        weights = np.array(law.probability, dtype=float)
         return np.bincount(places, weights, 2 * self.widest + 1).astype(float)
 
     def _distribution(self, chances: Floats) -> Distribution:

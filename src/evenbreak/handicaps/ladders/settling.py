@@ -289,8 +289,8 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     place = error_on(ladder.widest, start) + ladder.widest
     chain = chain_of_errors(ladder)
     now = np.eye(len(chain))[place]
-    found, matrix = stochastic_limit(chain, now), chain.matrix
-    limit = np.array([float(found.get(error, 0.0)) for error in chain.states])
+    settled, matrix = stochastic_limit(chain, now), chain.matrix
+    limit = np.array([float(settled.get(error, 0.0)) for error in chain.states])
     laws = [now]
     for _ in range(period_of(ladder) - 1):
         laws.append(matrix @ laws[-1])

@@ -123,10 +123,10 @@ class OpponentPairs:
 
     def wins(self) -> Floats:
         """Return P(win | rating difference, difference of skill), shape (differences, skills)."""
-        found = np.zeros((2 * self.table.widest + 1, len(self.skills)))
+        chances = np.zeros((2 * self.table.widest + 1, len(self.skills)))
         for p, weight in self._forms():
-            found += weight * self.table.wins(p)
-        return found
+            chances += weight * self.table.wins(p)
+        return chances
 
     def mean_of(self, worth: NDArray[Any]) -> Floats:
         """Return the mean of what a final score is worth, given the player's error.
@@ -165,14 +165,17 @@ def opponent_pairs_of(ladder: Ladder) -> OpponentPairs:
     """Return the kinds of opponents that the player of a ladder meets."""
     opponents, law = ladder.opponents, ladder.opponent_law
     values = np.array(opponents.spread.values, float), np.array(law.values, float)
-    given, error = np.meshgrid(*values, indexing="ij")
+    condition, error = np.meshgrid(*values, indexing="ij")
     chance = np.outer(
         np.asarray(opponents.spread.probability, float), np.asarray(law.probability, float)
     ).ravel()
-    given, error = given.ravel().astype(np.int64), error.ravel().astype(np.int64)
+    condition, error = condition.ravel().astype(np.int64), error.ravel().astype(np.int64)
     by_skill = opponents.given == "skill"
     offsets = np.column_stack(
-        [-(given + error) if by_skill else -given, -given if by_skill else error - given]
+        [
+            -(condition + error) if by_skill else -condition,
+            -condition if by_skill else error - condition,
+        ]
     )
     kinds, kind = np.unique(offsets[chance > _RARE], axis=0, return_inverse=True)
     weight = np.bincount(kind.reshape(-1), chance[chance > _RARE])

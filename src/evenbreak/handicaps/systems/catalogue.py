@@ -84,7 +84,7 @@ def system_of(name: Any) -> System:
     word, *numbers = re.split(r"\s+|-", str(name).strip().lower())
     family = FAMILIES.get(word)
     if family is None:
-        *listed, last = (known.grammar for known in FAMILIES.values())
+        *listed, last = (entry.grammar for entry in FAMILIES.values())
         raise InputError(
             "system is {name!r}; give {listed} or {last}",
             name=name,

@@ -177,8 +177,8 @@ def match_table(
             "{system} is {value!r}; give a System, such as system_of('npl')", value=system
         )
     by = system.usual_chart() if chart is None else chart_of(chart)
-    given = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
-    size = whole(given, "widest", at_least=1)
+    wanted = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
+    size = whole(wanted, "widest", at_least=1)
     needs = np.column_stack(by.races(np.arange(-size, size + 1)))
     games, won = _scores(needs)
     tables = (needs, games, _moves(system, needs, games, won), won)
@@ -209,7 +209,7 @@ def _moves(system: System, needs: Ints, games: Ints, won: Bools) -> Ints:
         turn = 1 if won[place, outcome] else -1
         apart = float(turn * (place - size))
         m, n = needs[place].tolist()[::turn]
-        mine, other = games[place, outcome].tolist()[::turn]
-        points = system.moves(PlayedMatch((apart, 0.0), (mine, other), (m, n)))
+        mine, theirs = games[place, outcome].tolist()[::turn]
+        points = system.moves(PlayedMatch((apart, 0.0), (mine, theirs), (m, n)))
         moves[place, outcome] = points[::turn]
     return moves

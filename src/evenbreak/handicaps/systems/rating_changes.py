@@ -362,8 +362,8 @@ def night_table(roster: Roster, results: Results, chart: Chart | str | None) -> 
     a, b = place[results.player_a], place[results.player_b]
     chart_a, chart_b = np.zeros((2, len(results)), dtype=np.int64)
     # One entry more, for players who are not on the list, whose place is -1.
-    known = np.append(np.isfinite(roster.rating), False)
-    rated = known[a] & known[b]
+    has_rating = np.append(np.isfinite(roster.rating), False)
+    rated = has_rating[a] & has_rating[b]
     if chart is not None:
         # As `evenbreak matchups` rounds: each rating, halves upwards.
         points = np.floor(np.append(roster.rating, 0.0) + 0.5)

@@ -283,7 +283,7 @@ def by_experience(forecasts: Forecasts) -> list[ByExperience]:
     p = p.clip(1e-12, 1.0 - 1e-12)
     games = forecasts.games.astype(float)
     won = np.where(less_a, forecasts.results.score_a, forecasts.results.score_b).astype(float)
-    found = []
+    bands = []
     for fewest, above in zip(LIMITS, (*LIMITS[1:], None), strict=True):
         rows = judged & (fewer >= fewest) & (fewer < (np.inf if above is None else above))
         if rows.sum() < FEWEST:
@@ -292,16 +292,16 @@ def by_experience(forecasts: Forecasts) -> list[ByExperience]:
         offset, ones = logit(p[rows]), np.ones(int(rows.sum()))
         # From a few dates alone hardly any spread could be estimated.
         either = [
-            logistic_coefficient(ones, won[rows], games[rows], one, offset=offset)
-            for one in (cluster, np.arange(len(cluster)))
+            logistic_coefficient(ones, won[rows], games[rows], together, offset=offset)
+            for together in (cluster, np.arange(len(cluster)))
         ]
-        known = [one for one in either if one is not None]
-        if not known:
+        estimates = [estimate for estimate in either if estimate is not None]
+        if not estimates:
             continue
-        stronger = max(known, key=lambda one: one.high - one.low)
+        stronger = max(estimates, key=lambda estimate: estimate.high - estimate.low)
         n, chance = games[rows], p[rows]
         spread = ((won[rows] - chance * n) ** 2).sum() / (chance * (1.0 - chance) * n).sum()
-        found.append(
+        bands.append(
             ByExperience(
                 fewest,
                 None if above is None else above - 1,
@@ -313,4 +313,4 @@ def by_experience(forecasts: Forecasts) -> list[ByExperience]:
                 float(spread),
             )
         )
-    return found
+    return bands

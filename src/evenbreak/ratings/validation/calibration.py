@@ -94,7 +94,7 @@ def calibration(
     wins = np.where(a_leads, won, games - won)
     edges = np.linspace(0.5, 1.0, bins + 1)
     place = np.minimum(np.searchsorted(edges, chance, side="right") - 1, bins - 1)
-    found = []
+    filled = []
     for k in range(bins):
         rows = (place == k) & (np.abs(p - 0.5) > TOSS_UP) & (games > 0)
         n = float(games[rows].sum())
@@ -105,8 +105,8 @@ def calibration(
         predicted = float((chance[rows] * games[rows]).sum()) / n
         first, last = round(float(edges[k]), 6), round(float(edges[k + 1]), 6)
         matches = int(rows.sum())
-        found.append(CalibrationBin(first, last, matches, round(n), predicted, seen, low, high))
-    return found
+        filled.append(CalibrationBin(first, last, matches, round(n), predicted, seen, low, high))
+    return filled
 
 
 def no_favourites(p: Floats, games: Floats) -> int:

@@ -121,9 +121,9 @@ def starts(results: Results) -> Starts | None:
     if share is None or stronger is None:
         return None
     classes, above = class_steps(season, implied)
-    known = np.isfinite(above)
-    a_class = handicap_slope(season.select(known), above[known]) if classes else None
-    apart = gives if a_class is None else np.where(known, above, 0).astype(np.int64)
+    stated = np.isfinite(above)
+    a_class = handicap_slope(season.select(stated), above[stated]) if classes else None
+    apart = gives if a_class is None else np.where(stated, above, 0).astype(np.int64)
     return Starts(
         int(uneven.sum()),
         stronger,
@@ -210,7 +210,7 @@ def _strengths(of_a: NDArray[np.intp], of_b: NDArray[np.intp], implied: Floats) 
 
 
 def _groups(season: Results, apart: NDArray[np.int64], implied: Floats) -> list[StartGroup]:
-    found = []
+    groups = []
     sign = np.sign(apart)
     for size in np.unique(np.abs(apart[sign != 0])).tolist():
         rows = np.abs(apart) == size
@@ -225,8 +225,8 @@ def _groups(season: Results, apart: NDArray[np.int64], implied: Floats) -> list[
         played, often = np.unique(races, axis=0, return_counts=True)
         needs, gets = played[often.argmax()].tolist()
         taken = float((sign[rows] * implied[rows]).mean())
-        found.append(StartGroup(size, int(rows.sum()), (needs, gets), stronger, taken))
-    return found
+        groups.append(StartGroup(size, int(rows.sum()), (needs, gets), stronger, taken))
+    return groups
 
 
 NODES = 15
@@ -262,19 +262,21 @@ def handicap_slope(results: Results, x: Floats) -> Estimate | None:
         whole, slopes = model.at(at)
         return -float(many @ whole), -(many @ slopes)
 
-    found = minimize(loss, np.array([0.0, 0.3]), jac=True, method="L-BFGS-B", bounds=_BOX).x
-    free = np.array([True, found[1] > 10 * _STEP])
-    bend = np.column_stack([_bend(model, many, found, k) for k in range(2)])[np.ix_(free, free)]
-    if abs(found[0]) > 0.99 * _BOX[0][1] or not (np.linalg.eigvalsh(bend) > 0.0).all():
+    likeliest = minimize(loss, np.array([0.0, 0.3]), jac=True, method="L-BFGS-B", bounds=_BOX).x
+    free = np.array([True, likeliest[1] > 10 * _STEP])
+    bend = np.column_stack([_bend(model, many, likeliest, k) for k in range(2)])[np.ix_(free, free)]
+    if abs(likeliest[0]) > 0.99 * _BOX[0][1] or not (np.linalg.eigvalsh(bend) > 0.0).all():
         return None
-    slopes = model.at(found)[1][of_row.ravel()][:, free]
+    slopes = model.at(likeliest)[1][of_row.ravel()][:, free]
     inverse = np.linalg.inv(bend)
     # Few players may make the first come out too small by luck, even below that of pairs alone.
-    variance = max(float((inverse @ one @ inverse)[0, 0]) for one in _spreads(results, slopes))
+    variance = max(
+        float((inverse @ scores @ inverse)[0, 0]) for scores in _spreads(results, slopes)
+    )
     # A few players vary more than their sum of squares shows: Student's t, in normal units.
     freedom = max(_players(results) - 2, 1)
     wider = stdtrit(freedom, 0.5 + CONFIDENCE / 2) / ndtri(0.5 + CONFIDENCE / 2)
-    return with_error(float(found[0]) / size, float(wider) * math.sqrt(variance) / size)
+    return with_error(float(likeliest[0]) / size, float(wider) * math.sqrt(variance) / size)
 
 
 def _bend(model: _Model, many: Ints, at: Floats, k: int) -> Floats:
@@ -290,7 +292,7 @@ class _Model:
     """The log-likelihood of matches: what is said of them, and the games won and lost."""
 
     def __init__(self, x: Floats, won: Floats, lost: Floats) -> None:
-        self._x, self._won, self._lost = (one[:, None] for one in (x, won, lost))
+        self._x, self._won, self._lost = (column[:, None] for column in (x, won, lost))
         points, weights = np.polynomial.hermite_e.hermegauss(NODES)
         self._points, self._weights = points, np.log(weights / math.sqrt(2.0 * math.pi))
 

@@ -86,16 +86,16 @@ def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
     won, p = forecasts.won[rows], forecasts.p_match_integrated[rows]
     won, p = np.where(a_gives, won, 1.0 - won), np.where(a_gives, p, 1.0 - p)
     spot = np.abs(gives[rows])
-    found = []
+    by_start = []
     for games in (*np.unique(spot).tolist(), None):
         chosen = np.ones(len(spot), dtype=bool) if games is None else spot == games
         matches, wins = int(chosen.sum()), int(won[chosen].sum())
         share = wins / matches
         expected = float(p[chosen].mean())
-        found.append(
+        by_start.append(
             HandicapFairness(games, matches, wins, share, *wilson(share, matches), expected)
         )
-    return found
+    return by_start
 
 
 class RaceLengths(NamedTuple):
@@ -140,14 +140,14 @@ def race_lengths(forecasts: Forecasts) -> list[RaceLengths]:
     lengths, counts = np.unique(needed, return_counts=True)
     up_to = np.cumsum(counts)[:-1]
     last_short = lengths[np.abs(2 * up_to - len(needed)).argmin()]
-    found = []
+    halves = []
     for half in (needed <= last_short, needed > last_short):
         matches, wins = int(half.sum()), int(won[half].sum())
         share = wins / matches
         ends = int(needed[half].min()), int(needed[half].max())
         predicted = float(chance[half].mean())
-        found.append(RaceLengths(*ends, matches, wins, share, *wilson(share, matches), predicted))
-    return found
+        halves.append(RaceLengths(*ends, matches, wins, share, *wilson(share, matches), predicted))
+    return halves
 
 
 FEWEST_DATES = 10
@@ -335,7 +335,7 @@ def validate(
         ),
         prior_sd=walk.prior_sd,
         choice=choice,
-        scored=tuple(one.scored(cluster, rng) for one in made.values()),
+        scored=tuple(predicted.scored(cluster, rng) for predicted in made.values()),
         usual=usual,
         gain={
             of: bootstrap_ratio(
@@ -371,9 +371,9 @@ def _tested(choice: PriorChoice) -> tuple[HalfLifeGain, ...]:
     """Return what each half-life gains, as it was found when the prior was chosen."""
     return tuple(
         HalfLifeGain(days, gain)
-        for found in choice.evidence
-        if found.of == "half_life"
-        for days, gain in zip(found.tried, found.gains, strict=True)
+        for evidence in choice.evidence
+        if evidence.of == "half_life"
+        for days, gain in zip(evidence.tried, evidence.gains, strict=True)
     )
 
 

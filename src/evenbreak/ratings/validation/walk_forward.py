@@ -276,16 +276,16 @@ def _forecasts(
 
 def _known_before(season: Results, date_of: Ints) -> tuple[Floats, Floats]:
     """Return the games that a and b of each match had played before its date."""
-    known = np.zeros(len(season.players))
+    so_far = np.zeros(len(season.players))
     before = np.zeros((2, len(season)))
     games = (season.score_a + season.score_b).astype(float)
     starts = np.searchsorted(date_of, np.arange(int(date_of[-1]) + 2))
     for start, end in pairwise(starts):
         rows = slice(start, end)
         for side, players in enumerate((season.player_a[rows], season.player_b[rows])):
-            before[side, rows] = known[players]
+            before[side, rows] = so_far[players]
         for players in (season.player_a[rows], season.player_b[rows]):
-            known += np.bincount(players, games[rows], len(known))
+            so_far += np.bincount(players, games[rows], len(so_far))
     return before[0], before[1]
 
 
@@ -466,6 +466,6 @@ def _of_unit_diagonal(matrix: Any, right: Floats, accuracy: float) -> Floats:
     return solution
 
 
-def _products(one: Floats, other: Floats) -> Floats:
+def _products(left: Floats, right: Floats) -> Floats:
     """Return the product of each column of one with that of the other."""
-    return np.asarray(np.einsum("ij,ij->j", one, other))
+    return np.asarray(np.einsum("ij,ij->j", left, right))

@@ -141,7 +141,7 @@ def streaks(forecasts: Forecasts) -> Streaks | None:
         if not (a and b):
             continue
         matches += 1
-        runs += 1 + sum(one != other for one, other in pairwise(free))
+        runs += 1 + sum(winner != next_winner for winner, next_winner in pairwise(free))
         expected += 1.0 + 2.0 * a * b / (a + b)
         variance += 2.0 * a * b * (2.0 * a * b - a - b) / ((a + b) ** 2 * (a + b - 1.0))
     if not variance:
@@ -231,8 +231,10 @@ def _shapes(
     ones = np.ones(len(m))
     _, cluster = np.unique(cluster, return_inverse=True)
     return [
-        ScoreShape(of, bootstrap_ratio(one, ones, cluster, rng), float(plain), float(formed))
-        for of, one, plain, formed in zip(("deciders", "sweeps", "games"), seen, *said, strict=True)
+        ScoreShape(of, bootstrap_ratio(share, ones, cluster, rng), float(plain), float(formed))
+        for of, share, plain, formed in zip(
+            ("deciders", "sweeps", "games"), seen, *said, strict=True
+        )
     ]
 
 
@@ -242,14 +244,14 @@ def score_shapes(p: Floats, m: Ints, n: Ints) -> Floats:
     >>> score_shapes(np.array([0.5]), np.array([2]), np.array([2])).ravel().tolist()
     [0.5, 0.5, 2.5]
     """
-    found = np.zeros((3, len(p)))
-    for mine, needed, other in ((p, m, n), (1.0 - p, n, m)):
+    shapes = np.zeros((3, len(p)))
+    for mine, needed, their_need in ((p, m, n), (1.0 - p, n, m)):
         chance = mine**needed
-        found[1] += chance
-        for lost in range(int(other.max())):
+        shapes[1] += chance
+        for lost in range(int(their_need.max())):
             if lost:
                 chance = chance * (1.0 - mine) * (needed + lost - 1) / lost
-            counts = np.where(lost < other, chance, 0.0)
-            found[0] += np.where(lost == other - 1, counts, 0.0)
-            found[2] += counts * (needed + lost)
-    return found
+            counts = np.where(lost < their_need, chance, 0.0)
+            shapes[0] += np.where(lost == their_need - 1, counts, 0.0)
+            shapes[2] += counts * (needed + lost)
+    return shapes
