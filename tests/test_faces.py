@@ -106,8 +106,8 @@ ASKED = {
     "validate_prior": "validate data/demo_league.csv --prior 200",
     "report": "report data/demo_league.csv --out OUT --top 6",
     "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
-    "why": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --from data/demo_league.csv",
-    "why_begin": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --from data/demo_league.csv --begin "
+    "why": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --results data/demo_league.csv",
+    "why_begin": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --results data/demo_league.csv --begin "
     "data/demo_league_roster.csv",
     "odds_named": "odds 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race 7:5",
     "fair_named": "fair 'Keiko Amasuda' 'Noor Al-Beyrati' --from data/demo_roster.csv --race-to 7",
@@ -118,7 +118,7 @@ ASKED = {
     "matchups_both": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10 "
     "--games 7..13 --minutes-per-game 8 --tables 2",
     "matchups_uneven": "matchups data/demo_roster.csv --race-to 3",
-    "ladder": "ladder --chart npl_10 --equal-skill --from -20 --newcomer",
+    "ladder": "ladder --chart npl_10 --equal-skill --start-error -20 --newcomer",
     "ladder_via": "ladder --chart npl_8 --via elimination",
     "ladder_drift": "ladder --league data/demo_roster.csv --day-sd 5 --drift 0.1",
     "ladder_inflation": "ladder --system 'step 2 1'",

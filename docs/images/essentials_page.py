@@ -79,7 +79,7 @@ PAGES = (
         ),
         (
             ("What a race is worth", "odds 612 521 --scale fargo --race 7:5"),
-            ("A page for phones", "report results.csv --out sheet --html"),
+            ("A page for phones", "report results.csv --out sheet --page"),
             ("Ratings alone", "rate results.csv"),
             ("Can the ratings be trusted?", "validate results.csv"),
             ("Is our chart fair?", "chart audit ours.csv"),

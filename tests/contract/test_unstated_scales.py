@@ -95,7 +95,7 @@ LINES: dict[tuple[str, str], list[str]] = {
         "rate results.csv --anchor 512",
         "rate results.csv --anchor 'Ann Lee=656'",
     ],
-    ("why", "--begin"): ["why 'Ann Lee' 'Bo Diaz' --from results.csv --begin plain.csv"],
+    ("why", "--begin"): ["why 'Ann Lee' 'Bo Diaz' --results results.csv --begin plain.csv"],
     ("validate", "--begin"): ["validate results.csv --begin plain.csv"],
     ("matchups", "roster"): [
         "matchups plain.csv --chart npl_10",

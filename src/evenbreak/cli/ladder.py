@@ -213,7 +213,7 @@ def _why_no_long_run(opponents: handicaps.Opponents) -> str:
         return (
             "the rating does not stay near the skill: the league's players are so far from the "
             "player's skill that the chart's races are nearly always won or lost; give a --skill "
-            "nearer to them, or the --scale of their ratings"
+            "nearer to theirs, or the --scale of their ratings"
         )
     return (
         "the rating does not stay near the skill: the steps are too long for the scale, form "

@@ -37,10 +37,12 @@ SECTIONS = {
     },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
-        "rate": Entry("league.rate", "Ratings from results, and how certain each one is."),
-        "why": Entry("league.why", "Why two players have their ratings and their race."),
+        "rate": Entry("league.ratings:rate", "Ratings from results, and how certain each one is."),
+        "why": Entry("league.ratings:why", "Why two players have their ratings and their race."),
         "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),
-        "validate": Entry("league.validate", "How well the ratings predict your own results."),
+        "validate": Entry(
+            "league.ratings:validate", "How well the ratings predict your own results."
+        ),
         "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
     },
     "Handicap systems": {

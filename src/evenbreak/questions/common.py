@@ -62,6 +62,15 @@ GAMES = Field(
     "Races whose longest possible match has LO to HI games.",
     more="The longest possible match of a race m:n has m + n − 1 games.",
 )
+RACE_TO = Field(Whole(1, LONGEST), "Races in which the stronger player needs N games.")
+EntrantsFile: TypeAlias = Annotated[
+    str | None,
+    Field(
+        File("FILE"),
+        "Who has entered: a name on each line, or a CSV file with player and rating.",
+        more="[Those who are not on the list](../files.md#entrants) are new players.",
+    ),
+]
 Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
 ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
 FormOfDay: TypeAlias = Annotated[
@@ -143,12 +152,7 @@ class Lengths(Question):
 
     games: Annotated[tuple[int, int] | None, GAMES] = None
     race_to: Annotated[
-        int | None,
-        Field(
-            Whole(1, LONGEST),
-            "Races in which the stronger player needs N games.",
-            usual=f"{USUAL_RACE}, unless {{games}} is given",
-        ),
+        int | None, RACE_TO, Says(usual=f"{USUAL_RACE}, unless {{games}} is given")
     ] = None
 
     def check(self) -> None:
@@ -173,6 +177,7 @@ class Starters(Question):
             Number(-1e6, 1e6, " is not a number of rating points; give one such as 80"),
             "The rating of a new player.",
             usual="the middle of the scale",
+            more="80 on the NPL scale, 500 on Fargo's, 1500 on Elo's.",
             metavar="RATING",
             section="Ratings",
             rare=True,

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from evenbreak.fields.kinds import Choice, File, Flag, Number, Text, Whole
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import ByWay, ChartName, PlotFile, ScaleOf
-from evenbreak.questions.results import RESULTS, ROSTER, Reading
+from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, Reading
 from evenbreak.questions.systems import DAY_SD, BySystem
 
 LARGEST = 10_000
@@ -346,4 +346,4 @@ class SandbagWatch(BySystem, Reading):
     def check(self) -> None:
         """Refuse standard input for several files."""
         if [self.results, self.roster, self.chart, self.aliases].count("-") > 1:
-            self.refuse("- stands for standard input, which only one file can be; name the others")
+            self.refuse(ON_STDIN)

@@ -17,6 +17,8 @@ from evenbreak.words import Parameter
 _READING = "Reading the file"
 _DAYS_AHEAD = 366
 
+ON_STDIN = "- stands for standard input, which only one file can be; name the others"
+
 RESULTS = Field(File("RESULTS.csv..."), argument=True, many=True)
 ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
 

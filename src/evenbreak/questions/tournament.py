@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
-from evenbreak.fields.kinds import File, Flag, Number
-from evenbreak.fields.question import Field, Question, Says
+from evenbreak.fields.kinds import File, Flag
+from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters
 from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
+from evenbreak.questions.pace import Pace, Turnover
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import Parameter
@@ -151,26 +152,6 @@ class TournamentOdds(OfEntrants):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pace(Question):
-    """How fast matches are played."""
-
-    discipline: Discipline | None = None
-    minutes_per_game: Annotated[
-        float | None,
-        Field(
-            Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5"),
-            "How long a game takes on average, instead of the usual time of the discipline.",
-            metavar="MINUTES",
-        ),
-    ] = None
-
-    def check(self) -> None:
-        """Refuse two paces."""
-        if self.discipline is not None and self.minutes_per_game is not None:
-            self.refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")
-
-
-@dataclass(frozen=True, kw_only=True)
 class TournamentTime(OfEntrants, Pace):
     """Find when the tournament ends, and when each match starts.
 
@@ -188,12 +169,9 @@ class TournamentTime(OfEntrants, Pace):
     under_way = ("tables", "turnover")
     tables: Tables | None = None
     turnover: Annotated[
-        float | None,
-        Field(
-            Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0"),
-            "The time between two matches on a table, on average.",
+        Turnover,
+        Says(
             usual="as in real events",
-            metavar="MINUTES",
             section="Details",
             more="In real events most matches start at once, and the average is 4.",
         ),

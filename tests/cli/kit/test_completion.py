@@ -33,7 +33,7 @@ def offered(*words):
         (("live", "--from", ROSTER, "Keiko Amasuda", "al-b"), ["Noor Al-Beyrati"]),
         (("fair", "--from", ROSTER, "Keiko Amasuda", "noor"), ["Noor Al-Beyrati"]),
         (("compare", "--from", ROSTER, "amas"), ["Keiko Amasuda"]),
-        (("why", "--from", SEASON, "Petra Nowicz-Hale", "Zo"), ["Zoë Kestleman"]),
+        (("why", "--results", SEASON, "Petra Nowicz-Hale", "Zo"), ["Zoë Kestleman"]),
         (("odds", "Keik"), []),
         (("odds", "--from", "no such file", "Keik"), []),
     ],

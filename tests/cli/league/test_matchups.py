@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.cli.league import matchups as module
 from evenbreak.cli.program import program
 from evenbreak.handicaps import audit_levels
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import Turnover
+from evenbreak.questions.league import Matchups
 from places import DATA
 
 CLUB = "player,rating\nAnn,92\nBo,71\nCy,80\nDi,60\n"
@@ -285,7 +285,7 @@ def test_what_a_roster_may_lack(run, roster):
 def test_examples_of_the_help_name_options_that_exist():
     command = program.get_command(click.Context(program), "matchups")
     known = {name for option in command.params for name in option.opts}
-    used = {word for word in module.EXAMPLES.split() if word.startswith("--")}
+    used = {word for word in Matchups.examples.split() if word.startswith("--")}
     assert used <= known
 
 
@@ -421,7 +421,8 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
 
 
 def test_the_help_knows_the_usual_turnover(run):
-    assert f"[default: {Turnover().mean:g}]" in " ".join(run("matchups", "--help").stdout.split())
+    text = " ".join(run("matchups", "--help-all").stdout.split())
+    assert f"on average. [0 to 1440; default: {Turnover().mean:g}]" in text
 
 
 def test_skill_levels_need_a_chart_of_levels_or_a_scale(run, tmp_path):

@@ -180,7 +180,7 @@ def test_names_cannot_become_formulas(rate):
         (["--half-life", "-3"], 2, "a number of days"),
         (["--as-of", "3/1/2026"], 2, "--dates mdy or --dates dmy"),
         (["--as-of", "soon"], 2, "such as 2026-01-31"),
-        (["--as-of", "2204-04-01"], 2, "'2204-04-01' is more than a year from today"),
+        (["--as-of", "2204-04-01"], 2, "'2204-04-01', more than a year from today"),
         (["--as-of", "2020-01-01"], 3, "2020-01-01; give a later day"),
         (["--break-advantage", "nan"], 2, "a number of points, or fit"),
         (["--anchor", "high"], 2, "such as 80, or NAME=POINTS"),

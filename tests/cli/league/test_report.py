@@ -44,7 +44,7 @@ def demo(run, tmp_path_factory):
     """The report of the demo league in all its forms, and the folder where it is."""
     pytest.importorskip("xlsxwriter", reason="writes workbooks")
     folder = tmp_path_factory.mktemp("demo") / "sheet"
-    return run("report", str(DEMO), "--out", str(folder), "--html", "--excel"), folder
+    return run("report", str(DEMO), "--out", str(folder), "--page", "--excel"), folder
 
 
 def test_the_demo_league_gives_its_files_and_a_sheet(demo):
@@ -156,7 +156,7 @@ def test_of_a_large_league_those_who_played_most_are_paired(run, tmp_path, monke
 @pytest.mark.slow
 def test_the_same_input_gives_the_same_bytes(demo, tmp_path):
     result, folder = demo
-    words = ("report", str(DEMO), "--out", str(tmp_path), "--html", "--excel")
+    words = ("report", str(DEMO), "--out", str(tmp_path), "--page", "--excel")
     again = subprocess.run(
         [sys.executable, "-m", "evenbreak", *words],
         env={**os.environ, "PYTHONHASHSEED": "1"},
@@ -235,7 +235,7 @@ def test_aliases_mend_names_and_the_page_keeps_their_folder_to_itself(run, tmp_p
     aliases.write_text("name,means\nAnnie,Ann\n", encoding="utf-8")
     season = SMALL + "2024-09-24,Annie,Bo,7,5\n"
     out = tmp_path / "sheet"
-    words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--html")
+    words = ("report", "-", "--out", str(out), "--aliases", str(aliases), "--page")
     result = run(*words, stdin=season)
     assert result.exit_code == 0
     assert f"{aliases}: 'Annie' as 'Ann'" in result.stderr
@@ -254,7 +254,7 @@ def test_without_xlsxwriter_a_workbook_is_refused_before_any_work(run, tmp_path,
 
 
 def test_how_it_was_rated_is_said_on_the_sheet_the_page_and_in_the_summary(run, tmp_path):
-    words = ("--prior", "15", "--half-life", "90", "--as-of", "10.9.2024", "--html")
+    words = ("--prior", "15", "--half-life", "90", "--as-of", "10.9.2024", "--page")
     result = run("report", "-", "--out", str(tmp_path), *words, stdin=SMALL)
     assert result.exit_code == 0
     sheet = " ".join(result.stdout.split())
@@ -520,7 +520,7 @@ def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     prior = float(summary(tmp_path / "o")["prior_sd_points"])
     assert float(new["quasi_error"]) == pytest.approx(prior, rel=1e-4)
     assert "'A Stranger'" in result.stderr
-    words = ("--players-file", str(entrants), "--html")
+    words = ("--players-file", str(entrants), "--page")
     assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path / "q"), *words).exit_code == 0
     page = (tmp_path / "q" / "sheet.html").read_text(encoding="utf-8")
     assert "entrants.txt:2" in page
@@ -530,7 +530,7 @@ def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     assert run("report", str(DEMO), *FIXED, "--out", str(tmp_path / "p"), *both).exit_code == 2
 
 
-@pytest.mark.parametrize("words", [("--html", "page.html"), ("--excel", "page.xlsx")])
+@pytest.mark.parametrize("words", [("--page", "page.html"), ("--excel", "page.xlsx")])
 def test_a_name_after_an_option_without_one_gets_a_hint(run, tmp_path, words):
     result = run("report", "-", *words, "--out", str(tmp_path / "sheet"), stdin=SMALL)
     assert result.exit_code == 2

@@ -10,7 +10,7 @@ DEMO = str(DATA / "demo_league.csv")
 @pytest.mark.slow
 def test_the_ratings_and_the_race_are_those_of_the_report(run, tmp_path):
     names = ("Zoë Kestleman", "petra nowicz-hale")
-    answer = json.loads(run("why", *names, "--from", DEMO, "--json").stdout)
+    answer = json.loads(run("why", *names, "--results", DEMO, "--json").stdout)
     words = ("--players", ",".join(names), "--json", "--out", str(tmp_path))
     sheet = json.loads(run("report", DEMO, *words).stdout)
     (pair,) = sheet["matchups"]
@@ -23,10 +23,10 @@ def test_the_ratings_and_the_race_are_those_of_the_report(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code", "named"),
     [
-        (("Ann", "Petra Nowicz-Hale", "--from", DEMO), 2, "'Ann'"),
-        (("Zoë Kestleman", "zoë kestleman", "--from", DEMO), 2, "one player"),
-        (("Zoë Kestleman", "Petra Nowicz-Hale"), 2, "--from"),
-        (("Zoë Kestleman", "Petra Nowicz-Hale", "--from", "none.csv"), 3, "none.csv"),
+        (("Ann", "Petra Nowicz-Hale", "--results", DEMO), 2, "'Ann'"),
+        (("Zoë Kestleman", "zoë kestleman", "--results", DEMO), 2, "one player"),
+        (("Zoë Kestleman", "Petra Nowicz-Hale"), 2, "--results"),
+        (("Zoë Kestleman", "Petra Nowicz-Hale", "--results", "none.csv"), 3, "none.csv"),
     ],
 )
 def test_what_cannot_be_explained_is_refused(run, words, code, named):
@@ -46,7 +46,7 @@ SEASON = """date,player_a,player_b,score_a,score_b,forfeit
 def test_forfeits_without_a_date_do_not_matter_to_a_half_life(run, tmp_path):
     path = tmp_path / "season.csv"
     path.write_text(SEASON)
-    words = ("why", "Ann", "Bo", "--from", str(path), "--half-life", "30", "--json")
+    words = ("why", "Ann", "Bo", "--results", str(path), "--half-life", "30", "--json")
     answer = json.loads(run(*words).stdout)
     assert len(answer["one_more"]) == 2
     path.write_text(SEASON.rpartition(",Ann")[0])
@@ -58,7 +58,7 @@ def test_the_doubts_of_a_report_are_shown(run, tmp_path):
     path = tmp_path / "season.csv"
     path.write_text(SEASON.rpartition(",Ann")[0])
     answer = json.loads(
-        run("why", "Ann", "Bo", "--from", str(path), "--prior", "best", "--json").stdout
+        run("why", "Ann", "Bo", "--results", str(path), "--prior", "best", "--json").stdout
     )
     assert any("6-6" in warning for warning in answer["warnings"])
     assert any("prior" in warning for warning in answer["warnings"])

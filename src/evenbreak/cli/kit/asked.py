@@ -237,7 +237,7 @@ def _show_all(ctx: click.Context, param: click.Parameter, value: bool) -> None: 
 
 def command_of(
     question: type[Asked], name: str | None = None, **options: Any
-) -> Callable[[Callable[[Asked], Answer]], click.Command]:
+) -> Callable[[Callable[..., Answer]], click.Command]:
     """Return a decorator that makes a command of the function that answers a question.
 
     Parameters
@@ -250,12 +250,12 @@ def command_of(
         as for `faces`.
     """
 
-    def decorate(answer: Callable[[Asked], Answer]) -> click.Command:
+    def decorate(answer: Callable[..., Answer]) -> click.Command:
         def run(**values: Any) -> Any:
-            ask_face = {"face": values.pop("face")} if options.get("ask_face") else {}
+            asks = {name: values.pop(name) for name in ("face", "page_file") if name in values}
             ctx = click.get_current_context()
             try:
-                return answer(asked_of(question, values, ctx), **ask_face)
+                return answer(asked_of(question, values, ctx), **asks)
             except AskedError as error:
                 message = said(error.sentence, _spelling(question))
                 raise click.UsageError(message, ctx=ctx) from None

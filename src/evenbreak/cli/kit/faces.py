@@ -20,7 +20,11 @@ Function = Callable[..., "Answer"]
 
 
 def faces(
-    *, page: bool = True, always_text: bool = False, ask_face: bool = False
+    *,
+    page: bool = True,
+    always_text: bool = False,
+    ask_face: bool = False,
+    ask_page: bool = False,
 ) -> Callable[[Function], Function]:
     """Return a decorator that prints the `Answer` of a command, as its options ask.
 
@@ -34,6 +38,8 @@ def faces(
     ask_face
         whether the command gets the face (text, csv or json) as `face`, because some faces hold
         less than others.
+    ask_page
+        whether the command writes the page itself, and gets its name as `page_file`.
     """
 
     def decorate(function: Function) -> Function:
@@ -43,10 +49,12 @@ def faces(
             chosen = face or ("text" if always_text or to_terminal() else "csv")
             if ask_face:
                 options["face"] = chosen
+            if ask_page:
+                options["page_file"] = page_file
             with Working():
                 answer = function(**options)
             print_answer(answer, chosen, verbose=verbose)
-            if page_file is not None:
+            if page_file is not None and not ask_page:
                 from evenbreak.sheets.html_page import answer_page
 
                 write_file(page_file, answer_page(answer))

@@ -5,28 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
-from evenbreak.cli.kit.faces import faces, page_name, without_folders
-from evenbreak.cli.kit.options import (
-    SAY_WHICH,
-    chart_option,
-    form_option,
-    players_file_option,
-    race_limit_options,
-    refuse_both,
-    scale_option,
-    seed_option,
-)
-from evenbreak.cli.kit.paces import TURNOVER, pace_options, stated_pace
-from evenbreak.cli.kit.starters import starter_options, with_starters
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.faces import without_folders
+from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.paces import stated_pace
+from evenbreak.cli.kit.starters import with_starters
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
 from evenbreak.cli.kit.terminal import write_file
-from evenbreak.cli.kit.values import Whole, refuse
+from evenbreak.cli.kit.values import refuse
 from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.questions.league import Matchups
 from evenbreak.ratings.scale import SCALES, Scale
 
 if TYPE_CHECKING:
@@ -44,105 +35,29 @@ MOST_SHOWN = 20_000
 MOST_MATCHES = 1_000
 """The most matches of one evening."""
 
-EXAMPLES = """\b
-Examples:
-  evenbreak matchups roster.csv --chart npl_10
-  evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
-  evenbreak matchups roster.csv --race-to 7 --players-file entrants.txt
-  evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
-"""
 
-
-@click.command("matchups", epilog=EXAMPLES)
-@click.argument("roster", metavar="ROSTER.csv")
-@chart_option("The league's chart, by name or in a file.")
-@race_limit_options
-@players_file_option
-@click.option("--pairs", metavar="PAIRS.csv", help="Who meets whom.  [default: all pairs]")
-@scale_option(
-    "the one that the file states, else the chart's, else the only one that the ratings can be on; "
-    "for skill levels, where the chart's own races put them",
-    fixed=False,
-)
-@starter_options
-@pace_options
-@click.option(
-    "--tables", type=Whole(1, 1000), metavar="T", help="Say when the round ends on T tables."
-)
-@click.option(
-    "--turnover",
-    metavar="MINUTES",
-    type=TURNOVER,
-    help="The time between two matches on a table, on average.  [default: 10.8]",
-)
-@form_option
-@seed_option("The seed of the evenings that have to be simulated.", default=0)
-@click.option(
-    "--html",
-    metavar="FILE",
-    callback=page_name,
-    help="Also write a page to FILE, to print or to send.",
-)
-@faces(page=False, ask_face=True)
-def command(
-    face: str,
-    roster: str,
-    chart: str | None,
-    games: tuple[int, int] | None,
-    race_to: int | None,
-    players_file: str | None,
-    pairs: str | None,
-    scale: Scale | None,
-    starter: float | None,
-    starter_sd: float | None,
-    discipline: str | None,
-    minutes_per_game: float | None,
-    tables: int | None,
-    turnover: float | None,
-    form: float | None,
-    seed: int,
-    html: str | None,
-) -> Answer:
-    """Find the race for each pair of players tonight, and how often each player wins it.
-
-    ROSTER.csv has a row for each player, with the columns player and rating and, if you
-    have them, standard_error and games; - reads standard input. --chart looks the
-    races up, --games or --race-to finds the fairest ones; with both, they stand side by side.
-    --players-file says who has entered, if not all of them; those not on the list are new players.
-    Where standard errors are given, the chances are averaged over how far the ratings may be
-    off.
-    """
+@command_of(Matchups, "matchups", ask_face=True, ask_page=True)
+def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
+    """Find the race for each pair of players."""
     from evenbreak.answers.league.roster_matchups import check_roster
 
-    refuse_both(games, race_to)
-    if chart is None and games is None and race_to is None:
-        refuse("say which races; give --chart NAME, --games LO..HI or --race-to N")
-    stated = stated_pace(discipline, minutes_per_game)
-    pace = matches.pace_of(stated) if isinstance(stated, str) else stated
-    if tables is not None and pace is None:
-        refuse(
-            "--tables needs to know how long games take; add --discipline, such as 9-ball, or "
-            "--minutes-per-game, such as 8"
-        )
-    if turnover is not None and tables is None:
-        refuse("--turnover is the time between two matches on a table; say how many --tables")
-    if [roster, pairs, chart].count("-") > 1:
-        refuse("only one list can come from standard input; name a file for the other")
-    of_league, warnings = (None, []) if chart is None else _chart(chart)
-    file = files.read_roster(roster)
-    if players_file is not None:
-        file = files.roster_of_entrants(file, files.read_entrants(players_file))
-    points, levels = _scale_of_list(file, scale, of_league)
-    players = with_starters(file.roster, points, starter, starter_sd)
+    stated = stated_pace(asked.discipline, asked.minutes_per_game)
+    of_league, warnings = (None, []) if asked.chart is None else _chart(asked.chart)
+    file = files.read_roster(asked.roster)
+    if asked.players_file is not None:
+        file = files.roster_of_entrants(file, files.read_entrants(asked.players_file))
+    points, levels = _scale_of_list(file, asked.scale, of_league)
+    players = with_starters(file.roster, points, asked.starter, asked.starter_sd)
     check_roster(file, players, of_league, points)
-    if scale is None and file.scale is not None:
+    if asked.scale is None and file.scale is not None:
         warnings += _other_chart(file.scale, of_league)
-    elif scale is None:
+    elif asked.scale is None:
         remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
-    if starter is None:
+    if asked.starter is None:
         warnings += starter_doubts(points, file.roster.rating)
-    meet, more = _pairs(pairs, file.source, players, tables, face)
+    meet, more = _pairs(asked, file.source, players, face)
+    is_offered = asked.games is not None or asked.race_to is not None
     tonight = answers.Round(
         file=file,
         roster=players,
@@ -150,20 +65,20 @@ def command(
         scale=points,
         chart=of_league,
         levels=levels,
-        offered=None if games is None and race_to is None else answers.OfferedRaces(games, race_to),
-        pace=pace,
-        tables=tables,
-        turnover=matches.Turnover() if turnover is None else matches.Turnover(turnover),
-        seed=seed,
-        form=file.form if form is None else form,
-        listed=pairs is not None,
+        offered=answers.OfferedRaces(asked.games, asked.race_to) if is_offered else None,
+        pace=matches.pace_of(stated) if isinstance(stated, str) else stated,
+        tables=asked.tables,
+        turnover=matches.Turnover() if asked.turnover is None else matches.Turnover(asked.turnover),
+        seed=asked.seed,
+        form=file.form if asked.form is None else asked.form,
+        listed=asked.pairs is not None,
     )
-    if html is not None:
-        public = without_folders([*warnings, *more], chart, pairs)
-        league = None if players_file is None else roster
+    if page_file is not None:
+        public = without_folders([*warnings, *more], asked.chart, asked.pairs)
+        league = None if asked.players_file is None else asked.roster
         about_file = tuple(without_folders(file.warnings, league))
         shown = replace(tonight, file=replace(file, warnings=about_file))
-        write_file(html, sheets.round_html(shown, warnings=public))
+        write_file(page_file, sheets.round_html(shown, warnings=public))
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
 
 
@@ -224,28 +139,29 @@ def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
 
 
 def _pairs(
-    path: str | None, source: str, roster: ratings.Roster, tables: int | None, face: str
+    asked: Matchups, source: str, roster: ratings.Roster, face: str
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
     """Return who meets whom, and the warnings of the list; refuse too many."""
     from evenbreak.answers.league.roster_matchups import all_pairs
     from evenbreak.files.lists.season import read_pairs
 
-    if path is not None:
-        file = read_pairs(path, roster)
-        _refuse_too_many(f"{path} has {len(file.pairs):,} pairs", len(file.pairs), tables, face)
+    if asked.pairs is not None:
+        file = read_pairs(asked.pairs, roster)
+        listed = len(file.pairs)
+        _refuse_too_many(f"{asked.pairs} has {listed:,} pairs", listed, asked.tables, face)
         return file.pairs, file.warnings
     many = len(roster) * (len(roster) - 1) // 2
     if not many:
         refuse(f"{source} has one player; a match takes two")
-    _refuse_too_many(f"{len(roster):,} players make {many:,} pairs", many, tables, face)
+    _refuse_too_many(f"{len(roster):,} players make {many:,} pairs", many, asked.tables, face)
     return all_pairs(roster), ()
 
 
-def _refuse_too_many(found: str, many: int, tables: int | None, face: str) -> None:
+def _refuse_too_many(pairs: str, many: int, tables: int | None, face: str) -> None:
     meet = "name those who meet with --pairs PAIRS.csv"
     if tables is not None and many > MOST_MATCHES:
-        refuse(f"{found}, and {MOST_MATCHES:,} are the most for one evening; {meet}")
+        refuse(f"{pairs}, and {MOST_MATCHES:,} are the most for one evening; {meet}")
     if many > MOST_PAIRS:
-        refuse(f"{found}, and {MOST_PAIRS:,} are the most; {meet}")
+        refuse(f"{pairs}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and face != "csv":
-        refuse(f"{found}, too many for {face}; write them with --csv > pairs.csv, or {meet}")
+        refuse(f"{pairs}, too many for {face}; write them with --csv > pairs.csv, or {meet}")

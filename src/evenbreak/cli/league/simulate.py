@@ -2,40 +2,30 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+import logging
+from collections.abc import Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager, nullcontext
 from pathlib import PurePath
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from evenbreak import league, plots
+from evenbreak import files, handicaps, league, plots
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import (
-    chart_option,
-    out_option,
-    players_file_option,
-    scale_option,
-    seed_option,
-)
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.systems import system_option
+from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.terminal import say, write_folder
-from evenbreak.cli.kit.values import Number, Whole
-from evenbreak.cli.league.simulate_season import (
-    WEEKS,
-    matches_to_play,
-    refuse_contradictions,
-    season_of_options,
-    with_entrants,
-)
+from evenbreak.errors import EvenbreakError, InputError, WorkerError
 from evenbreak.files.csv_writer import to_csv
+from evenbreak.questions.league import WEEKS, Simulate
+from evenbreak.ratings.scale import SCALES
 
 if TYPE_CHECKING:
+    import distributed
+
     from evenbreak.answers.league.season_tables import SeasonTables
-
-
-MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
 
 LONG = 500_000_000
 """Matches that take one process ten seconds or more."""
@@ -43,143 +33,59 @@ LONG = 500_000_000
 MANY = 100_000
 """Players times weeks for which one season in full takes seconds."""
 
-EXAMPLES = """\b
-Examples:
-  evenbreak simulate roster.csv --chart npl_10 --weeks 30 --out season
-  evenbreak simulate roster.csv --schedule fixtures.csv --replicas 10000 --out season
-  evenbreak simulate roster.csv --random --day-sd 5 --system "step 2" --out step2
-"""
 
-
-@click.command("simulate", epilog=EXAMPLES)
-@click.argument("roster", metavar="ROSTER.csv")
-@out_option("The folder for the tables and pictures; created if needed.")
-@players_file_option
-@system_option()
-@scale_option("the system's", fixed=False)
-@chart_option()
-@click.option(
-    "--weeks",
-    type=Whole(1, MOST_WEEKS),
-    metavar="W",
-    help=f"How many weeks are played.  [default: those of the schedule, or {WEEKS}]",
-)
-@click.option(
-    "--schedule",
-    "schedule_path",
-    metavar="FILE",
-    help="Who plays whom: a file with the columns week, player_a and player_b.",
-)
-@click.option(
-    "--round-robin",
-    is_flag=True,
-    help="Everybody plays everybody in turn, again and again: the default.",
-)
-@click.option("--random", "by_lot", is_flag=True, help="Draw opponents at random each week.")
-@click.option(
-    "--matches",
-    type=Whole(1, MOST_MATCHES),
-    metavar="N",
-    help="Matches per player and week, without a schedule.  [default: 1]",
-)
-@click.option(
-    "--day-sd",
-    type=Number(0.0, 1000.0, "; give points from 0 to 1,000"),
-    default="0",
-    metavar="POINTS",
-    help="How much a player's form varies from day to day (standard deviation), where the roster "
-    "does not say.",
-)
-@click.option(
-    "--racks", is_flag=True, help="Play rack by rack instead of drawing the winner of each match."
-)
-@click.option(
-    "--replicas",
-    type=Whole(1, MOST_REPLICAS),
-    default=1000,
-    metavar="R",
-    help="How many seasons are simulated.",
-)
-@seed_option("Seed of all random draws; the same seed gives the same files.")
-@click.option(
-    "--jobs",
-    type=Whole(1, MOST_JOBS),
-    default=1,
-    metavar="J",
-    help="How many processes work at a time; the answer is the same.",
-)
-@click.option(
-    "--dask",
-    "cluster",
-    metavar="ADDRESS",
-    help="Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
-)
-@click.option("--no-matches", is_flag=True, help="Do not write matches.csv and truth.csv.")
-@faces()
-def command(
-    roster: str,
-    out: str,
-    replicas: int,
-    seed: int,
-    jobs: int,
-    cluster: str | None,
-    no_matches: bool,
-    players_file: str | None,
-    **played: Any,
-) -> Answer:
-    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
-
-    ROSTER.csv has one player per row, with the columns player and rating and, optionally,
-    standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
-    input. A player without a skill gets one drawn for each season from rating and standard
-    error. --players-file says who plays, if not everybody; those not on the list are new players.
-    matches.csv is one season in full, which `rate` and `validate` can read.
-    """
+@command_of(Simulate, "simulate")
+def command(asked: Simulate) -> Answer:
+    """Simulate a season many times."""
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.league.season import season_answer
     from evenbreak.answers.league.season_tables import season_tables
     from evenbreak.files.lists.season import read_league
     from evenbreak.files.store.folder import check_folder
 
-    refuse_contradictions(roster, jobs, cluster, played)
-    file = read_league(roster, day_sd=played["day_sd"])
-    if players_file is not None:
-        file = with_entrants(file, players_file, played)
-    season, warnings = season_of_options(file, played)
-    check_folder(out)
-    if (many := matches_to_play(season) * replicas) >= LONG:
-        remedy = "; --jobs shares the work" if jobs == 1 and cluster is None else ""
+    file = read_league(asked.roster, day_sd=asked.day_sd)
+    if asked.players_file is not None:
+        file = _with_entrants(file, asked.players_file, asked)
+    season, warnings = season_of(file, asked)
+    check_folder(asked.out)
+    if (many := matches_to_play(season) * asked.replicas) >= LONG:
+        remedy = "; --jobs shares the work" if asked.jobs == 1 and asked.dask is None else ""
         say(f"{many:,} matches are to be played{remedy}")
-    tally = _simulated(season, replicas, seed, jobs, cluster)
+    tally = _simulated(season, asked)
     tables = season_tables(season, tally)
     answer = season_answer(
         season,
         tally,
         tables,
-        {"roster_file": PurePath(file.source).name, "seed": seed, "day_sd": played["day_sd"]},
+        {
+            "roster_file": PurePath(file.source).name,
+            "seed": asked.seed,
+            "day_sd": asked.day_sd,
+        },
         drawn=file.drawn,
         exact=file.exact,
         warnings=warnings,
     )
-    files = _tables(tables) | {"summary.csv": "".join(to_csv(answer)).encode()}
-    if not no_matches:
-        files |= _one_season(season, seed)
-    files |= _pictures(tables)
-    write_folder(out, files)
+    content = _tables(tables) | {"summary.csv": "".join(to_csv(answer)).encode()}
+    if not asked.no_matches:
+        content |= _one_season(season, asked.seed)
+    content |= _pictures(tables)
+    write_folder(asked.out, content)
     return answer
 
 
-def _simulated(
-    season: league.Season, replicas: int, seed: int, jobs: int, cluster: str | None
-) -> league.Tally:
-    from evenbreak.cli.league.cluster import cluster_at
-
+def _simulated(season: league.Season, asked: Simulate) -> league.Tally:
     with (
-        nullcontext() if cluster is None else cluster_at(cluster) as client,
+        nullcontext() if asked.dask is None else cluster_at(asked.dask) as client,
         Progress("seasons") as progress,
     ):
         return league.simulate(
-            season, replicas=replicas, seed=seed, executor=client, jobs=jobs, progress=progress
+            season,
+            replicas=asked.replicas,
+            seed=asked.seed,
+            executor=client,
+            jobs=asked.jobs,
+            progress=progress,
         )
 
 
@@ -216,3 +122,137 @@ def _pictures(tables: SeasonTables) -> dict[str, bytes]:
         for name, figure in figures.items()
         for kind in ("png", "svg")
     }
+
+
+# The season that is asked for.
+
+
+def _with_entrants(file: files.LeagueFile, path: str, asked: Simulate) -> files.LeagueFile:
+    """Return the league with those players who have entered.
+
+    New ones start in the middle of the scale, or of the league if the scale has none.
+    """
+    scale = _system(asked).scale
+    of_league = sorted(file.players.rating.tolist())[len(file.players) // 2]
+    return files.league_of_entrants(
+        file,
+        files.read_entrants(path),
+        starter=scale.centre if scale.name in SCALES else of_league,
+        starter_sd=scale.points_per_doubling,
+    )
+
+
+def _system(asked: Simulate) -> handicaps.System:
+    return on_scale(asked.system or handicaps.system_of("npl"), asked.scale)
+
+
+def season_of(file: files.LeagueFile, asked: Simulate) -> tuple[league.Season, list[str]]:
+    """Return the season that is asked for, and warnings about roster, chart and schedule."""
+    from evenbreak.answers.kit.scales import league_doubts
+
+    system = _system(asked)
+    refuse_other_scale(
+        file,
+        system.scale,
+        f"the system {system.name}",
+        SAY_WHICH,
+        stated=asked.scale is not None,
+    )
+    chart, of_chart = chart_for(system, asked.chart)
+    schedule, weeks, of_schedule = _schedule(file, asked)
+    play = "racks" if asked.rack_by_rack else "matches"
+    doubts = league_doubts(system.scale, file.players.rating, SAY_WHICH)
+    warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
+    return league.Season(file.players, system, chart, schedule, weeks, play), warnings
+
+
+def _schedule(file: files.LeagueFile, asked: Simulate) -> tuple[league.Schedule, int, list[str]]:
+    """Return who plays whom, for how many weeks, and warnings."""
+    matches, weeks = asked.matches or 1, asked.weeks
+    if asked.schedule is None:
+        if asked.random:
+            return league.RandomPairing(matches), weeks or WEEKS, []
+        return league.RoundRobin(len(file.players), matches), weeks or WEEKS, []
+    fixtures = files.read_schedule(asked.schedule, file.roster)
+    last, warnings = fixtures.schedule.weeks, list(fixtures.warnings)
+    if weeks is not None and weeks < last:
+        warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
+    if weeks is not None and weeks > last:
+        warnings.append(f"{fixtures.source}: ends with week {last}; nobody plays after it")
+    return fixtures.schedule, weeks or last, warnings
+
+
+def matches_to_play(season: league.Season) -> int:
+    """Return how many matches one season has, if everybody is always there."""
+    match season.schedule:
+        case league.FixedSchedule(week=week):
+            return int((week <= season.weeks).sum())
+        case league.RandomPairing(matches_a_week=many) | league.RoundRobin(matches_a_week=many):
+            return season.weeks * many * (len(season.players) // 2)
+    return 0
+
+
+# The dask cluster.
+
+
+_PATIENCE = 8.0
+"""Seconds within which a scheduler must answer, and within which it must have a worker."""
+
+
+@contextmanager
+def cluster_at(address: str) -> Iterator[distributed.Client]:
+    """Connect to a dask cluster.
+
+    Raises
+    ------
+    InputError
+        if dask is not installed.
+    WorkerError
+        if no scheduler answers, or it has no worker; in the block, for whatever dask raises.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "a dask cluster needs distributed, which is not installed; install it with: "
+            "pip install distributed (the extra evenbreak[dask]), or use --jobs"
+        ) from None
+    # What goes wrong is raised; its log would only repeat it.
+    for name in ("distributed", "tornado.application"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    answered: Future[distributed.Client] = Future()
+    start: Any = Client
+
+    def connect() -> None:
+        try:
+            answered.set_result(start(address, timeout=_PATIENCE, set_as_default=False))
+        except Exception as error:
+            answered.set_exception(error)
+
+    # The client's own timeout does not end its wait for a port that accepts and never answers.
+    Thread(target=connect, daemon=True).start()
+    try:
+        client = answered.result(_PATIENCE + 1.0)
+    except Exception:
+        raise WorkerError(
+            f"no dask scheduler answers at {address!r}; give the address that `dask scheduler` "
+            "prints, such as tcp://10.0.0.5:8786"
+        ) from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=_PATIENCE)
+        except TimeoutError:
+            raise WorkerError(
+                f"the dask cluster at {address} has no worker; start one or more with "
+                "`dask worker ADDRESS`"
+            ) from None
+        try:
+            yield client
+        except EvenbreakError:
+            raise
+        except Exception as error:
+            raise WorkerError(
+                f"the dask cluster at {address} did not finish the work: {error} "
+                f"({type(error).__name__}); it needs the same versions of evenbreak and numpy as "
+                "this computer, and enough memory"
+            ) from error

@@ -1,0 +1,275 @@
+"""`evenbreak rate`, `why` and `validate`: ratings, what made them, and whether to trust them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal
+
+from evenbreak import answers, files, handicaps
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.options import SAY_WHICH
+from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
+from evenbreak.cli.kit.terminal import say, write_file
+from evenbreak.cli.kit.values import NUMBER, number_of, refuse
+from evenbreak.errors import DataError, InputError
+from evenbreak.questions.ratings import Assumed, HowToRate, Rate, Validate, Why
+from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    from evenbreak.ratings.beginning import Beginning
+    from evenbreak.ratings.fitted import Ratings
+    from evenbreak.ratings.prior import PriorChoice
+    from evenbreak.ratings.results import Results
+
+MANY = 2_000_000
+"""Matches in all refits together that take so long that a person wonders."""
+
+
+@command_of(Rate, "rate")
+def rate(asked: Rate) -> Answer:
+    """Rate players from their results."""
+    if asked.system is not None:
+        return _by_system(asked, asked.system, asked.roster or "")
+    from evenbreak.ratings.scale import unstated_scale
+
+    file = files.read_seasons(asked.results, **asked.reading)
+    anchor = _anchor(file, asked.anchor)
+    points = anchor if isinstance(anchor, dict) else {"the mean": anchor or math.nan}
+    scale = asked.scale or unstated_scale(points.values(), list(points), SAY_WHICH, "--anchor")
+    ratings, choice = rated(
+        asked, file, scale, anchor=anchor, break_advantage=asked.break_advantage
+    )
+    warnings = []
+    if asked.break_advantage is not None and ratings.break_advantage is None:
+        warnings.append(
+            f"{file.source}: does not say who broke in any game, so --break-advantage changes "
+            "nothing; add break_format and first_break, with races or racks"
+        )
+    pairs = [_pair(ratings, pair) for pair in asked.pair]
+    if asked.save is not None:
+        _save(asked.save, file, ratings)
+    return answers.rate_answer(file, ratings, choice, pairs=pairs, warnings=warnings)
+
+
+def _save(path: str, file: files.ResultsFile, ratings: Ratings) -> None:
+    """Write the ratings, with which the next season can begin."""
+    from evenbreak.files.lists.saved_ratings import saved_csv
+    from evenbreak.ratings.decay import last_day
+
+    day = ratings.as_of or last_day(file.results)
+    content = saved_csv(ratings, "" if day is None else str(day), ratings.levels.beginning)
+    write_file(path, content)
+
+
+def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, float] | None:
+    """Return the mean, or the ratings of named players, that --anchor gives."""
+    means, named = [], {}
+    for text in texts:
+        name, _, number = text.rpartition("=")
+        if not NUMBER.fullmatch(number.strip()) or not math.isfinite(float(number)):
+            refuse(f"--anchor is {text!r}; give points, such as 80, or NAME=POINTS")
+        if name.strip():
+            (place,) = answers.find_players(file.results, [name], said="--anchor")
+            named[file.results.players[place]] = number_of(number)
+        else:
+            means.append(number_of(number))
+    if len(means) + bool(named) > 1:
+        refuse("--anchor gives either one mean or the ratings of named players, not both")
+    return named or (means[0] if means else None)
+
+
+def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
+    places = answers.find_players(ratings, names, said="--pair")
+    if len(places) < 2:
+        refuse(f"--pair names the same player twice, {names[0]!r}; name two players")
+    return places[0], places[1]
+
+
+# A league's own rule.
+
+
+def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
+    """Return the list of ratings after a night, or after several, night by night.
+
+    Without a chart the results say who won, or else the only one of the system's charts that fits
+    all scores is used.
+    """
+    from evenbreak.answers.kit.scales import league_doubts
+
+    by_chart = None if asked.chart is None else chart_by_difference("--chart", asked.chart)
+    last = files.read_roster(roster)
+    refuse_for_system(last, system)
+    tonight = files.read_results(asked.results[0], **asked.reading)
+    if by_chart is None:
+        by_chart = handicaps.chart_of_night(system, last.roster, _first_night(tonight.results))
+    try:
+        moves = answers.rating_changes_of_season(system, last, tonight, chart=by_chart)
+    except DataError:
+        for warning in (*last.warnings, *tonight.warnings):  # they may explain it
+            say(f"Warning: {warning}")
+        raise
+    answer = answers.rating_changes_answer(
+        moves, last, tonight, chart=by_chart, found_chart=asked.chart is None
+    )
+    if last.scale is not None:
+        return answer
+    remedy = f"the system {system.name} takes them as they are"
+    doubts = league_doubts(system.scale, last.roster.rating, remedy)
+    return replace(answer, warnings=[*answer.warnings, *doubts])
+
+
+def _first_night(results: Results) -> Results:
+    """Return the matches of the first date, whose races the ratings of the list have set."""
+    import numpy as np
+
+    if results.date is None or np.isnat(results.date).all():
+        return results
+    return results.select(np.flatnonzero(results.date == np.nanmin(results.date)))
+
+
+@command_of(Why, "why")
+def why(asked: Why) -> Answer:
+    """Explain two ratings."""
+    from evenbreak.ratings.usual import rated_alike
+
+    file = files.read_seasons(asked.results, **asked.reading)
+    names = (asked.player_a, asked.player_b)
+    pair = answers.find_players(file.results, names, said="why", where=file.source)
+    if len(pair) < 2:
+        refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
+    ratings, choice = rated(asked, file, asked.scale)
+    played = int(ratings.games[pair].sum())
+    if played * len(file.results) > MANY:
+        say("Rating the league again without each of their matches")
+    offered = answers.OfferedRaces(**asked.lengths)
+    return answers.why_answer(
+        file, ratings, (pair[0], pair[1]), offered, rated_alike(ratings, file.results), choice
+    )
+
+
+@command_of(Validate, "validate")
+def validate(asked: Validate) -> Answer:
+    """Find out whether ratings can be trusted."""
+    from evenbreak.ratings import validate as validated
+
+    prior_sd = prior_in_log_odds(asked, asked.scale) if isinstance(asked.prior, float) else None
+    file = files.read_seasons(asked.results, **asked.reading)
+    try:
+        with Progress("steps") as progress:
+            validation = validated(
+                file.results,
+                prior_sd=prior_sd,
+                half_life=_half_life(asked),
+                beginning=_beginning(asked, file, asked.scale),
+                seed=asked.seed,
+                progress=progress,
+            )
+    except InputError as error:  # the options have been checked, so it is the data
+        raise DataError([f"{file.source}: {error}"]) from None
+    if asked.plot is not None:
+        from evenbreak.plots.league import draw_calibration
+
+        write_plot(draw_calibration(validation), asked.plot)
+    chart = handicaps.league_chart(file.results)
+    return answers.validate_answer(file, validation, asked.scale, seed=asked.seed, chart=chart)
+
+
+# How to rate, as `report` does too.
+
+
+def rated(
+    asked: HowToRate, file: files.ResultsFile, scale: Scale, **more: Any
+) -> tuple[Ratings, PriorChoice | None]:
+    """Return the ratings of results, and how their prior was chosen; `more` for `usual_ratings`.
+
+    Form of the day is estimated with them.
+
+    Raises
+    ------
+    DataError
+        if no match counts.
+    """
+    from evenbreak.ratings.usual import usual_ratings
+
+    day = asked.day("as_of")
+    beginning = _beginning(asked, file, scale)
+    with Progress("steps") as progress:
+        ratings, choice = usual_ratings(
+            file.results,
+            scale=scale,
+            prior=prior_in_log_odds(asked, scale)
+            if isinstance(asked.prior, float)
+            else asked.prior,
+            half_life=_half_life(asked),
+            as_of=day,
+            beginning=beginning,
+            progress=progress,
+            **more,
+        )
+    if not ratings.matches:
+        why_none = "was played; add matches with games"
+        if ratings.later:
+            why_none = f"was played by {day}; give a later day to --as-of"
+        raise DataError([f"{file.source}: no match in it {why_none}"])
+    return ratings, choice
+
+
+def prior_in_log_odds(asked: Assumed, scale: Scale) -> float:
+    """Return the standard deviation that --prior gives, in log-odds, or refuse it."""
+    from evenbreak.ratings.fit import NARROWEST, WIDEST
+
+    points = float(asked.prior or 0.0)
+    width: float = scale.log_odds(points)
+    if not NARROWEST <= width <= WIDEST:
+        asked.refuse(
+            "{prior} is {points:g} points; on this scale give {least:.2g} to {most:.4g}",
+            points=points,
+            least=scale.points(NARROWEST),
+            most=scale.points(WIDEST),
+        )
+    return width
+
+
+def _half_life(asked: Assumed) -> float | Literal["best"] | None:
+    """Return the half-life as `best_prior` takes it: what is asked for, or the best."""
+    if asked.half_life is None:
+        return "best"
+    return None if asked.half_life == "none" else float(asked.half_life)
+
+
+def _beginning(asked: Assumed, file: files.ResultsFile, scale: Scale) -> Beginning | None:
+    """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
+    from evenbreak.answers.kit.scales import league_doubts
+    from evenbreak.files.lists.saved_ratings import read_saved
+    from evenbreak.ratings.scale import refuse_contradicted
+
+    path = asked.begin
+    if path is None:
+        return None
+    saved = read_saved(path, scale, file.results.players)
+    if not saved.found:
+        refuse(f"--begin {path}: none of its players is in {file.source}; check the names")
+    beginning, day = saved.beginning, saved.beginning.as_of
+    if not saved.scale_stated:
+        remedy = "name the scale with --scale, or state it in a column scale"
+        listed = beginning.rating.tolist(), beginning.players
+        try:
+            refuse_contradicted(scale, *listed, whose="the new ratings", remedy=remedy)
+        except InputError as error:
+            refuse(f"--begin {path}: {error}")
+        for doubt in league_doubts(scale, beginning.rating, remedy):
+            refuse(f"--begin {path}: {doubt}")
+    if day is not None and file.results.date is not None:
+        earlier = int((file.results.date[file.results.counted] <= day).sum())
+        if earlier:
+            refuse(
+                f"--begin {path}: its ratings are as of {day}, and {earlier:,} of the matches in "
+                f"{file.source} are of that day or earlier, so they would count twice; give the "
+                "later matches alone"
+            )
+    return beginning

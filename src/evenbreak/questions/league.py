@@ -1,0 +1,241 @@
+"""Questions about a list of rated players: tonight's races, and a season of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from evenbreak.fields.kinds import File, Flag, Number, Text, Whole
+from evenbreak.fields.question import Field, Says
+from evenbreak.questions.common import (
+    RACE_TO,
+    ChartName,
+    EntrantsFile,
+    FormOfDay,
+    Lengths,
+    OutFolder,
+    ScaleOf,
+    Seed,
+    Starters,
+)
+from evenbreak.questions.pace import MINUTES, Pace, Turnover
+from evenbreak.questions.results import ON_STDIN, ROSTER
+from evenbreak.questions.systems import DAY_SD, BySystem
+from evenbreak.tournaments.evening.format import Discipline, Tables
+
+MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
+
+WEEKS = 30
+"""The length of a season where neither an option nor a schedule says it."""
+
+_WHO, _WORK = "Who plays whom", "The work"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Matchups(Lengths, Starters, Pace):
+    """Find the race for each pair of players tonight, and how often each player wins it.
+
+    ROSTER.csv has a row for each player, with the columns player and rating and, if you have them,
+    standard_error and games; - reads standard input. {chart} looks the races up, {games} or
+    {race_to} finds the fairest ones; with both, they are shown side by side. {players_file} says
+    who has entered, if not all of them; those not on the list are new players. Where standard
+    errors are given, the chances are averaged over how far the ratings may be off.
+    """
+
+    examples = """\
+  evenbreak matchups roster.csv --chart npl_10
+  evenbreak matchups roster.csv --games 7..13 --pairs tonight.csv --html tonight.html
+  evenbreak matchups roster.csv --race-to 7 --players-file entrants.txt
+  evenbreak matchups roster.csv --race-to 7 --discipline 9-ball --tables 4
+"""
+    roster: Annotated[str, ROSTER, Says(argument=True)]
+    chart: Annotated[
+        ChartName,
+        Says(
+            "The league's chart, by name or in a file.",
+            more="Ratings are rounded to whole points to look it up.",
+        ),
+    ] = None
+    race_to: Annotated[int | None, RACE_TO] = None
+    players_file: EntrantsFile = None
+    pairs: Annotated[str | None, Field(File("PAIRS.csv"), "Who meets whom.", usual="all pairs")] = (
+        None
+    )
+    scale: Annotated[
+        ScaleOf,
+        Says(
+            usual="the one that the file states, else the chart's, else what the ratings show",
+            more="For skill levels, where the chart's own races put them. See "
+            "[the scale of a list](../files.md#the-scale-of-a-list).",
+        ),
+    ] = None
+    discipline: Annotated[
+        Discipline | None,
+        Says("Give the lengths in minutes, at the usual pace of this game."),
+    ] = None
+    minutes_per_game: Annotated[
+        float | None,
+        MINUTES,
+        Says("Give the lengths in minutes, at this pace on average."),
+    ] = None
+    tables: Annotated[Tables | None, Says("Show when the round ends on T tables.")] = None
+    turnover: Annotated[Turnover, Says(usual="10.8", section="Details")] = None
+    form: FormOfDay = None
+    seed: Annotated[Seed, Says("The seed of the evenings that have to be simulated.")] = 0
+
+    def check(self) -> None:
+        """Refuse what lacks something else."""
+        if self.chart is None and self.games is None and self.race_to is None:
+            self.refuse("say which races; give {chart} NAME, {games} LO..HI or {race_to} N")
+        paced = self.discipline is not None or self.minutes_per_game is not None
+        if self.tables is not None and not paced:
+            self.refuse(
+                "{tables} needs to know how long games take; add {discipline}, such as 9-ball, or "
+                "{minutes_per_game}, such as 8"
+            )
+        if self.turnover is not None and self.tables is None:
+            self.refuse(
+                "{turnover} is the time between two matches on a table; say how many {tables}"
+            )
+        if [self.roster, self.pairs, self.chart].count("-") > 1:
+            self.refuse("only one list can come from standard input; name a file for the other")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulate(BySystem):
+    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
+
+    ROSTER.csv has one player per row, with the columns player and rating and, optionally,
+    standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
+    input. A player without a skill gets one drawn for each season from rating and standard error.
+    {players_file} says who plays, if not everyone; those not on the list are new players.
+    matches.csv is one season in full, which `rate` and `validate` can read.
+    """
+
+    examples = """\
+  evenbreak simulate roster.csv --chart npl_10 --weeks 30 --out season
+  evenbreak simulate roster.csv --schedule fixtures.csv --replicas 10000 --out season
+  evenbreak simulate roster.csv --random --day-sd 5 --system "step 2" --out step2
+"""
+    roster: Annotated[str, ROSTER, Says(argument=True)]
+    out: Annotated[OutFolder, Says("The folder for the tables and pictures; created if needed.")]
+    players_file: Annotated[
+        EntrantsFile,
+        Says(
+            more="[Those who are not on the list](../files.md#entrants) are new players in the "
+            "middle of the scale."
+        ),
+    ] = None
+    scale: Annotated[
+        ScaleOf,
+        Says(
+            usual="the system's",
+            more="The ratings [must fit it](../files.md#the-scale-of-a-list).",
+        ),
+    ] = None
+    weeks: Annotated[
+        int | None,
+        Field(
+            Whole(1, MOST_WEEKS),
+            "How many weeks are played.",
+            usual=f"those of the schedule, or {WEEKS}",
+            metavar="W",
+        ),
+    ] = None
+    replicas: Annotated[
+        int, Field(Whole(1, MOST_REPLICAS), "How many seasons are simulated.", metavar="R")
+    ] = 1000
+    schedule: Annotated[
+        str | None,
+        Field(
+            File("FILE"),
+            "A file with the columns week, player_a and player_b.",
+            section=_WHO,
+            more="See [schedule](../files.md#schedule).",
+        ),
+    ] = None
+    round_robin: Annotated[
+        bool,
+        Field(
+            Flag(), "Everyone plays everyone in turn, again and again: the default.", section=_WHO
+        ),
+    ] = False
+    random: Annotated[bool, Field(Flag(), "Draw opponents at random each week.", section=_WHO)] = (
+        False
+    )
+    matches: Annotated[
+        int | None,
+        Field(
+            Whole(1, MOST_MATCHES),
+            "Matches per player and week, without a schedule.",
+            usual="1",
+            section=_WHO,
+        ),
+    ] = None
+    day_sd: Annotated[
+        float,
+        DAY_SD,
+        Says(
+            "How much a player's form varies from day to day (standard deviation), where the "
+            "roster does not say.",
+            kind=Number(0.0, 1000.0, "; give points from 0 to 1,000", metavar="POINTS"),
+        ),
+    ] = 0.0
+    rack_by_rack: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Play rack by rack instead of drawing the winner of each match.",
+            section=_WORK,
+            old=("racks",),
+            more="The same distribution, but slower.",
+        ),
+    ] = False
+    no_matches: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Do not write matches.csv and truth.csv.",
+            section=_WORK,
+            more="They take long for a large league.",
+        ),
+    ] = False
+    seed: Annotated[Seed, Says("The same seed gives the same files.", section=_WORK)] = 1
+    jobs: Annotated[
+        int,
+        Field(
+            Whole(1, MOST_JOBS),
+            "How many processes work at a time; the answer is the same.",
+            metavar="J",
+            section=_WORK,
+        ),
+    ] = 1
+    dask: Annotated[
+        str | None,
+        Field(
+            Text("ADDRESS"),
+            "Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
+            section=_WORK,
+            more="Needs the extra `evenbreak[dask]`.",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse options that exclude each other or are empty."""
+        ways = [
+            f"{{{name}}}" for name in ("schedule", "round_robin", "random") if name in self.given
+        ]
+        if len(ways) > 1:
+            self.refuse(" and ".join(ways) + " cannot be combined; leave all but one out")
+        if self.schedule is not None and self.matches is not None:
+            self.refuse(
+                "{schedule} and {matches} cannot be combined; the schedule sets the matches"
+            )
+        if self.dask is not None and self.jobs > 1:
+            self.refuse("{dask} and {jobs} cannot be combined; the cluster has workers of its own")
+        if self.dask is not None and not self.dask.strip():
+            self.refuse(
+                "{dask} is empty; give the scheduler's address, such as tcp://10.0.0.5:8786"
+            )
+        if [self.roster, self.schedule, self.chart].count("-") > 1:
+            self.refuse(ON_STDIN)

@@ -1,0 +1,37 @@
+"""How long matches take, as questions about an evening ask it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from evenbreak.fields.kinds import Number
+from evenbreak.fields.question import Field, Question
+from evenbreak.tournaments.evening.format import Discipline
+
+MINUTES = Field(
+    Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5"),
+    "How long a game takes on average, instead of the usual time of the discipline.",
+    metavar="MINUTES",
+)
+Turnover: TypeAlias = Annotated[
+    float | None,
+    Field(
+        Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0"),
+        "The time between two matches on a table, on average.",
+        metavar="MINUTES",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pace(Question):
+    """How fast matches are played."""
+
+    discipline: Discipline | None = None
+    minutes_per_game: Annotated[float | None, MINUTES] = None
+
+    def check(self) -> None:
+        """Refuse two paces."""
+        if self.discipline is not None and self.minutes_per_game is not None:
+            self.refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")

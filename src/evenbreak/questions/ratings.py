@@ -1,0 +1,340 @@
+"""Questions that results answer: ratings, what is behind them, and whether to trust them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import File, Flag, Named, NumberOr, Text, Whole
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.files.tables.names import clean_name, is_name
+from evenbreak.questions.common import (
+    NPL,
+    ChartName,
+    EntrantsFile,
+    Lengths,
+    OnScale,
+    OutFolder,
+    PlotFile,
+    ScaleOf,
+    Seed,
+)
+from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, Day, Reading, Results
+from evenbreak.questions.systems import SystemOf
+from evenbreak.words import Parameter
+
+MOST_PAIRED = 1000
+"""The most players that are paired."""
+
+_RATING, _RULE = "How to rate", "A league's own rule"
+_PLAYER = Field(Named(str, "NAME", offers="players"), argument=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assumed(Question):
+    """What is assumed before the results, and how long they count."""
+
+    prior: Annotated[
+        float | Literal["best"] | None,
+        Field(
+            NumberOr("best", metavar="POINTS|best"),
+            "How far apart players are assumed to be before any result (standard deviation); best: "
+            "what predicts best, and where newcomers, teams, divisions and handicap races start, "
+            "if that helps.",
+            usual="best, if the dates can show it, else what doubles the odds",
+            section=_RATING,
+            more="See [what the file knows](../../explanation/ratings.md#what-the-file-knows).",
+        ),
+    ] = None
+    half_life: Annotated[
+        float | Literal["none"] | None,
+        Field(
+            NumberOr(
+                "none",
+                0.01,
+                wanted="a number of days from 0.01 to 1,000,000, such as 180",
+                metavar="DAYS|none",
+            ),
+            "After this many days a match counts half; none: it always counts in full.",
+            usual="what clearly predicts better, unless {prior} gives points",
+            section=_RATING,
+        ),
+    ] = None
+    begin: Annotated[
+        str | None,
+        Field(
+            File("RATINGS.csv"),
+            "Begin from these ratings: those that `evenbreak rate --save` wrote after last season, "
+            "or any list of rated players.",
+            section=_RATING,
+            more="See [the file](../files.md#ratings-to-begin-from). Ratings without a standard "
+            "error count as far as they help to predict; with `--prior POINTS` they are taken to "
+            "be off by half of what doubles the odds.",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HowToRate(Assumed, Reading):
+    """How to rate the players of results."""
+
+    as_of: Annotated[
+        Day,
+        Says(
+            "Rate as of this day, without later matches.",
+            usual="the last date",
+            section=_RATING,
+            more="Such as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. Ages are counted "
+            "from it. It may be up to a year ahead, for a coming tournament.",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse what is no day."""
+        self.day("as_of")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate(Results, HowToRate):
+    """Rate players from their results, and show how certain each rating is.
+
+    RESULTS.csv has one match per row, with the columns player_a, player_b, score_a and score_b; or
+    winner, loser and score, such as 7-5. Where the score is not known, race and winner will do;
+    racks (who won each rack, such as abba) can replace the score. It may also be a workbook (.xlsx,
+    .ods) or a tournament saved from CueScore, Challonge or brackets-manager. - reads standard
+    input. Several files, such as one for each season, are rated as one.
+    """
+
+    examples = """\
+  evenbreak rate season.csv --scale fargo
+  evenbreak rate last.csv this.csv --half-life 180
+  evenbreak rate last.csv --save ratings.csv
+  evenbreak rate this.csv --begin ratings.csv
+  evenbreak rate season.csv --prior 20 --half-life 180
+  evenbreak rate season.csv --anchor "Ann Lee=95" --pair "Ann Lee" "Bo Diaz"
+  evenbreak rate --system npl --roster last.csv tonight.csv
+"""
+    scale: Annotated[
+        ScaleOf, Says(usual="npl, or the only one that the points of {anchor} can be on", more="")
+    ] = None
+    anchor: Annotated[
+        tuple[str, ...],
+        Field(
+            Text("POINTS|NAME=POINTS"),
+            "The mean rating, or the rating of a named player.",
+            usual="the middle of the scale",
+            many=True,
+            more="The component of several named players is shifted to give them these ratings on "
+            "average.",
+        ),
+    ] = ()
+    save: Annotated[
+        str | None,
+        Field(
+            File("RATINGS.csv"),
+            "Also write the ratings to this file, with which the next season can {begin}.",
+        ),
+    ] = None
+    pair: Annotated[
+        tuple[tuple[str, str], ...],
+        Field(
+            Text("A B"),
+            "Show how far apart two players are, and how certain that is.",
+            many=True,
+            words=2,
+        ),
+    ] = ()
+    break_advantage: Annotated[
+        float | Literal["fit"] | None,
+        Field(
+            NumberOr("fit", -1e6, metavar="POINTS|fit"),
+            "How many points better the breaker plays; fit: estimate this, where the file says who "
+            "broke.",
+            usual="the break does not matter",
+            section=_RATING,
+        ),
+    ] = None
+    system: Annotated[
+        SystemOf,
+        Says(
+            "Apply a league's own rule to {roster} instead, such as npl or 'step 2'.",
+            usual="",
+            section=_RULE,
+            more="See [Systems](../systems.md).",
+        ),
+    ] = None
+    roster: Annotated[
+        str | None,
+        ROSTER,
+        Says(
+            "With {system}: the list of ratings before these results.",
+            metavar="LAST.csv",
+            section=_RULE,
+        ),
+    ] = None
+    chart: Annotated[
+        ChartName,
+        Says(
+            "With {system}: the chart that set the races, where the file states neither race nor "
+            "winner.",
+            usual="the system's chart, if only one fits all scores",
+            section=_RULE,
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse options of a fit for a league's own rule, and the other way round."""
+        if self.system is None:
+            for name in ("roster", "chart"):
+                if getattr(self, name) is not None:
+                    self.refuse(
+                        "{part} is for {system}; give {system} npl too, or leave it out",
+                        part=Parameter(name),
+                    )
+            return
+        of_fit = ("anchor", "prior", "half_life", "begin", "save", "as_of", "break_advantage")
+        given = [f"{{{name}}}" for name in (*of_fit, "pair", "scale") if name in self.given]
+        if given:
+            self.refuse("{system} has its own rule; leave out " + ", ".join(given))
+        if self.roster is None:
+            self.refuse("{system} needs the ratings before these results; give {roster} LAST.csv")
+        if len(self.results) > 1:
+            self.refuse(
+                "{system} takes one file of results; leave out {file}", file=self.results[1]
+            )
+        if [self.results[0], self.roster, self.chart, self.aliases].count("-") > 1:
+            self.refuse(ON_STDIN)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Why(HowToRate, Lengths):
+    """Explain two ratings: the matches behind them, and what one more match would change.
+
+    A and B are two players in RESULTS.csv, which is read as by `report` and `rate`. Each match of
+    the two is left out in turn, to see what it is worth to the rating; and one more match between
+    them is added, won by either.
+    """
+
+    examples = """\
+  evenbreak why "Ann Lee" "Bo Diaz" --results season.csv
+  evenbreak why "Ann Lee" "Bo Diaz" --results season.csv --race-to 9 --scale fargo
+"""
+    player_a: Annotated[str, _PLAYER, Says(metavar="A")]
+    player_b: Annotated[str, _PLAYER, Says(metavar="B")]
+    results: Annotated[
+        tuple[str, ...],
+        RESULTS,
+        Says("The results.", metavar="RESULTS.csv", argument=False, old=("from",)),
+    ]
+    scale: OnScale = NPL
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validate(Results, Assumed):
+    """Find out whether the ratings of a league can be trusted.
+
+    RESULTS.csv is a file as for `rate`, with dates; - reads standard input; several are read as
+    one. Each date is predicted from the results of earlier dates alone, and then compared with what
+    happened.
+    """
+
+    examples = """\
+  evenbreak validate season.csv
+  evenbreak validate season.csv --plot calibration.png
+  evenbreak validate season.csv --prior 20 --half-life 365
+"""
+    scale: Annotated[OnScale, Says("The scale in whose points priors are given and shown.")] = NPL
+    seed: Annotated[Seed, Says("The seed of the intervals and simulated seasons.", rare=False)] = 1
+    plot: Annotated[
+        PlotFile,
+        Says(
+            section="",
+            more="The predicted chances against how often favorites won, with 95% intervals.",
+        ),
+    ] = None
+
+
+def title_in(text: str) -> str:
+    """Return the title of a sheet, or refuse one that cannot be printed on a line."""
+    title: str = clean_name(text)
+    if title and not is_name(title):
+        raise InputError(
+            f"it has {len(title):,} letters, or some that cannot be printed; give a line"
+        )
+    return title
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report(Results, HowToRate, Lengths):
+    """Make the fair-race sheet of a league from its results.
+
+    RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a, score_b and,
+    if known, date, race_a, race_b, winner, first_break, break_format, racks, event and forfeit;
+    `evenbreak rate --help-all` names other ways. - reads standard input. The sheet gives the rating
+    of each player and the race nearest to even for each pair, and holds all players, the strongest
+    first. Several files are read as one. The sheet is printed here, and sheet.pdf is for the wall;
+    {page} adds a page to hand out, {excel} a workbook.
+    """
+
+    examples = """\
+  evenbreak report season.csv --out sheet
+  evenbreak report season.csv --out sheet --scale fargo --race-to 9
+  evenbreak report season.csv --out sheet --games 7..13 --players "Ann Lee,Bo Diaz"
+  evenbreak report season.csv --out sheet --page --excel --title "Tuesday league"
+"""
+    out: Annotated[
+        OutFolder,
+        Says(
+            "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if "
+            "needed."
+        ),
+    ]
+    scale: OnScale = NPL
+    players: Annotated[
+        tuple[str, ...],
+        Field(Text("NAMES"), "The players to pair, separated by commas.", many=True),
+    ] = ()
+    top: Annotated[
+        int | None,
+        Field(
+            Whole(2, MOST_PAIRED),
+            "Pair only the N players with the most games.",
+            usual="everyone, or the 96 with the most games",
+        ),
+    ] = None
+    players_file: Annotated[
+        EntrantsFile,
+        Says(
+            more="Those without results are [new players](../files.md#entrants) at the mean; a "
+            "rating that the file states for them is not used."
+        ),
+    ] = None
+    title: Annotated[
+        str, Field(Named(title_in, "TEXT"), "A title for the sheet, such as the league's name.")
+    ] = ""
+    page: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Also write sheet.html, one file for phones, screens and printers.",
+            old=("html",),
+        ),
+    ] = False
+    excel: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Also write sheet.xlsx, a workbook of all tables.",
+            more="Needs XlsxWriter (`pip install XlsxWriter`), the extra `evenbreak[excel]`.",
+        ),
+    ] = False
+    excel_csv: Annotated[
+        bool, Field(Flag(), "Write the CSV files for Excel, with BOM and CRLF.")
+    ] = False
+
+    def check(self) -> None:
+        """Refuse two ways to name the players."""
+        ways = [f"{{{name}}}" for name in ("players", "top", "players_file") if name in self.given]
+        if len(ways) > 1:
+            self.refuse(" and ".join(ways) + " cannot be combined; leave all but one out")
