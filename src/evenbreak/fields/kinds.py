@@ -106,11 +106,22 @@ class Whole(Kind):
 
 @dataclass(frozen=True)
 class Number(Kind):
-    """A number from `low` to `high`; `wanted` completes the message that refuses a value."""
+    """A number from `low` to `high`.
+
+    Parameters
+    ----------
+    low, high
+        the limits.
+    wanted
+        completes the message that refuses a value, in place of what it would say.
+    example
+        a number that would do, for that message.
+    """
 
     low: float = 0.0
     high: float = 1.0
     wanted: str = ""
+    example: str = ""
     metavar: str = "X"
 
     def read(self, text: str) -> float:
@@ -118,9 +129,15 @@ class Number(Kind):
         typed = text.strip()
         number = float(typed) + 0.0 if NUMBER.fullmatch(typed) else math.nan
         if not self.low <= number <= self.high:
-            wanted = self.wanted or f"; give a number from {self.low:.7g} to {self.high:.7g}"
+            wanted = self.wanted or f"; {self.needed}"
             raise InputError(f"{text!r}{wanted}{meant(text, self.low, self.high)}")
         return number
+
+    @property
+    def needed(self) -> str:
+        """What to write, in words."""
+        such = f", such as {self.example}" if self.example else ""
+        return f"give a number from {self.low:,.12g} to {self.high:,.12g}{such}"
 
     @property
     def limits(self) -> str:

@@ -1,12 +1,11 @@
 import pytest
 
-from evenbreak.answers.physics.units import IMPERIAL
-from evenbreak.cli.physics.hit_options import hit_of
+from evenbreak.cli.physics.commands import hit_of
+from evenbreak.questions.physics import Throw
 
 
 def test_the_hit_is_as_typed():
-    asked = {"cut": -30.0, "topspin": 0.5, "side": 0.2, "friction": "shepard"}
-    hit = hit_of(IMPERIAL, **asked, mu=0.06, speed=None)
+    hit = hit_of(Throw(cut=-30.0, topspin=0.5, side=0.2, friction="shepard", mu=0.06))
     assert (hit.cut, hit.topspin, hit.side, hit.mu, hit.friction) == (
         *(-30.0, 0.5, 0.2, 0.06),
         "shepard",

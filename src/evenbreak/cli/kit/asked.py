@@ -36,6 +36,15 @@ class Typed(click.ParamType):  # type: ignore[type-arg]
         except InputError as error:
             self.fail(str(error), param, ctx)
 
+    def get_missing_message(
+        self,
+        param: click.Parameter,  # noqa: ARG002
+        ctx: click.Context | None,  # noqa: ARG002
+    ) -> str | None:
+        """Return what to write where the option is missing."""
+        needed: str = getattr(self.kind, "needed", "")
+        return f"{needed.capitalize()}." if needed else None
+
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[click.shell_completion.CompletionItem]:

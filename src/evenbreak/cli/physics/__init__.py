@@ -5,13 +5,17 @@ import click
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
-    "speed": Entry("physics.speed", "Find how fast a table is, from the time of a lag."),
-    "throw": Entry("physics.throw", "Find how far friction throws the object ball off its line."),
-    "aim": Entry("physics.aim", "Find where to aim to allow for throw."),
-    "deflect": Entry("physics.deflect", "Find where the cue ball goes after the hit."),
-    "strike": Entry("physics.strike", "Find the spin and speed that a hit off centre gives."),
-    "breakcue": Entry("physics.breakcue", "Find the weight of the cue that breaks best."),
-    "shot": Entry("physics.shot", "Trace a whole shot, and draw it."),
+    "speed": Entry("physics.commands:speed", "Find how fast a table is, from the time of a lag."),
+    "throw": Entry(
+        "physics.commands:throw", "Find how far friction throws the object ball off its line."
+    ),
+    "aim": Entry("physics.commands:aim", "Find where to aim to allow for throw."),
+    "deflect": Entry("physics.commands:deflect", "Find where the cue ball goes after the hit."),
+    "strike": Entry(
+        "physics.commands:strike", "Find the spin and speed that a hit off centre gives."
+    ),
+    "breakcue": Entry("physics.commands:breakcue", "Find the weight of the cue that breaks best."),
+    "shot": Entry("physics.commands:shot", "Trace a whole shot, and draw it."),
 }
 """Each command, in the module of its name, with its line of help."""
 

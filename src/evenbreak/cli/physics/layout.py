@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 from evenbreak import physics
 from evenbreak.answers.physics.units import Units
 from evenbreak.cli.kit.values import refuse
+from evenbreak.questions.physics import Shot
 
 Place = tuple[float, float]
 
@@ -52,38 +53,21 @@ class Layout:
         return self.metres(self.cue_ball)
 
 
-def layout_of(
-    units: Units,
-    *,
-    cut: float | None,
-    distance: float | None,
-    cue_ball: Place | None,
-    object_ball: Place | None,
-    pocket: str | None,
-    table_length: float | None,
-) -> Layout:
-    """Return the layout that the options describe, or refuse half of one or two."""
-    by_angle = {"--cut": cut, "--distance": distance}
-    by_place = {"--object-ball": object_ball, "--pocket": pocket}
-    angles, places = (
-        [name for name, value in options.items() if value is not None]
-        for options in (by_angle, by_place)
-    )
-    ways = "give --cut and --distance, or --cue-ball, --object-ball and --pocket"
-    if angles and places:
-        refuse(f"{angles[0]} and {places[-1]} say twice where the balls are; {ways}")
-    if len(angles or places) != 2:
-        refuse(f"it is not clear where the balls are; {ways}")
+def layout_of(asked: Shot, units: Units) -> Layout:
+    """Return the layout that a question describes."""
     table = physics.PoolTable()
-    if table_length is not None:
-        length = table_length * units.length.size
+    if asked.table_length is not None:
+        length = asked.table_length * units.length.size
         table = physics.PoolTable(length=length, width=0.5 * length)
     goal = None
-    if pocket is not None:
-        if pocket not in physics.POCKET_NAMES:
-            refuse(f"--pocket {pocket!r}; give one of {', '.join(physics.POCKET_NAMES)}")
-        goal = physics.pockets(table)[physics.POCKET_NAMES.index(pocket)]
-    return Layout(units, table, cut, distance, cue_ball, object_ball, goal)
+    if asked.pocket is not None:
+        names = physics.POCKET_NAMES
+        if asked.pocket not in names:
+            asked.refuse(
+                "{pocket} {name!r}; give one of {names}", name=asked.pocket, names=", ".join(names)
+            )
+        goal = physics.pockets(table)[names.index(asked.pocket)]
+    return Layout(units, table, asked.cut, asked.distance, asked.cue_ball, asked.object_ball, goal)
 
 
 def traced_shot(
