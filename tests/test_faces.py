@@ -168,7 +168,8 @@ ASKED = {
 SLOW = (
     *("graph_ladder", "lineup", "graph_race", "matchups_both", "report_lengths", "rate_asked"),
     *("why_begin", "why", "simulate", "tournament_odds_large", "caps", "ladder_drift"),
-    *("validate_prior", "rate_pair", "ladder_compare"),
+    *("validate_prior", "rate_pair", "ladder_compare", "chips_design", "matchups_uneven"),
+    *("sandbag_charts", "sandbag_events", "sandbag_player"),
 )
 """Questions that take long, beside a quicker one of the same command or kind."""
 

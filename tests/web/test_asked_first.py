@@ -110,6 +110,7 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
     assert len(re.findall(r"Eingabe \d+ zurückgenommen: [^<:]*W2.2[^<:]*Tisch 4", history)) == TAPS
 
 
+@pytest.mark.slow
 def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
     called = moves.call(busy.state, "W1.5", None)
     add_events(busy.site.path, lambda _: [Event(busy.site.clock(), called)])

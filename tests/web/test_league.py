@@ -69,6 +69,7 @@ def test_the_ratings_are_those_of_the_command(director: Phone) -> None:
     assert rows[0]["player"] in Phone(director.site).open("/league").words
 
 
+@pytest.mark.slow
 def test_a_player_sees_matches_and_why_a_race_is_fair(director: Phone) -> None:
     guest = Phone(director.site)
     first, second, *_ = read_results(DATA / "demo_league.csv").results.players

@@ -29,6 +29,7 @@ words = st.sampled_from(
 ) | st.text(max_size=3)
 
 
+@pytest.mark.slow
 @given(st.lists(words, max_size=5))
 def test_no_words_make_a_traceback(run, line):
     assert run("chart", *line).exit_code in (0, 2, 3)

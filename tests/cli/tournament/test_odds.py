@@ -82,6 +82,7 @@ def test_a_draw_as_it_was_made(odds, run, tmp_path):
     assert "bye 1" in result.stderr
 
 
+@pytest.mark.slow
 def test_formats_and_seeding(odds):
     single = odds("--race", "5", *FARGO, "--format", "single", "--third-place")
     assert single["p_second_final"] == 0.0

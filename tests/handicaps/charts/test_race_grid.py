@@ -32,6 +32,7 @@ def test_races_are_those_of_the_rack_by_rack_law(place):
             assert within == pytest.approx(ended, abs=1e-13)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(1, 30), st.integers(1, 30), st.floats(1, 500))
 def test_a_race_is_even_where_it_is_said_to_be(m, n, points):
