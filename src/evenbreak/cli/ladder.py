@@ -16,8 +16,7 @@ from evenbreak.cli.kit.systems import (
     refuse_too_varying,
 )
 from evenbreak.cli.kit.terminal import say
-from evenbreak.errors import AccuracyError, DataError
-from evenbreak.handicaps.ladders.ladder import SameRaceError
+from evenbreak.errors import DataError
 from evenbreak.questions.ladders import LadderErrors
 from evenbreak.ratings.scale import Scale
 
@@ -57,22 +56,17 @@ def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
     chart, warnings = chart_for(system, asked.chart)
     opponents, name, doubts = _opponents(asked, system.scale)
     refuse_too_varying(asked, system, "day_sd", "match_sd")
-    try:
-        ladder = handicaps.Ladder(
-            system,
-            chart,
-            opponents=opponents,
-            day_sd=asked.day_sd,
-            match_sd=asked.match_sd,
-            matches_a_night=asked.matches_a_night or 1,
-            drift=asked.drift,
-        )
-        say_if_long(ladder)
-        ladder.law()
-    except SameRaceError:
-        raise
-    except AccuracyError:
-        raise AccuracyError(_why_no_long_run(opponents)) from None
+    ladder = handicaps.Ladder(
+        system,
+        chart,
+        opponents=opponents,
+        day_sd=asked.day_sd,
+        match_sd=asked.match_sd,
+        matches_a_night=asked.matches_a_night or 1,
+        drift=asked.drift,
+    )
+    say_if_long(ladder)
+    ladder.law()
     return ladder, name, [*warnings, *doubts]
 
 
@@ -130,12 +124,7 @@ def _comparison(asked: LadderErrors) -> Answer:
     npl = handicaps.system_of("npl")
     chart, warnings = chart_for(npl, asked.chart)
     opponents, name, doubts = _opponents(asked, npl.scale, SAY_OTHERWISE)
-    try:
-        comparison = compare_ladders(chart, opponents, name)
-    except SameRaceError:
-        raise
-    except AccuracyError:
-        raise AccuracyError(_why_no_long_run(opponents)) from None
+    comparison = compare_ladders(chart, opponents, name)
     if asked.plot is not None:
         _draw_systems(comparison, asked.plot)
     return ladder_comparison_answer(comparison, [*warnings, *doubts])
@@ -205,18 +194,3 @@ def _of_league(
             **values,
         )
     return handicaps.opponents_of(ratings, about=about), warnings
-
-
-def _why_no_long_run(opponents: handicaps.Opponents) -> str:
-    """Return why a ladder does not settle, and what to do about it on the command line."""
-    if opponents.farthest:
-        return (
-            "the rating does not stay near the skill: the league's players are so far from the "
-            "player's skill that the chart's races are nearly always won or lost; give a --skill "
-            "nearer to theirs, or the --scale of their ratings"
-        )
-    return (
-        "the rating does not stay near the skill: the steps are too long for the scale, form "
-        "varies too much, or skill drifts faster than the steps can follow; give a smaller "
-        "--step, another --system, or less --day-sd, --match-sd or --drift"
-    )

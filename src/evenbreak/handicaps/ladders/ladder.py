@@ -33,16 +33,13 @@ from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.handicaps.systems.match_table import known_table
 from evenbreak.handicaps.systems.system import System
 from evenbreak.stats.summary import Distribution
+from evenbreak.words import Parameter
 
 _DOUBLINGS = (2.0, 4.0, 8.0)
 _AT_AN_END = 1e-9
 _MOST_HELD = 0.1
 _MOST_SD = 4.0
 _MOST_SPREAD = 20.0
-
-
-class SameRaceError(AccuracyError):
-    """The chart has one race for all differences, so that nothing brings a wrong rating back."""
 
 
 @dataclass(frozen=True)
@@ -301,7 +298,7 @@ def _usual_width(
 ) -> int:
     """Return the narrowest usual width with next to nothing at its ends."""
     if _same_everywhere(system, chart):
-        raise SameRaceError(
+        raise AccuracyError(
             "chart {chart} has the same race at every difference, so nothing brings a wrong "
             "rating back; give a chart whose races differ",
             chart=chart.name,
@@ -324,12 +321,19 @@ def _usual_width(
     if opponents.farthest:
         raise AccuracyError(
             "the rating error goes beyond {widest} points, or does not settle: the opponents "
-            "are too far from the player's skill for the chart's races; give opponents "
-            "nearer to it",
+            "are too far from the player's skill for the chart's races; give a {skill} nearer "
+            "to theirs",
             widest=widest,
+            skill=Parameter("skill"),
         )
     raise AccuracyError(
         "the rating error goes beyond {widest} points: the steps are too long for the scale, "
-        "form varies too much, or the skill drifts away from the rating; give widest yourself",
+        "form varies too much, or the skill drifts away from the rating; give a smaller "
+        "{step}, another {system}, or less {day_sd}, {match_sd} or {drift}",
         widest=widest,
+        step=Parameter("step"),
+        system=Parameter("system"),
+        day_sd=Parameter("day_sd"),
+        match_sd=Parameter("match_sd"),
+        drift=Parameter("drift"),
     )
