@@ -74,7 +74,9 @@ def _row(question: type, one: Declared) -> str:
     if one.field.many and not one.field.argument:
         notes.append("can be repeated")
     note = f" ({'; '.join(notes)})" if notes else ""
-    meaning = said(worded(one.field.help.removesuffix(".") + note + "."), _spell(question))
+    text = one.field.help.removesuffix(".") + note
+    text += "" if text.endswith("?") else "."
+    meaning = said(worded(text), _spell(question))
     meaning += f" {one.field.more}" if one.field.more else ""
     return f"| `{typed}`{short} | {meaning.replace('|', chr(92) + '|')} |"
 

@@ -51,9 +51,9 @@ SECTIONS = {
         "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),
     },
     "Practise": {
-        "practice": Entry("practice.practice", "Practice scores: are you getting better?"),
-        "drill": Entry("practice.drill", "A progressive drill: your level, and what to work on."),
-        "runs": Entry("practice.runs", "How long runs get, and the score of several innings."),
+        "practice": Entry("practice:scores", "Practice scores: are you getting better?"),
+        "drill": Entry("practice:drill", "A progressive drill: your level, and what to work on."),
+        "runs": Entry("practice:runs", "How long runs get, and the score of several innings."),
         "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {

@@ -22,6 +22,14 @@ ON_STDIN = "- stands for standard input, which only one file can be; name the ot
 RESULTS = Field(File("RESULTS.csv..."), argument=True, many=True)
 ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
 
+DATES = Field(
+    Choice(("mdy", "dmy")),
+    "The order in dates such as 9/3/2024: month first or day first.",
+    usual="as other dates of the file show",
+    section=_READING,
+    more="See [dates](../files.md#dates).",
+)
+
 Day: TypeAlias = Annotated[str | None, Field(Text("DATE"), "A day.")]
 """A day as it is typed; `Results.day` reads it, in the order that --dates states."""
 
@@ -82,16 +90,7 @@ class Reading(Question):
             more="See [rows that are left out](../files.md#rows-that-are-left-out).",
         ),
     ] = False
-    dates: Annotated[
-        Literal["mdy", "dmy"] | None,
-        Field(
-            Choice(("mdy", "dmy")),
-            "The order in dates such as 9/3/2024: month first or day first.",
-            usual="as other dates of the file show",
-            section=_READING,
-            more="See [dates](../files.md#dates).",
-        ),
-    ] = None
+    dates: Annotated[Literal["mdy", "dmy"] | None, DATES] = None
 
     def check(self) -> None:
         """Refuse a column that is named twice."""

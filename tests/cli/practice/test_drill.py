@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.cli.practice.drill import MOST_LEVELS
 from evenbreak.games import Drill
 from evenbreak.practice import drill_statistics
 from evenbreak.practice.drill_log import MOST_LEVELS as MOST_OF_A_LOG
+from evenbreak.questions.practice import MOST_LEVELS
 from places import DATA
 from rows import each_of
 

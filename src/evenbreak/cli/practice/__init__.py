@@ -1,1 +1,0 @@
-"""Practice: drills, scores, runs."""

@@ -1,0 +1,249 @@
+"""Questions about practice: drills, scores, runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal, TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Named, Number, Text, TwoWhole, Whole
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.questions.common import CHANCE, ByWay, PlotFile, Seed
+from evenbreak.questions.games import MOST_BALLS, Chance, Safety
+from evenbreak.questions.results import DATES
+from evenbreak.stats.confidence import LARGEST
+
+MOST_LEVELS = 100
+EIGHT_BALL_LEVELS = 7
+"""At this level of the 8-ball drill all 15 balls are on the table."""
+
+_SUCCESS = (
+    f"; give up to {MOST_LEVELS} numbers from 0 to 1 with commas between them, such as 0.9,0.8,0.5"
+)
+
+DrillName: TypeAlias = Annotated[
+    str | None, Field(Text("NAME"), "The drill to look at, if the file has several.")
+]
+
+
+def chances_in(text: str) -> tuple[float, ...]:
+    """Return the chances in a text, with commas between them.
+
+    >>> chances_in("0.9, 0.5")
+    (0.9, 0.5)
+    """
+    parts = text.split(",")
+    try:
+        chances = tuple(CHANCE.read(part) for part in parts)
+    except InputError:
+        chances = ()
+    if not 1 <= len(chances) <= MOST_LEVELS:
+        raise InputError("{text!r}" + _SUCCESS, text=text)
+    return chances
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrillPlayed(Question):
+    """Find where a progressive drill settles, and which level to practice.
+
+    A success leads one level up, a miss one level down. Describe the drill by {p}, {success} or
+    {log}. LOG.csv has the columns level and success, and session or date if there are several
+    sessions, and drill if there are several drills.
+    """
+
+    examples = """\
+  evenbreak drill --p 0.8
+  evenbreak drill --p 0.8 --game 8-ball
+  evenbreak drill --success 0.95,0.8,0.6,0.3 --json
+  evenbreak drill --log drill_log.csv --plot drill.png
+"""
+    p: Annotated[
+        Chance,
+        Says(
+            "The chance of making a shot; level i takes i - 1 in a row, or i in 8-ball.",
+            more="So level i succeeds with chance P^(i−1), in 8-ball P^i.",
+        ),
+    ] = None
+    game: Annotated[
+        Literal["9-ball", "8-ball"] | None,
+        Field(
+            Choice(("9-ball", "8-ball")),
+            "The drill of {p}: i balls at level i, or in 8-ball i balls of each group and the "
+            "8-ball.",
+            usual="9-ball",
+        ),
+    ] = None
+    success: Annotated[
+        tuple[float, ...] | None,
+        Field(Named(chances_in, "P,P,..."), "Or the chance of success at each level."),
+    ] = None
+    log: Annotated[
+        str | None, Field(File("LOG.csv"), "Or a log of attempts; - reads standard input.")
+    ] = None
+    levels: Annotated[
+        int | None,
+        Field(
+            Whole(1, MOST_LEVELS),
+            "How many levels there are.",
+            usual="9 with {p}, 7 in 8-ball, the highest in the log with {log}",
+        ),
+    ] = None
+    drill: DrillName = None
+    seed: Annotated[
+        Seed | None, Says("The seed of the simulations that test a log.", usual="1", rare=False)
+    ] = None
+    via: Annotated[ByWay, Says(rare=False)] = None
+    plot: Annotated[
+        PlotFile,
+        Says(
+            more="The fraction of attempts at each level, for a log compared with the attempts so "
+            "far."
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a drill that is missing or described twice, and what is not about it."""
+        if sum(which is not None for which in (self.p, self.success, self.log)) != 1:
+            self.refuse("give exactly one of {p}, {success} and {log}")
+        if self.p is None and self.game is not None:
+            self.refuse("{game} says what {p} is about; leave it out")
+        if self.game == "8-ball" and (self.levels or 0) > EIGHT_BALL_LEVELS:
+            self.refuse(
+                "{levels} is {n}; in 8-ball all 15 balls are on the table at level 7",
+                n=self.levels,
+            )
+        if self.success is not None and self.levels is not None:
+            self.refuse("{success} already says how many levels there are; leave {levels} out")
+        if self.log is None and self.seed is not None:
+            self.refuse("{seed} is for the tests of {log}; leave it out")
+        if self.log is None and self.drill is not None:
+            self.refuse("{drill} names a drill of {log}; leave it out")
+        if self.log is not None and self.via is not None:
+            self.refuse("{via} is for a drill of known chances; leave it out with {log}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scores(Question):
+    """Find out from the scores of a drill whether you are getting better.
+
+    With {new}: was one more score luck? With {versus}: did something help? SCORES.csv has a column
+    score and, if known, the columns date and drill; - reads standard input.
+    """
+
+    examples = """\
+  evenbreak practice scores.csv
+  evenbreak practice scores.csv --new 53 --confidence 0.8
+  evenbreak practice before.csv --versus after.csv --plot scores.png
+"""
+    scores: Annotated[str, Field(File("SCORES.csv"), argument=True)]
+    new: Annotated[
+        float | None,
+        Field(
+            Number(-LARGEST, LARGEST, " is not a score; give a number, such as 53", "SCORE"),
+            "Was this one score luck?",
+        ),
+    ] = None
+    versus: Annotated[
+        str | None, Field(File("OTHER.csv"), "Have the scores changed since SCORES.csv?")
+    ] = None
+    confidence: Annotated[
+        float,
+        Field(
+            Number(
+                1e-9,
+                1.0 - 1e-9,
+                " is not a confidence level; give a number between 0 and 1, such as 0.95",
+                metavar="C",
+            ),
+            "The confidence of the intervals.",
+        ),
+    ] = 0.95
+    drill: DrillName = None
+    dates: Annotated[Literal["mdy", "dmy"] | None, DATES, Says(section="")] = None
+    plot: Annotated[PlotFile, Says(section="")] = None
+
+    def check(self) -> None:
+        """Refuse two questions in one."""
+        if self.new is not None and self.versus is not None:
+            self.refuse("{new} and {versus} cannot be combined; leave one out")
+        if self.scores == self.versus == "-":
+            self.refuse("only one list can come from standard input; name a file for the other")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Runs(Question):
+    """Find how long a player's runs are, and what several innings score.
+
+    Describe the player by {mean} or by {p}.
+    """
+
+    examples = """\
+  evenbreak runs --mean 24 --at-least 100
+  evenbreak runs --mean 24 --over 20
+  evenbreak runs --p 0.96 --innings 5 --between 100..150
+  evenbreak runs --p 0.96 --safety 0.8 --plot runs.png
+"""
+    mean: Annotated[
+        float | None,
+        Field(
+            Number(
+                0,
+                MOST_BALLS,
+                f"; give a number of balls an inning from 0 to {MOST_BALLS}",
+                metavar="BALLS",
+            ),
+            "The player's average, in balls an inning.",
+        ),
+    ] = None
+    p: Annotated[Chance, Says("Or the chance that the player makes a shot.", more="Below 1.")] = (
+        None
+    )
+    safety: Annotated[
+        Safety, Says(more="`--mean` is then the average against such an opponent.")
+    ] = 1.0
+    innings: Annotated[
+        int,
+        Field(Whole(), "Give the score of M innings instead of the run in one.", metavar="M"),
+    ] = 1
+    at_least: Annotated[int | None, Field(Whole(0, MOST_BALLS), "The chance of N or more.")] = None
+    between: Annotated[
+        tuple[int, int] | None,
+        Field(
+            TwoWhole(
+                r"\.\.",
+                0,
+                MOST_BALLS,
+                f"give the fewest and the most balls, from 0 to {MOST_BALLS}, with two dots "
+                "between them, such as 50..75",
+                metavar="LO..HI",
+                rising=True,
+            ),
+            "The chance of LO to HI.",
+        ),
+    ] = None
+    over: Annotated[
+        float | None,
+        Field(
+            Number(
+                0,
+                MOST_BALLS,
+                f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5",
+                metavar="N",
+            ),
+            "A bet on more than N, such as 20 or 20.5.",
+            more="The chance of winning it, and of losing it.",
+        ),
+    ] = None
+    plot: Annotated[
+        PlotFile,
+        Says(
+            section="",
+            more="The probability of each score, with mean, median and mode; the scores asked for "
+            "are shaded.",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a player who is missing, or described twice."""
+        if (self.mean is None) == (self.p is None):
+            self.refuse("give either {mean} or {p}")
