@@ -115,10 +115,10 @@ class BirthDeath:
         ends = np.repeat(first[np.stack((leftmost, rightmost), axis=1)], sizes, axis=0)
         chances = np.repeat(np.stack((~right, right), axis=1), sizes, axis=0).astype(np.float64)
         for lo, hi in zip(first[left & right].tolist(), last[left & right].tolist(), strict=True):
-            found = self._exits_from_all(lo, hi)
-            if found is None:
+            exits = self._exits_from_all(lo, hi)
+            if exits is None:
                 return None
-            chances[lo : hi + 1, 0], chances[lo : hi + 1, 1] = found
+            chances[lo : hi + 1, 0], chances[lo : hi + 1, 1] = exits
         possible = chances > 0.0
         indptr = np.zeros(n + 1, dtype=np.int32)
         np.cumsum(np.add(*possible.T, dtype=np.int32), out=indptr[1:])

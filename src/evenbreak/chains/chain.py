@@ -220,12 +220,12 @@ class Chain:
             )
         return v
 
-    def vector(self, given: Any, name: str) -> Floats:
+    def vector(self, values: Any, name: str) -> Floats:
         """Return a number for each state, shape (n,).
 
         Parameters
         ----------
-        given
+        values
             an array of n numbers; a mapping or a pandas Series from states to numbers, 0 for
             the others; or a state, which gets 1.
         name
@@ -237,16 +237,16 @@ class Chain:
             if a state is unknown, the shape is not (n,), or a number is not finite.
         """
         v = np.zeros(len(self))
-        given = by_label(given, name)
-        if isinstance(given, np.ndarray):
-            if given.shape != v.shape:
-                raise ChainError(f"{name} has shape {given.shape}; give {v.shape}")
-            v += given
-        elif isinstance(given, Mapping):
-            for state, value in given.items():
+        values = by_label(values, name)
+        if isinstance(values, np.ndarray):
+            if values.shape != v.shape:
+                raise ChainError(f"{name} has shape {values.shape}; give {v.shape}")
+            v += values
+        elif isinstance(values, Mapping):
+            for state, value in values.items():
                 v[self.index(state)] = value
         else:
-            v[self._search(given)] = 1.0
+            v[self._search(values)] = 1.0
         if not np.isfinite(v).all():
             first = int(np.flatnonzero(~np.isfinite(v))[0])
             held = f"{float(v[first])!r} for state {self.states[first]!r}"
@@ -325,8 +325,8 @@ class Chain:
             raise self._unknown(state) from None
 
     def _unknown(self, state: Hashable) -> ChainError:
-        known = ", ".join(repr(known) for known in self.states[:5])
-        return ChainError(f"state {state!r} is not in the chain; its first states are {known}")
+        first = ", ".join(map(repr, self.states[:5]))
+        return ChainError(f"state {state!r} is not in the chain; its first states are {first}")
 
 
 def check_chain(chain: object) -> None:
@@ -343,15 +343,15 @@ def check_chain(chain: object) -> None:
         )
 
 
-def by_label(given: Any, name: str) -> Any:
+def by_label(values: Any, name: str) -> Any:
     """Return a pandas Series as a dict from its labels, anything else as it is."""
     if not (
-        hasattr(given, "to_dict") and hasattr(given, "index") and getattr(given, "ndim", 0) == 1
+        hasattr(values, "to_dict") and hasattr(values, "index") and getattr(values, "ndim", 0) == 1
     ):
-        return given
-    if not given.index.is_unique:
+        return values
+    if not values.index.is_unique:
         raise ChainError(f"{name} has a label twice; give each state one number")
-    return given.to_dict()
+    return values.to_dict()
 
 
 def check_present(states: Iterable[Hashable]) -> None:
@@ -383,18 +383,18 @@ def random_paths(
     array([[0, 1, 0, 1],
            [0, 1, 0, 1]])
     """
-    found = np.empty((paths, steps + 1), dtype=np.int64)
+    places = np.empty((paths, steps + 1), dtype=np.int64)
     cumulative = np.cumsum(begin)
-    found[:, 0] = np.searchsorted(cumulative, rng.random(paths) * cumulative[-1], side="right")
+    places[:, 0] = np.searchsorted(cumulative, rng.random(paths) * cumulative[-1], side="right")
     first, last = matrix.indptr[:-1].astype(np.int64), matrix.indptr[1:].astype(np.int64) - 1
     total = np.cumsum(matrix.data)
     cumulative = total - np.repeat(total[first] - matrix.data[first], last - first + 1)
     for t in range(steps):
-        low, high = first[found[:, t]], last[found[:, t]]
+        low, high = first[places[:, t]], last[places[:, t]]
         u = rng.random(paths) * cumulative[high]
         while (low < high).any():
             middle = (low + high) // 2
             beyond = u >= cumulative[middle]
             low, high = np.where(beyond, middle + 1, low), np.where(beyond, high, middle)
-        found[:, t + 1] = matrix.indices[low]
-    return found
+        places[:, t + 1] = matrix.indices[low]
+    return places

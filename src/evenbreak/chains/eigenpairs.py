@@ -136,27 +136,29 @@ def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, f
     """
     n, ones = units.right.shape
     M = chain.matrix
-    known = Eigenpairs(np.ones(ones), units.left, units.right)
-    known = known.and_then(roots_of_one(chain, units, k - ones))
-    missing = k - (len(known.values) if n <= DENSE else ones)
+    certain = Eigenpairs(np.ones(ones), units.left, units.right)
+    certain = certain.and_then(roots_of_one(chain, units, k - ones))
+    missing = k - (len(certain.values) if n <= DENSE else ones)
     if missing > 0:
-        found = (_dense_others if n <= DENSE else _sparse_others)(M, known, missing)
+        rest = (_dense_others if n <= DENSE else _sparse_others)(M, certain, missing)
         # The known vectors are exact; only the others are adjusted.
-        right = found.right - known.right @ (known.left @ found.right)
+        right = rest.right - certain.right @ (certain.left @ rest.right)
         try:
             if k == n:
-                left = np.linalg.inv(np.hstack((known.right, right)))[len(known.values) :]
+                left = np.linalg.inv(np.hstack((certain.right, right)))[len(certain.values) :]
             else:
-                left = found.left - (found.left @ known.right) @ known.left
+                left = rest.left - (rest.left @ certain.right) @ certain.left
                 left = np.asarray(np.linalg.solve(left @ right, left), dtype=np.float64)
         except np.linalg.LinAlgError:
             raise no_basis(k, ones) from None
-        known = known.and_then(Eigenpairs(found.values, left, right))
+        certain = certain.and_then(Eigenpairs(rest.values, left, right))
         if n > DENSE:
-            order = np.argsort(np.abs(known.values - 1.0), kind="stable")
-            known = Eigenpairs(known.values[order], known.left[order], known.right[:, order])
-    k += int(known.values[k - 1].imag > 0.0)  # so that no conjugate pair is parted
-    pairs = Eigenpairs(known.values[:k], known.left[:k], known.right[:, :k])
+            order = np.argsort(np.abs(certain.values - 1.0), kind="stable")
+            certain = Eigenpairs(
+                certain.values[order], certain.left[order], certain.right[:, order]
+            )
+    k += int(certain.values[k - 1].imag > 0.0)  # so that no conjugate pair is parted
+    pairs = Eigenpairs(certain.values[:k], certain.left[:k], certain.right[:, :k])
     return pairs, pairs.missed(M.toarray() if n <= DENSE else M)
 
 
@@ -230,7 +232,7 @@ def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> Accur
     )
 
 
-def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
+def _dense_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
     """Return k other pairs, as LAPACK has them: with conjugate ones together, in real parts.
 
     If with these there are all, the left vectors are left out: they follow from the right ones.
@@ -238,7 +240,7 @@ def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     n = M.shape[0]
     real, imaginary, left, right, failed = dgeev(
         M.toarray(order="F"),
-        compute_vl=len(known.values) + k < n,
+        compute_vl=len(apart.values) + k < n,
         lwork=int(dgeev_lwork(n)[0]),
         overwrite_a=True,
     )
@@ -247,33 +249,35 @@ def _dense_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
     values = real + 1j * imaginary
     # Moduli that differ only by rounding are ties.
     order: Places = np.lexsort((-np.abs(imaginary), -real, -np.abs(values).round(10)))
-    for value in known.values:
+    for value in apart.values:
         order = np.delete(order, np.argmin(np.abs(values[order] - value)))
     order = _whole_pairs(values, order, k)
     left = left.T[order] if len(left) == n else right.T[:0]
     return Eigenpairs(values[order], left, right[:, order])
 
 
-def _sparse_others(M: csc_array, known: Eigenpairs, k: int) -> Eigenpairs:
+def _sparse_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
     n = M.shape[0]
     factors: Any = scipy.sparse.linalg.splu(csc_array(SHIFT * scipy.sparse.eye_array(n) - M))
-    found = []
-    for way, one, other in (("N", known.left, known.right), ("T", known.right.T, known.left.T)):
+    by_side = []
+    for way, project, basis in (("N", apart.left, apart.right), ("T", apart.right.T, apart.left.T)):
 
-        def resolvent(x: NDArray[Any], way: str = way, one: Any = one, other: Any = other) -> Any:
+        def resolvent(
+            x: NDArray[Any], way: str = way, project: Any = project, basis: Any = basis
+        ) -> Any:
             """Return (SHIFT I - M)^-1 x, or the transpose's, with the known pairs projected out."""
-            x = factors.solve(x - other @ (one @ x), way)
-            return x - other @ (one @ x)
+            x = factors.solve(x - basis @ (project @ x), way)
+            return x - basis @ (project @ x)
 
         operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=resolvent, dtype=float)
         start = np.random.default_rng(0).standard_normal(n)
         try:
-            found.append(scipy.sparse.linalg.eigs(operator, k=min(k + 1, n - 2), v0=start))
+            by_side.append(scipy.sparse.linalg.eigs(operator, k=min(k + 1, n - 2), v0=start))
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
                 f"the iteration for {k} eigenvalues of {n} did not converge; ask for fewer"
             ) from error
-    (values, right), (turned, left) = found
+    (values, right), (turned, left) = by_side
     # The two runs may list the eigenvalues in different orders.
     partner = [int(np.argmin(np.abs(turned - value))) for value in values]
     values = SHIFT - 1.0 / values

@@ -136,8 +136,8 @@ class Elimination:
                 for i, chance in onward.items():
                     x[i] = x[i] + share * chance
         if self._rest:
-            given = [x[j] for j in self._rest]
-            core = self._core.values(given) if transposed else self._core.visits(given)
+            remaining = [x[j] for j in self._rest]
+            core = self._core.values(remaining) if transposed else self._core.visits(remaining)
             for j, value in zip(self._rest, core, strict=True):
                 x[j] = value
         for k, pivot, _, back in reversed(steps):

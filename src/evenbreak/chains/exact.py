@@ -148,8 +148,8 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     if at is not None:
         return {at: Fraction(1)}
     chain.density(start)  # refuses what is no density
-    given = start.items() if isinstance(start, Mapping) else zip(chain.states, start, strict=True)
-    density = {chain.index(state): exact_chance(p) for state, p in given if p}
+    chances = start.items() if isinstance(start, Mapping) else zip(chain.states, start, strict=True)
+    density = {chain.index(state): exact_chance(p) for state, p in chances if p}
     if sum(density.values()) != 1:
         raise ChainError(
             f"the start density sums to {_shown(sum(density.values()))}, not to exactly 1; for an "

@@ -126,9 +126,9 @@ def chain_of(
     return chain_from_arrays(*_arcs_of_triples(source), start=start)
 
 
-def _only_for(given: object, name: str, kind: str) -> None:
-    if given is not None:
-        raise ChainError(f"{name} is {given!r}, but the source is not {kind}; leave {name} out")
+def _only_for(value: object, name: str, kind: str) -> None:
+    if value is not None:
+        raise ChainError(f"{name} is {value!r}, but the source is not {kind}; leave {name} out")
 
 
 def chain_from_arrays(
@@ -165,7 +165,7 @@ def chain_from_arrays(
     states = tuple(states) if isinstance(states, str) else states
     chances, fractions = _fractions(probabilities)
     j, i, p = _checked_arrays(states, sources, targets, chances)
-    given = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
+    exact = {(int(j[k]), int(i[k])): fraction for k, fraction in fractions.items()}
     n = len(states)
     absorbing = np.flatnonzero(np.bincount(j, minlength=n) == 0)
     ends = np.concatenate((i, absorbing)), np.concatenate((j, absorbing))
@@ -174,17 +174,17 @@ def chain_from_arrays(
     if matrix.nnz < len(ends[0]):
         raise _listed_twice(states, j * n + i)
     matrix.eliminate_zeros()
-    return Chain(states, matrix, start, given)
+    return Chain(states, matrix, start, exact)
 
 
 def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fraction]]:
     """Return the probabilities as numbers, and those of them that are fractions or text."""
-    given = np.asarray(probabilities)
-    if given.dtype.kind not in "OU":
-        return given, {}
-    values = [_number(value) for value in given.ravel().tolist()]
+    entered = np.asarray(probabilities)
+    if entered.dtype.kind not in "OU":
+        return entered, {}
+    values = [_number(value) for value in entered.ravel().tolist()]
     fractions = {k: value for k, value in enumerate(values) if isinstance(value, Fraction)}
-    numbers = np.array([float(value) for value in values]).reshape(given.shape)
+    numbers = np.array([float(value) for value in values]).reshape(entered.shape)
     for k, fraction in fractions.items():
         if fraction and not numbers.flat[k]:
             raise ChainError(f"the probability {fraction} is smaller than any float; leave it out")
@@ -203,7 +203,7 @@ def _listed_twice(states: Sequence[Hashable], key: Ints) -> ChainError:
 def _checked_arrays(
     states: Sequence[Hashable], sources: ArrayLike, targets: ArrayLike, probabilities: ArrayLike
 ) -> tuple[Ints, Ints, Floats]:
-    j, i = (_positions(given) for given in (sources, targets))
+    j, i = (_positions(ends) for ends in (sources, targets))
     p = np.asarray(probabilities, dtype=np.float64)
     n = len(states)
     if n == 0:
@@ -225,8 +225,8 @@ def _checked_arrays(
     return j, i, p
 
 
-def _positions(given: ArrayLike) -> Ints:
-    positions = np.asarray(given)
+def _positions(entered: ArrayLike) -> Ints:
+    positions = np.asarray(entered)
     if positions.size and positions.dtype.kind not in "iu":
         raise ChainError(
             f"sources and targets have type {positions.dtype}; give positions in `states`"

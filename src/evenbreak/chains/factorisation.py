@@ -352,21 +352,21 @@ class TriangularSolve:
         into = np.bincount(self._system.indices).max(initial=0)
         return max(int(into), int(np.diff(self._system.indptr).max(initial=0)))
 
-    def _solved(self, given: Floats, *, transposed: bool) -> Floats:
+    def _solved(self, b: Floats, *, transposed: bool) -> Floats:
         system = self._system.T if transposed else self._system
         put, take = (self._leave, self._enter) if transposed else (self._enter, self._leave)
-        known = np.zeros((system.shape[0], given.shape[1]))
-        known[put] = given
+        right = np.zeros((system.shape[0], b.shape[1]))
+        right[put] = b
         solve = partial(
             spsolve_triangular, system, lower=not transposed, unit_diagonal=True, overwrite_A=True
         )
-        x: Floats = solve(known)
+        x: Floats = solve(right)
         if self._most_terms > _FEW_TERMS:
             # Terms added up one after the other lose digits that one correction brings back.
             entries = system.tocoo()
             terms = (entries.data * column[entries.col] for column in x.T)
-            found = np.stack([sums(entries.row, term, len(x)) for term in terms], axis=1)
-            x += solve(known - found)
+            balance = np.stack([sums(entries.row, term, len(x)) for term in terms], axis=1)
+            x += solve(right - balance)
         return x[take]
 
 

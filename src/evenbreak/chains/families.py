@@ -76,9 +76,9 @@ class FamilyLimit:
         try:
             place = self.states.index(state)
         except ValueError:
-            known = ", ".join(repr(known) for known in self.states[:5])
+            first = ", ".join(map(repr, self.states[:5]))
             raise ChainError(
-                f"state {state!r} is in no game of the family; its first states are {known}"
+                f"state {state!r} is in no game of the family; its first states are {first}"
             ) from None
         return np.asarray(self.probability[..., place])
 
@@ -132,15 +132,15 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
         raise InputError(f"game_of is {game_of!r}; give a class of games or a function")
     if not chances:
         raise InputError("there are no chances; give arrays of them by name, such as p1=[0.4, 0.6]")
-    given = {name: probability(value, name) for name, value in chances.items()}
-    shape = together(**given)
+    checked = {name: probability(value, name) for name, value in chances.items()}
+    shape = together(**checked)
     count = math.prod(shape)
     if not count:
-        empty = next(name for name, value in given.items() if not np.size(value))
+        empty = next(name for name, value in checked.items() if not np.size(value))
         raise InputError(f"{empty} is empty; give one chance or more")
     flat = {
         name: value if isinstance(value, float) else np.broadcast_to(value, shape).ravel()
-        for name, value in given.items()
+        for name, value in checked.items()
     }
     return _Family(game_of, flat, count).limits(shape)
 
@@ -230,7 +230,7 @@ class _Family:
                     waiting.append(np.arange(batch.start, batch.stop))
                 done, step = (
                     batch.stop,
-                    min((known.limits.size for known in self._programs), default=_BATCH),
+                    min((program.limits.size for program in self._programs), default=_BATCH),
                 )
                 continue
             members, true = waiting.pop(), None
@@ -250,17 +250,17 @@ class _Family:
 
     def _again(self, batch: slice) -> bool:
         """Repeat what was done for another batch; return whether that is right for this one."""
-        given = [value[batch] for value in self._chances.values() if not isinstance(value, float)]
+        values = [value[batch] for value in self._chances.values() if not isinstance(value, float)]
         middle = (batch.start + batch.stop) // 2
-        at = [value[middle - batch.start, None] for value in given]
-        for known in self._programs:
+        at = [value[middle - batch.start, None] for value in values]
+        for program in self._programs:
             with suppress(Exception), np.errstate(divide="raise", invalid="raise"):
-                limits = known.limits.run(given)
+                limits = program.limits.run(values)
                 if limits is not None:
-                    chances = [float(np.ravel(p)[0]) for p in known.chances.run(at) or ()]
-                    self._check(middle, known.states, known.sources, known.targets, chances)
-                    limits_at = zip(known.places, limits, strict=True)
-                    self._found.add(batch, known.states, limits_at, known.period)
+                    chances = [float(np.ravel(p)[0]) for p in program.chances.run(at) or ()]
+                    self._check(middle, program.states, program.sources, program.targets, chances)
+                    limits_at = zip(program.places, limits, strict=True)
+                    self._found.add(batch, program.states, limits_at, program.period)
                     return True
         return False
 
@@ -304,7 +304,7 @@ class _Family:
         if doubtful is not None:
             return members[doubtful]
         if self._count > _BATCH and len(self._programs) < _FEW:
-            known = _Again(
+            program = _Again(
                 states,
                 *moves,
                 period,
@@ -312,7 +312,7 @@ class _Family:
                 Program(record, limits.values()),
                 Program(record, numbers, answers=False),
             )
-            self._programs.append(known)
+            self._programs.append(program)
         return members[:0]
 
     def _check(
@@ -372,9 +372,9 @@ def _completed(
             scales[j] = np.where(abs(total - 1.0) <= ROUNDING, 1.0, total)
     kept_sources, kept_targets, completed = [], [], []
     for j, i, chance in zip(sources, targets, chances, strict=True):
-        found = loops[j] if i == j else chance if scales[j] is None else chance / scales[j]
-        if found is not None:
+        completion = loops[j] if i == j else chance if scales[j] is None else chance / scales[j]
+        if completion is not None:
             kept_sources.append(j)
             kept_targets.append(i)
-            completed.append(found)
+            completed.append(completion)
     return kept_sources, kept_targets, completed

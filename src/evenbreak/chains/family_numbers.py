@@ -124,9 +124,9 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
         if method != "__call__" or options or ufunc.nout != 1:
             raise Disagreement(None)
         if ufunc is np.add:  # sums begin with 0
-            for one, other in (inputs, inputs[::-1]):
-                if isinstance(one, (int, float)) and one == 0:
-                    return other
+            for start, addend in (inputs, inputs[::-1]):
+                if isinstance(start, (int, float)) and start == 0:
+                    return addend
         if ufunc in _EXTREMES and inputs[0] is self and isinstance(inputs[1], (int, float)):
             compare, *extremes = _EXTREMES[ufunc]
             true, false = (extreme(self.values).item() for extreme in extremes)
@@ -247,16 +247,16 @@ class Program:
         self._registers.append(content)
         return len(self._registers) - 1
 
-    def run(self, given: Sequence[Floats]) -> list[Any] | None:
+    def run(self, values: Sequence[Floats]) -> list[Any] | None:
         """Return the outputs for these numbers; None if they answer otherwise.
 
         They are overwritten by the next run.
         """
-        size = len(given[0])
+        size = len(values[0])
         held = list(self._registers)
         if size != self.size:
             held = [x[:size] if np.ndim(x) else x for x in held]
-        for (register, tests), numbers in zip(self._given, given, strict=True):
+        for (register, tests), numbers in zip(self._given, values, strict=True):
             held[register] = numbers
             if not _passed(numbers, tests):
                 return None
@@ -273,11 +273,11 @@ class Program:
 
 def _passed(numbers: Any, tests: dict[Any, bool]) -> bool:
     """Return whether numbers answer as those before did."""
-    found: dict[Any, Any] = {}
+    extremes: dict[Any, Any] = {}
     for (extreme, compare, limit), answer in tests.items():
-        x = found.get(extreme)
+        x = extremes.get(extreme)
         if x is None:
-            x = found[extreme] = extreme(numbers).item()
+            x = extremes[extreme] = extreme(numbers).item()
         if compare(x, limit) != answer or x != x:
             return False
     return True

@@ -77,12 +77,12 @@ def lumped(chain: Chain, by: Labels) -> Chain:
     column = chain.matrix[:, first].tocoo()
     matrix = csc_array(summed(block[column.row], column.col, column.data, (count, count)))
     matrix.data = np.minimum(matrix.data, 1.0)
-    given: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
+    exact: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
     for i, b, p in zip(column.row.tolist(), column.col.tolist(), column.data.tolist(), strict=True):
         if block[i] != b:
-            given[b, int(block[i])] += chain.given.get((int(first[b]), i)) or exact_chance(p)
+            exact[b, int(block[i])] += chain.given.get((int(first[b]), i)) or exact_chance(p)
     start = None if chain.start is None else names[block[chain.index(chain.start)]]
-    return Chain(names, matrix, start, given)
+    return Chain(names, matrix, start, exact)
 
 
 def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
@@ -197,9 +197,9 @@ def _not_lumpable(
     differ = np.abs(to[0] - to[1]) / np.maximum(to.max(axis=0), np.finfo(float).tiny)
     differ[mine] = 0.0
     b = int(differ.argmax())
-    one, other = (chain.states[i] for i in pair)
+    first, second = (chain.states[i] for i in pair)
     return ChainError(
-        f"states {one!r} and {other!r} have the same label {names[mine]!r}, but move to "
+        f"states {first!r} and {second!r} have the same label {names[mine]!r}, but move to "
         f"{names[b]!r} with the chances {to[0, b]:.12g} and {to[1, b]:.12g}; give them different "
         "labels, or let coarsest_lumping find the labels"
     )

@@ -31,8 +31,8 @@ Rows: TypeAlias = Literal["from", "to"]
 
 def is_matrix(source: object) -> bool:
     """Whether the source is a numpy array, a scipy sparse matrix, a DataFrame or square lists."""
-    known = isinstance(source, np.ndarray) or issparse(source) or _is_frame(source)
-    return known or _is_nested(source)
+    is_array = isinstance(source, np.ndarray) or issparse(source) or _is_frame(source)
+    return is_array or _is_nested(source)
 
 
 def read_matrix(source: Any, rows: Rows | None) -> tuple[list[Hashable], csc_array]:
@@ -110,9 +110,9 @@ def _labelled(frame: Any) -> tuple[list[Hashable], csc_array]:
         if len(set(labels)) < len(labels):
             raise ChainError("the frame has a state twice; give each one row and one column")
     if set(states) != set(columns):
-        other = next(iter(set(states) ^ set(columns)))
+        label = next(iter(set(states) ^ set(columns)))
         raise ChainError(
-            f"{other!r} labels a row or a column of the frame, not both; give each state one of "
+            f"{label!r} labels a row or a column of the frame, not both; give each state one of "
             "each, or give a table of arcs as frame.itertuples(index=False)"
         )
     place = {state: k for k, state in enumerate(columns)}
@@ -135,17 +135,17 @@ def csc_of(matrix: Any) -> csc_array:
     if type(matrix) is csc_array and matrix.dtype == np.float64 and matrix.has_canonical_format:
         return matrix
     try:
-        given: Any = matrix if issparse(matrix) else np.asarray(matrix)
-        if given.ndim != 2 or given.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
+        entries: Any = matrix if issparse(matrix) else np.asarray(matrix)
+        if entries.ndim != 2 or entries.dtype.kind not in "biufO" or np.ma.is_masked(matrix):
             raise TypeError
-        found: csc_array[np.float64] = csc_array(given.astype(np.float64))
+        converted: csc_array[np.float64] = csc_array(entries.astype(np.float64))
     except (TypeError, ValueError, AttributeError):
         raise ChainError(
             f"the matrix is {type(matrix).__name__} {matrix!r:.60}; give a sparse matrix or a "
             "two-dimensional array of numbers"
         ) from None
-    found.sum_duplicates()
-    return found
+    converted.sum_duplicates()
+    return converted
 
 
 def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:

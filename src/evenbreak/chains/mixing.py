@@ -79,8 +79,8 @@ def spectral_gap(chain: Chain) -> float:
     largest = worst = float(evened(chain).diagonal()[alone].max(initial=0.0))
     for values, error, seen in _classes(chain, sizes > 1):
         # Of a stochastic matrix no eigenvalue is beyond the unit circle.
-        found = min(float(np.abs(values[seen:]).max(initial=0.0)), 1.0)
-        largest, worst = max(largest, found), max(worst, found + error)
+        modulus = min(float(np.abs(values[seen:]).max(initial=0.0)), 1.0)
+        largest, worst = max(largest, modulus), max(worst, modulus + error)
     gap = 1.0 - largest
     if not worst - largest <= 1e-3 * gap:
         raise AccuracyError(

@@ -289,12 +289,12 @@ class SymmetricForm:
             return np.asarray(values), np.asarray(vectors)
         start = np.random.default_rng(0).standard_normal(m)
         try:
-            found = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
+            near_one = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
                 f"the iteration for {k} eigenvalues of {m} did not converge; ask for fewer"
             ) from error
-        return np.asarray(found[0]), np.asarray(found[1])
+        return np.asarray(near_one[0]), np.asarray(near_one[1])
 
     def missed(self, values: NDArray[Any], vectors: NDArray[Any]) -> float:
         """Return the largest entry of S Q - Q diag(values) and of Q^T Q - I."""
@@ -414,22 +414,24 @@ def reversible_pairs(
     """
     n = len(chain)
     recurrent, periods = chain.structure.recurrent, chain.structure.periods
-    values, vectors, known, missed = [], [], [], 0.0
+    values, vectors, is_one, missed = [], [], [], 0.0
     scale = np.ones(n)
     for form in forms:
         states = form.states
         scale[states] = form.roots
         period = int(periods[chain.structure.label[states[0]]])
-        found, Q = form.pairs(min(k, len(states)))
+        eigenvalues, Q = form.pairs(min(k, len(states)))
         if recurrent[states[0]]:
-            found, Q = _with_known(form, found, Q, period, chain.structure.phases[states])
-        missed = max(missed, form.missed(found, Q))
-        spread = np.zeros((n, len(found)))
+            eigenvalues, Q = _with_known(
+                form, eigenvalues, Q, period, chain.structure.phases[states]
+            )
+        missed = max(missed, form.missed(eigenvalues, Q))
+        spread = np.zeros((n, len(eigenvalues)))
         spread[states] = Q
-        values.append(found)
+        values.append(eigenvalues)
         vectors.append(spread)
-        known.append(np.arange(len(found)) == (0 if recurrent[states[0]] else -1))
-    value, Q, ones = np.concatenate(values), np.hstack(vectors), np.concatenate(known)
+        is_one.append(np.arange(len(eigenvalues)) == (0 if recurrent[states[0]] else -1))
+    value, Q, ones = np.concatenate(values), np.hstack(vectors), np.concatenate(is_one)
     size = np.abs(value).round(10) if k == n or n <= DENSE else value
     order = np.lexsort((-value, -size, ~ones))[:k]
     value, Q, ones = value[order], Q[:, order], ones[order]
@@ -453,13 +455,13 @@ def _with_known(
     the phases. The others are made orthogonal to these, which matters only where an eigenvalue
     is very close.
     """
-    known, places = [form.roots], [len(values) - 1]
+    exact, places = [form.roots], [len(values) - 1]
     if period == 2 and len(values) == len(form.roots) > 1:
-        known.append(np.where(phases % 2, -form.roots, form.roots))
+        exact.append(np.where(phases % 2, -form.roots, form.roots))
         places.append(0)
     others = np.delete(np.arange(len(values)), places)
-    K, rest = np.stack(known, axis=1), Q[:, others]
+    K, rest = np.stack(exact, axis=1), Q[:, others]
     rest = rest - K @ (K.T @ rest)
     rest /= np.linalg.norm(rest, axis=0)
-    ends = np.array([1.0, -1.0])[: len(known)]
+    ends = np.array([1.0, -1.0])[: len(exact)]
     return np.concatenate((ends, values[others])), np.hstack((K, rest))

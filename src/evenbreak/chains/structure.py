@@ -181,5 +181,5 @@ def structure_of(arcs: Arcs, loops: Bools | None = None) -> Structure:
     # Read as rows, the columns of M are the arcs as csgraph needs them. Pearce's algorithm
     # numbers a class only after all classes downstream of it.
     graph: csr_array[np.float64] = csr_array((arcs.chances, arcs.targets, arcs.indptr), (n, n))
-    count, found = csgraph.connected_components(graph, directed=True, connection="strong")
-    return Structure(count - 1 - found, int(count), arcs, loops)
+    count, component = csgraph.connected_components(graph, directed=True, connection="strong")
+    return Structure(count - 1 - component, int(count), arcs, loops)

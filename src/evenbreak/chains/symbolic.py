@@ -78,11 +78,11 @@ def symbolic_limit(
     place = graph.position
     listed = [(j, i, p) for j, row in rows.items() for i, p in row.items() if i != j]
     formulas = [sympy.Integer(1), *(p for _, _, p in listed)]
-    field, (one, *chances) = construct_domain(formulas, field=True)
+    field, (unit, *chances) = construct_domain(formulas, field=True)
     arcs: list[dict[int, Any]] = [{} for _ in rows]
     for (j, i, _), chance in zip(listed, chances, strict=True):
         arcs[place[j]][place[i]] = chance
-    limit = limit_in(graph.structure, arcs, {place[start]: one}, _visits)
+    limit = limit_in(graph.structure, arcs, {place[start]: unit}, _visits)
     shares = (field.to_sympy(field.convert(limit.get(k, 0))) for k in range(len(graph)))
     return dict(zip(graph.states, map(_readable, shares), strict=True))
 

@@ -137,10 +137,10 @@ class TransientPart:
         return x, doubtful
 
     def _guaranteed(self, b: Floats, *, transposed: bool) -> Floats:
-        given = np.asarray(b, dtype=np.float64)
-        if not given.size:
-            return given.copy()
-        columns = given.reshape(len(self.states), -1)
+        right = np.asarray(b, dtype=np.float64)
+        if not right.size:
+            return right.copy()
+        columns = right.reshape(len(self.states), -1)
         x, doubtful = self.attempt(columns, transposed=transposed)
         again = np.flatnonzero(doubtful.any(axis=0))
         if len(again):
@@ -151,7 +151,7 @@ class TransientPart:
                 "an expected number of visits, or a sum over them, is larger than any float; "
                 "the chain leaves some states too rarely"
             )
-        return x.reshape(given.shape)
+        return x.reshape(right.shape)
 
 
 def where_doubtful(x: Floats, gain: Floats) -> Bools:

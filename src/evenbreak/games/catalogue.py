@@ -70,21 +70,21 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
     'drill, progressive 9-ball'
     """
     words = _words(name)
-    joined = {"".join(_words(known)): known for known in CATALOGUE}
-    found = [known for text, known in joined.items() if text == "".join(words)] or [
-        known for known in CATALOGUE if words and set(words) <= set(_words(known))
+    joined = {"".join(_words(entry)): entry for entry in CATALOGUE}
+    matching = [entry for text, entry in joined.items() if text == "".join(words)] or [
+        entry for entry in CATALOGUE if words and set(words) <= set(_words(entry))
     ]
-    if len(found) != 1:
+    if len(matching) != 1:
         close = get_close_matches("".join(words), joined, n=3)
-        near = found or [joined[text] for text in close] or list(CATALOGUE)
-        which = "names several games" if found else "is not a game of the catalogue"
+        near = matching or [joined[text] for text in close] or list(CATALOGUE)
+        which = "names several games" if matching else "is not a game of the catalogue"
         raise InputError(f"{name!r} {which}; give one of: {'; '.join(near)}")
-    game = CATALOGUE[found[0]]
+    game = CATALOGUE[matching[0]]
     try:
-        return found[0], _with_chances(game, chances) if chances else game
+        return matching[0], _with_chances(game, chances) if chances else game
     except TypeError:
         wanted = "one chance" if isinstance(game, Drill) else "two chances, p1 and p2"
-        raise InputError(f"{found[0]} takes {wanted}, not {len(chances)}") from None
+        raise InputError(f"{matching[0]} takes {wanted}, not {len(chances)}") from None
 
 
 def _words(name: str) -> list[str]:

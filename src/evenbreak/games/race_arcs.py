@@ -85,9 +85,9 @@ class ScoreStates(Sequence[tuple[int, ...]]):
             here = np.ones(len(self), dtype=bool)
             for column, entry in zip(self._columns, value, strict=True):
                 here &= column == entry
-            found = np.flatnonzero(here[start:stop])
-            if found.size:
-                return int(found[0]) + start
+            places = np.flatnonzero(here[start:stop])
+            if places.size:
+                return int(places[0]) + start
         raise ValueError(f"{value!r} is not a state")
 
 

@@ -73,8 +73,8 @@ class Rack(Generic[ChanceT]):
         return game_repr(self)
 
     def __post_init__(self) -> None:
-        given = (p if isinstance(p, Fraction) else None for p in (self.p1, self.p2))
-        object.__setattr__(self, "given", tuple(given))
+        exact = (p if isinstance(p, Fraction) else None for p in (self.p1, self.p2))
+        object.__setattr__(self, "given", tuple(exact))
         self._check("1")
         if self.p2 is not None:
             self._check("2")
@@ -140,11 +140,11 @@ class Rack(Generic[ChanceT]):
         >>> Rack(Fraction(1, 3)).move(2)
         Fraction(2, 3)
         """
-        given = self.given[0 if self.p2 is None else breaker - 1]
-        if not isinstance(given, Fraction):
+        exact = self.given[0 if self.p2 is None else breaker - 1]
+        if not isinstance(exact, Fraction):
             return self.chance(player, breaker)
         own = 1 if self.p2 is None else breaker
-        return given if player == own else 1 - given
+        return exact if player == own else 1 - exact
 
     def of_numbers(self) -> Rack[float]:
         """Return the rack itself if it holds numbers, which a graph needs.

@@ -107,9 +107,9 @@ def _by_nobody(m: int, n: int, rho: _Ratio, _: Pair) -> Pair:
 def _by_last_winner(m: int, n: int, rho: _Ratio, first: Pair, on: Pair, turn: Pair) -> Pair:
     (p, q), u, (turn_down, turn_up) = first, on[0], turn
     whole = u + turn_down * rho.total(m + n - 1)
-    one = p * (u + turn_down * rho.total(n)) + q * turn_up * rho.total(n - 1)
+    wins_1 = p * (u + turn_down * rho.total(n)) + q * turn_up * rho.total(n - 1)
     two = p * turn_down * rho.power(1) * rho.total(m - 1) + q * (u + turn_down * rho.total(m))
-    return one / whole, rho.power(n - 1) * two / whole
+    return wins_1 / whole, rho.power(n - 1) * two / whole
 
 
 def _by_turns(m: int, n: int, rho: _Ratio, even: Pair, odd: Pair) -> Pair:
@@ -146,9 +146,9 @@ class _Walk(NamedTuple):
             return self.moving(*_log_ratio(down, up))
         import numpy as np
 
-        found = np.empty(self.pairs[0].shape)
+        chances = np.empty(self.pairs[0].shape)
         stuck = (np.array(up) == 0.0).any(axis=0) & (np.array(down) == 0.0).any(axis=0)
-        found[:, stuck] = self.of(self.pairs, stuck).stuck()
+        chances[:, stuck] = self.of(self.pairs, stuck).stuck()
         rest = self.of(self.pairs, ~stuck)
         up, down = zip(*rest.pairs[self.weights], strict=True)
         top, less = _log_ratio(down, up)
@@ -156,8 +156,8 @@ class _Walk(NamedTuple):
         for part in (top <= 0.0, top > 0.0):
             if part.any():
                 moved[:, part] = rest.of(rest.pairs, part).moving(top[part], less[part])
-        found[:, ~stuck] = moved
-        return found
+        chances[:, ~stuck] = moved
+        return chances
 
     def of(self, pairs: Any, part: Any) -> _Walk:
         """Return the walk with some entries of these pairs."""
@@ -172,29 +172,29 @@ class _Walk(NamedTuple):
         """Return the chances, given the logarithm of rho, which has the same sign for all."""
         if (top if isinstance(top, float) else top[0]) <= 0.0:
             return self.ends(self.m, self.n, _Ratio(top, rest), *self.pairs)
-        turned = [(two, one) for one, two in self.pairs]
-        one, two = self.ends(self.n, self.m, _Ratio(-top, -rest), *turned)
-        return two, one
+        turned = [(wins_2, wins_1) for wins_1, wins_2 in self.pairs]
+        wins_1, wins_2 = self.ends(self.n, self.m, _Ratio(-top, -rest), *turned)
+        return wins_2, wins_1
 
 
 def _by_result(walk: _Walk, ends: Sequence[int]) -> tuple[dict[tuple[int, int], Any], Any]:
     """Return the chance of each (winner, next breaker), and P(never)."""
     numbers = [number for pair in walk.pairs for number in pair]
     if all(isinstance(number, float) for number in numbers):
-        one, two = walk.chances()
-        never = 0.0 if one or two else 1.0
+        wins_1, wins_2 = walk.chances()
+        never = 0.0 if wins_1 or wins_2 else 1.0
     else:
         import numpy as np
 
         arrays = np.array(np.broadcast_arrays(*numbers), dtype=float)
         flat = arrays.reshape(len(walk.pairs), 2, -1)
-        found = np.empty(flat.shape[1:])
-        for start in range(0, found.shape[1], _AT_ONCE):
+        wins = np.empty(flat.shape[1:])
+        for start in range(0, wins.shape[1], _AT_ONCE):
             part = slice(start, start + _AT_ONCE)
-            found[:, part] = walk.of(flat, part).chances()
-        one, two = found.reshape(2, *arrays.shape[1:])
-        never = ((one == 0.0) & (two == 0.0)).astype(float)
-    return {(1, ends[0]): one, (2, ends[1]): two}, never
+            wins[:, part] = walk.of(flat, part).chances()
+        wins_1, wins_2 = wins.reshape(2, *arrays.shape[1:])
+        never = ((wins_1 == 0.0) & (wins_2 == 0.0)).astype(float)
+    return {(1, ends[0]): wins_1, (2, ends[1]): wins_2}, never
 
 
 def _log_ratio(above: Sequence[Any], below: Sequence[Any]) -> Pair:

@@ -89,7 +89,7 @@ def match_odds_by_limit(match: Match, via: Way) -> dict[str, Any]:
 'p_shutout_2': 0.25}
     """
     odds = odds_by_limit(match, via)
-    found: dict[str, Any] = {
+    by_name: dict[str, Any] = {
         "p_win_1": odds.p_win(1),
         "p_win_2": odds.p_win(2),
         "p_never_ends": odds.p_never_ends,
@@ -99,11 +99,11 @@ def match_odds_by_limit(match: Match, via: Way) -> dict[str, Any]:
         limit: dict[Any, float] = odds.limit.to_dict()
         ends = [(state[:2], p) for state, p in limit.items() if match.winner(state)]
         (a, b), last = match.score, match.m + match.n - 1
-        found["p_hill_hill"] = sum(p for score, p in ends if sum(score) == last)
-        found["p_shutout_1"] = sum(p for score, p in ends if score == (match.m, b))
-        found["p_shutout_2"] = sum(p for score, p in ends if score == (a, match.n))
+        by_name["p_hill_hill"] = sum(p for score, p in ends if sum(score) == last)
+        by_name["p_shutout_1"] = sum(p for score, p in ends if score == (match.m, b))
+        by_name["p_shutout_2"] = sum(p for score, p in ends if score == (a, match.n))
     if via == "elimination":
         racks = steps_to_absorption(chain_of(checked_match(match)))
-        found["mean_games"] = racks.mean
-        found["sd_games"] = None if racks.variance is None else racks.variance**0.5
-    return found
+        by_name["mean_games"] = racks.mean
+        by_name["sd_games"] = None if racks.variance is None else racks.variance**0.5
+    return by_name

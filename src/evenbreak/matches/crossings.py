@@ -130,8 +130,8 @@ def even_probability(
     line = _Line(p2, break_odds, breaks, first_breaker)
     match = _read(played)
     if not line.break_matters and degree_of(match) <= _HIGHEST_DEGREE:
-        one, two = win_forms(match)
-        roots = form_roots([x - y for x, y in zip(one, two, strict=True)]) or []
+        win, lose = win_forms(match)
+        roots = form_roots([x - y for x, y in zip(win, lose, strict=True)]) or []
     else:
         roots, _ = _changes_of_sign(partial(line.log_odds, match))
     return tuple(line.point(match, p1) for p1 in roots)
@@ -171,17 +171,17 @@ def crossings(
     (0,)
     """
     line = _Line(p2, break_odds, breaks, first_breaker)
-    one, two = _read(format_1), _read(format_2)
-    exact = not line.break_matters and degree_of(one) + degree_of(two) <= _HIGHEST_DEGREE
+    first, second = _read(format_1), _read(format_2)
+    exact = not line.break_matters and degree_of(first) + degree_of(second) <= _HIGHEST_DEGREE
     if exact:
-        form = _difference(one, two)
+        form = _difference(first, second)
         roots = form_roots(form) or []
         ends = [0.0, *roots, 1.0] if any(form) else []
         signs = [sign_at(form, 0.5 * (low + high)) for low, high in pairwise(ends)]
     else:
-        roots, signs = _changes_of_sign(partial(line.difference, one, two))
+        roots, signs = _changes_of_sign(partial(line.difference, first, second))
     better = tuple(1 if sign > 0 else 2 for sign in signs) or (0,)
-    return Crossings(tuple(line.point(one, p1) for p1 in roots), better, exact)
+    return Crossings(tuple(line.point(first, p1) for p1 in roots), better, exact)
 
 
 def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
@@ -208,9 +208,9 @@ def _read(played: MatchFormat | str) -> MatchFormat:
     return played if isinstance(played, MatchFormat) else match_format(played)
 
 
-def _difference(one: MatchFormat, two: MatchFormat) -> Form:
+def _difference(first: MatchFormat, second: MatchFormat) -> Form:
     """Return a form with the sign of W of the first match less W of the second."""
-    (win_1, lose_1), (win_2, lose_2) = win_forms(one), win_forms(two)
+    (win_1, lose_1), (win_2, lose_2) = win_forms(first), win_forms(second)
     pairs = zip(product(win_1, lose_2), product(win_2, lose_1), strict=True)
     return [x - y for x, y in pairs]
 
@@ -245,11 +245,11 @@ class _Line:
             return _log_odds_on_grid(self, played)
         match = self.match(played, p1)
         wins = [np.asarray(win_probability(match, player=player)) for player in (1, 2)]
-        one, two = (np.log(win, out=np.full(win.shape, np.nan), where=win > 0.0) for win in wins)
-        return one - two
+        of_1, of_2 = (np.log(win, out=np.full(win.shape, np.nan), where=win > 0.0) for win in wins)
+        return of_1 - of_2
 
-    def difference(self, one: MatchFormat, two: MatchFormat, p1: Any) -> Any:
-        return self.log_odds(one, p1) - self.log_odds(two, p1)
+    def difference(self, first: MatchFormat, second: MatchFormat, p1: Any) -> Any:
+        return self.log_odds(first, p1) - self.log_odds(second, p1)
 
     def point(self, played: MatchFormat, p1: float) -> Crossing:
         match = self.match(played, p1)
@@ -268,10 +268,10 @@ def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[
     The signs are those on the grid: halfway between two zeros both probabilities may underflow.
     """
     values = function(_P1)
-    known = np.abs(values) > _NOISE  # false for NaN too
-    if not known.any():
+    clear = np.abs(values) > _NOISE  # false for NaN too
+    if not clear.any():
         return [], []
-    places, signs = _P1[known], np.sign(values[known]).astype(int)
+    places, signs = _P1[clear], np.sign(values[clear]).astype(int)
     turns = np.flatnonzero(signs[1:] != signs[:-1])
     roots = [
         float(brentq(function, places[i], places[i + 1], xtol=1e-14, rtol=1e-14)) for i in turns
@@ -295,22 +295,22 @@ def form_roots(form: Sequence[int]) -> list[float] | None:
     """
     if not any(form):
         return None
-    found: list[float] = []
+    roots: list[float] = []
     queue = [(_stripped(list(form)), 0, 0)]
     while queue:
         part, place, depth = queue.pop()
         changes = _changes(part)
         if changes == 1:
-            found.append(_refined(part, place, depth))
+            roots.append(_refined(part, place, depth))
         elif changes and depth == _FINEST:
-            found.append((place + 0.5) / 2**depth)
+            roots.append((place + 0.5) / 2**depth)
         elif changes:
             left, right = _halves(part)
             if right[0] == 0:
-                found.append((2 * place + 1) / 2 ** (depth + 1))
+                roots.append((2 * place + 1) / 2 ** (depth + 1))
             queue.append((_stripped(left), 2 * place, depth + 1))
             queue.append((_stripped(right), 2 * place + 1, depth + 1))
-    return sorted(found)
+    return sorted(roots)
 
 
 def sign_at(form: Sequence[int], p: float) -> int:
@@ -332,7 +332,7 @@ def _stripped(form: Form) -> Form:
 
 def _changes(form: Form) -> int:
     signs = [c > 0 for c in form if c]
-    return sum(one != two for one, two in pairwise(signs))
+    return sum(sign != next_sign for sign, next_sign in pairwise(signs))
 
 
 def _refined(form: Form, place: int, depth: int) -> float:

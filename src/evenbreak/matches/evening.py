@@ -136,21 +136,21 @@ def evening(
     """
     pace = pace_of(pace) if isinstance(pace, str) else kind_of(pace, "pace", Pace)
     between_matches = kind_or_usual(turnover, "turnover", Turnover)
-    found = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
-    if not 0 < len(found) <= _MOST_MATCHES:
+    laws = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
+    if not 0 < len(laws) <= _MOST_MATCHES:
         raise InputError(
             "{lengths} has {n_found:,} matches; give 1 to {most_matches:,}",
-            n_found=len(found),
+            n_found=len(laws),
             most_matches=_MOST_MATCHES,
         )
-    tables = min(whole(tables, "tables", at_least=1), len(found))
-    pairs = _numbered(players, len(found))
+    tables = min(whole(tables, "tables", at_least=1), len(laws))
+    pairs = _numbered(players, len(laws))
     if runs is None and tables == 1:
-        return _calculated(one_after_another(found, pace, between_matches), pace)
-    if runs is None and tables == len(found) and len(np.unique(pairs)) == pairs.size:
-        return _calculated(all_at_once(found, pace), pace)
+        return _calculated(one_after_another(laws, pace, between_matches), pace)
+    if runs is None and tables == len(laws) and len(np.unique(pairs)) == pairs.size:
+        return _calculated(all_at_once(laws, pace), pace)
     rng = generator_of(0 if rng is None else rng)
-    return _simulated(found, pace, between_matches, tables, pairs, rng, runs)
+    return _simulated(laws, pace, between_matches, tables, pairs, rng, runs)
 
 
 def _chances(length: LengthLike, name: str) -> Floats:
@@ -185,9 +185,9 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
             matches=matches,
         )
     number: dict[Hashable, int] = {}
-    for one, other in players:
-        if one == other:
-            raise InputError("{players} has {one!r} on both sides; give two players", one=one)
+    for first, second in players:
+        if first == second:
+            raise InputError("{players} has {one!r} on both sides; give two players", one=first)
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )

@@ -116,9 +116,9 @@ def _unit(match: Match, breaker: int) -> _Outcomes:
 def _chance(rack: Rack, breaker: int) -> Fraction:
     """Return the chance of a rack that belongs to its breaker, as a fraction."""
     numbers = rack.of_numbers()
-    given = rack.given[breaker - 1]
-    if isinstance(given, Fraction):
-        return given
+    exact = rack.given[breaker - 1]
+    if isinstance(exact, Fraction):
+        return exact
     p, q = (numbers.p1, numbers.q1) if breaker == 1 else (numbers.p2, numbers.q2)
     # A chance this close to 1 has its digits in what is left over.
     return 1 - exact_chance(q) if p == 1.0 else exact_chance(p)

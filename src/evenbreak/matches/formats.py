@@ -197,12 +197,12 @@ def match_format(text: str) -> MatchFormat:
                 most=most,
                 most_2=_half(most),
             )
-    words = _BEST_OF.sub(lambda found: _half(int(found[1])), words)
+    words = _BEST_OF.sub(lambda best: _half(int(best[1])), words)
     breaks = None
     if tail := _TAIL.search(words):
         words, breaks = words[: tail.start()], WHO_BREAKS[tail[1]]
     parts = [_ONE.fullmatch(part) for part in words.split(" of ")]
-    found: MatchFormat | None = None
+    inner: MatchFormat | None = None
     for part in reversed(parts):
         kinds = [] if part is None else [part[kind] for kind in ("race", "ahead", "lead")]
         if part is None or kinds.count(None) < 2 or not (part["n"] or any(kinds)):
@@ -210,7 +210,7 @@ def match_format(text: str) -> MatchFormat:
                 "{text!r} is not a match format; write {ways}", text=text, ways=_WAYS
             )
         ahead = bool(part["ahead"] or part["lead"])
-        m, n, win_by = (int(part[name] or part[other] or 1) for name, other in _NUMBERS)
+        m, n, win_by = (int(part[name] or part[spelled] or 1) for name, spelled in _NUMBERS)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:
             raise InputError(
                 "{text!r} has a number that is not from 1 to {longest}; correct it",
@@ -221,10 +221,10 @@ def match_format(text: str) -> MatchFormat:
             raise InputError(
                 "{text!r}: 'ahead' does not go with 'win by'; leave one out", text=text
             )
-        innermost = found is None
-        found = MatchFormat(m, n, ahead, win_by, found, breaks if innermost else None)
-    assert found is not None  # noqa: S101  a split has at least one part
-    return found
+        innermost = inner is None
+        inner = MatchFormat(m, n, ahead, win_by, inner, breaks if innermost else None)
+    assert inner is not None  # noqa: S101  a split has at least one part
+    return inner
 
 
 def _half(most: int) -> str:

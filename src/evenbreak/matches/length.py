@@ -257,9 +257,9 @@ class MatchLength(Generic[ChanceT, MeanT]):
             beyond = np.asarray(self.tail_mass + self.p_never_ends)[..., np.newaxis]
             tail = np.cumsum(np.concatenate([beyond, chances[..., :0:-1]], axis=-1), axis=-1)
             reached = tail[..., ::-1] <= (1.0 - q) * (1.0 + TIE)
-        found = reached.any(axis=-1)
+        is_reached = reached.any(axis=-1)
         ends = np.asarray(1.0 - self.p_never_ends)
-        if not self.bounded and ((ends >= q) & (q < 1.0) & ~found).any():
+        if not self.bounded and ((ends >= q) & (q < 1.0) & ~is_reached).any():
             raise AccuracyError(
                 "the {q:g} quantile lies beyond {span} racks, where the distribution is cut "
                 "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles",
@@ -268,8 +268,8 @@ class MatchLength(Generic[ChanceT, MeanT]):
             )
         at = self.games[reached.argmax(axis=-1)]
         if chances.ndim == 1:
-            return int(at) if found else None
-        return at if found.all() else np.where(found, at, np.nan)
+            return int(at) if is_reached else None
+        return at if is_reached.all() else np.where(is_reached, at, np.nan)
 
 
 _LONGEST = 100_000

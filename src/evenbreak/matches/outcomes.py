@@ -183,13 +183,13 @@ def _in_closed_form(match: Ahead, start: _State) -> Outcomes | None:
             never = unit.never if isinstance(unit.never, float) else unit.never.any()
             if never or sorted(winner for winner, _ in unit.by_result) != [1, 2]:
                 return None
-            one, two = sorted(unit.by_result)
-            racks[first] = unit.by_result[one].chance, unit.by_result[two].chance
-            after[first] = one[1], two[1]
-    found = ahead_chances(match.m - a + b, match.n + a - b, breaker, racks, after)
-    if found is None:
+            result_1, result_2 = sorted(unit.by_result)
+            racks[first] = unit.by_result[result_1].chance, unit.by_result[result_2].chance
+            after[first] = result_1[1], result_2[1]
+    closed = ahead_chances(match.m - a + b, match.n + a - b, breaker, racks, after)
+    if closed is None:
         return None
-    chances, never = found
+    chances, never = closed
     return Outcomes({result: Outcome(p, 0.0, 0.0) for result, p in chances.items()}, never)
 
 
@@ -346,9 +346,9 @@ def _endless(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> dict[Hashable, 
     while queue:
         target = queue.pop()
         for state, possible in before[target]:
-            known = ends.get(state, False)
-            reached = _truth(known | (possible & ends[target]))
-            if known is not True and _truth(reached == known) is not True:
+            before_now = ends.get(state, False)
+            reached = _truth(before_now | (possible & ends[target]))
+            if before_now is not True and _truth(reached == before_now) is not True:
                 ends[state] = reached
                 queue.append(state)
     return {state: 1 - 1 * ends.get(state, False) for state in rows if ends.get(state) is not True}

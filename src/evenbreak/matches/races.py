@@ -52,7 +52,7 @@ class RaceOdds(NamedTuple):
     @property
     def probability(self) -> list[float]:
         """P(the race takes games[k] racks), in the order of `games`."""
-        return [one + two for one, two in zip(self.win_1, self.win_2, strict=True)]
+        return [by_1 + by_2 for by_1, by_2 in zip(self.win_1, self.win_2, strict=True)]
 
     @property
     def mean(self) -> float:

@@ -61,7 +61,7 @@ def racks_within(
         [(place[target], chance) for target, chance in row if target in place]
         for row in moves.values()
     ]
-    found: list[int | None] = [None if state in place else 0 for state, _ in asked]
+    quantiles: list[int | None] = [None if state in place else 0 for state, _ in asked]
     allowed = [(1.0 - q) * (1.0 + TIE) for _, q in asked]
     wanted = {
         i: place[state]
@@ -69,18 +69,18 @@ def racks_within(
         if state in place and never.get(state, 0.0) <= allowed[i]
     }
     if not wanted:
-        return found
+        return quantiles
     for racks, left in enumerate(_still_going_on(arcs), 1):
         for i in [i for i, k in wanted.items() if left[k] <= allowed[i]]:
-            found[i] = racks
+            quantiles[i] = racks
             del wanted[i]
         if not wanted:
-            return found
+            return quantiles
     if len(arcs) <= _MOST_STATES:
         levels = [(k, asked[i][1]) for i, k in wanted.items()]
         for i, many in zip(wanted, _by_doubling(arcs, moves, levels), strict=True):
-            found[i] = many
-    return found
+            quantiles[i] = many
+    return quantiles
 
 
 def _still_going_on(arcs: _Arcs) -> Iterator[Any]:

@@ -118,16 +118,16 @@ def final_scores(
 
 def _with_form(match: Match, tail: float, form: float, shape: tuple[int, ...]) -> FinalScores[Any]:
     many, weights = on_days(match, form_of(form))
-    found = final_scores(many, tail=tail)
+    by_day = final_scores(many, tail=tail)
 
     def mixed(value: Floats) -> Any:
         return in_shape((weights * value).sum(axis=-1), shape)
 
     return FinalScores(
-        {score: mixed(chance) for score, chance in found.probability.items()},
-        mixed(found.p_never_ends),
-        mixed(found.tail_mass),
-        found.span,
+        {score: mixed(chance) for score, chance in by_day.probability.items()},
+        mixed(by_day.p_never_ends),
+        mixed(by_day.tail_mass),
+        by_day.span,
     )
 
 
@@ -199,5 +199,5 @@ def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, 
     return ends[1] | ends[2], sets
 
 
-def _settled(known: Any, tail: float | None) -> bool:
-    return tail is not None and bool(np.all(1.0 - known <= tail))
+def _settled(certain: Any, tail: float | None) -> bool:
+    return tail is not None and bool(np.all(1.0 - certain <= tail))

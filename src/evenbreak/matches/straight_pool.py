@@ -169,9 +169,9 @@ def _aligned(match: StraightPool) -> list[tuple[Floats, Floats]]:
     laws = []
     for player in players:
         reach = np.zeros(longest)
-        found = _innings_to(*player, at_least=longest)[:longest]
-        reach[: found.size] = found
-        left = np.append(reach[::-1].cumsum()[::-1], 0.0) if found.any() else np.ones(longest + 1)
+        innings = _innings_to(*player, at_least=longest)[:longest]
+        reach[: innings.size] = innings
+        left = np.append(reach[::-1].cumsum()[::-1], 0.0) if innings.any() else np.ones(longest + 1)
         laws.append((reach, left))
     return laws
 
@@ -288,7 +288,7 @@ def even_spot(match: StraightPool) -> Spot:
     shots = (match.p1, match.safety_1), (match.p2, match.safety_2)
     strong = 0 if _balls_an_inning(*shots[0]) >= _balls_an_inning(*shots[1]) else 1
     weak = 1 - strong
-    found = even_points(
+    even = even_points(
         points[strong],
         shots[strong][0],
         shots[weak][0],
@@ -297,10 +297,10 @@ def even_spot(match: StraightPool) -> Spot:
         first=1 if match.first == strong + 1 else 2,
         most=points[strong],
     )
-    if not found.is_even:
+    if not even.is_even:
         return Spot(weak + 1, None, None)
-    p_win_1 = 1.0 - found.p_win_1 if strong else found.p_win_1
-    return Spot(weak + 1, found.points_2, p_win_1)
+    p_win_1 = 1.0 - even.p_win_1 if strong else even.p_win_1
+    return Spot(weak + 1, even.points_2, p_win_1)
 
 
 def even_points(

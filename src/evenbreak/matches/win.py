@@ -147,9 +147,9 @@ def _win(match: Match, player: int) -> Any:
     need = match.m - match.score[0], match.n - match.score[1]
     rack = match.rack
     if not match.break_matters:
-        one = _win(rack, player) if isinstance(rack, Match) else rack_in(match).chance(player)
+        p = _win(rack, player) if isinstance(rack, Match) else rack_in(match).chance(player)
         mine, theirs = need if player == 1 else need[::-1]
-        return beta_tail(mine, theirs, one)
+        return beta_tail(mine, theirs, p)
     if isinstance(rack, Rack):
         endings = race_endings(*need, rack, match.breaks, match.first_breaker)[player - 1]
         return np.minimum(endings.sum(axis=0), 1.0)  # rounding may take a sum above 1

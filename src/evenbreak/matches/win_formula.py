@@ -208,16 +208,16 @@ def degree_of(played: MatchFormat) -> int:
     return own * (degree_of(played.set_) if played.set_ else 1)
 
 
-def product(one: Form, two: Form) -> Form:
+def product(first: Form, second: Form) -> Form:
     """Return the product of two forms.
 
     >>> product([1, 1], [1, 1])
     [1, 2, 1]
     """
-    result = [0] * (len(one) + len(two) - 1)
-    for i, x in enumerate(one):
+    result = [0] * (len(first) + len(second) - 1)
+    for i, x in enumerate(first):
         if x:
-            for j, y in enumerate(two):
+            for j, y in enumerate(second):
                 result[i + j] += x * y
     return result
 

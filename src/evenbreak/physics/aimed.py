@@ -252,19 +252,19 @@ def pocketed_shot(
         return straight
     for target in _beside(pocket, place_of(object_ball, "object_ball"), strike.ball.radius):
         try:
-            found = aim_at(target.tolist())
+            aimed = aim_at(target.tolist())
         except InputError:  # this side of the mouth cannot be reached
             continue
-        if not _blocked(found, pocket):
-            return found
+        if not _blocked(aimed, pocket):
+            return aimed
     return straight
 
 
-def _blocked(found: AimedShot, pocket: Pocket) -> bool:
+def _blocked(aimed: AimedShot, pocket: Pocket) -> bool:
     """Return whether a cushion or another pocket is in the way of one of the balls."""
-    leg = found.shot.object_leg
+    leg = aimed.shot.object_leg
     if leg is None:
-        return found.shot.approach.ending != "rest"
+        return aimed.shot.approach.ending != "rest"
     return leg.ending != "rest" and leg.pocket != pocket.name
 
 

@@ -251,8 +251,8 @@ def collide(
     slip = slip_of(sin, cos, topspin, side)
     mu = friction_of_slip(mu, speed, *slip)
     left, up = thrown(cos, *slip, mu, friction)
-    found = (cut, topspin, side, speed, mu, speed * cos, speed * left, speed * up)
-    return Collision(kind_or_usual(ball, "ball", Ball), *map(plain, found))
+    numbers = (cut, topspin, side, speed, mu, speed * cos, speed * left, speed * up)
+    return Collision(kind_or_usual(ball, "ball", Ball), *map(plain, numbers))
 
 
 def axis_tilt(throw: Any) -> Any:

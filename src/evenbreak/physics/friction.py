@@ -234,14 +234,14 @@ def tip_friction_of(offset: FloatOrArray) -> FloatOrArray:
 
 def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
     """Return a block's speed, its deceleration and a third number, all checked."""
-    found = {
+    block = {
         "speed": numbers(speed, "speed", low=0.0),
         "friction": positive(friction, "friction"),
         "gravity": positive(gravity, "gravity"),
         **{name: numbers(value, name, low=0.0) for name, value in third.items()},
     }
-    together(**found)
-    speed, friction, gravity, last = found.values()
+    together(**block)
+    speed, friction, gravity, last = block.values()
     return speed, friction * gravity, last
 
 
@@ -283,8 +283,8 @@ class SlipFriction:
 
     def __post_init__(self) -> None:
         for name in ("fast", "more", "decay"):
-            found = number(getattr(self, name), name, low=0.0, high=LARGEST)
-            object.__setattr__(self, name, found)
+            value = number(getattr(self, name), name, low=0.0, high=LARGEST)
+            object.__setattr__(self, name, value)
 
     @property
     def slow(self) -> float:

@@ -175,8 +175,8 @@ class Cue:
 def _positive(thing: object, name: str, wanted: str) -> None:
     """Make a field a float, if it is a number within the limits."""
     wanted = f"a number from {LEAST:g} to {LARGEST:g} ({wanted})"
-    found = number(getattr(thing, name), name, low=LEAST, high=LARGEST, wanted=wanted)
-    object.__setattr__(thing, name, found)
+    value = number(getattr(thing, name), name, low=LEAST, high=LARGEST, wanted=wanted)
+    object.__setattr__(thing, name, value)
 
 
 class BallSet(NamedTuple):

@@ -149,8 +149,8 @@ class Shot:
         begun = [leg for leg in self.legs if leg.begin <= time]
         if len(begun) > 1:
             begun = begun[1:]  # The cue ball's second leg takes over from its first.
-        found = [leg.energy(time) for leg in begun]
-        return Energy(sum(e.translational for e in found), sum(e.rotational for e in found))
+        energies = [leg.energy(time) for leg in begun]
+        return Energy(sum(e.translational for e in energies), sum(e.rotational for e in energies))
 
 
 def shot(
@@ -224,20 +224,20 @@ def shot(
     )
     hit = time_to(slide, _unit(direction), float(struck @ _unit(direction)))
     approach = leg_until("cue ball", slide, 0.0, table, hit=hit)
-    found = None
+    collision = None
     cue_leg = object_leg = None
     if approach.ending == "hit":
-        found = _collision(approach, cut, mu, friction)
+        collision = _collision(approach, cut, mu, friction)
         after = {
-            "cue ball": (struck, found.cue_velocity, found.cue_spin),
-            "object ball": (standing, found.object_velocity, found.object_spin),
+            "cue ball": (struck, collision.cue_velocity, collision.cue_spin),
+            "object ball": (standing, collision.object_velocity, collision.object_spin),
         }
         cue_leg, object_leg = (
             leg_until(name, _set_off(ball, cloth, *state, direction), approach.end, table)
             for name, state in after.items()
         )
     setting = (strike, cloth, table, direction, cut, standing, mu, friction)
-    return Shot(*setting, approach, found, cue_leg, object_leg)
+    return Shot(*setting, approach, collision, cue_leg, object_leg)
 
 
 def sound_strike(strike: Strike) -> None:
@@ -309,9 +309,9 @@ def _set_off(
 def _turned(vector: Floats, angle: float) -> Floats:
     """Return a vector with its horizontal part turned counterclockwise by an angle in radians."""
     sin, cos = math.sin(angle), math.cos(angle)
-    found = np.array(vector, dtype=float)
-    found[0], found[1] = vector[0] * cos - vector[1] * sin, vector[0] * sin + vector[1] * cos
-    return found
+    turned = np.array(vector, dtype=float)
+    turned[0], turned[1] = vector[0] * cos - vector[1] * sin, vector[0] * sin + vector[1] * cos
+    return turned
 
 
 def _unit(angle: float) -> Floats:

@@ -80,8 +80,8 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
     """
     moving, forward = _vectors(velocity, "velocity", 2), _forward(rim_velocity, "rim_velocity")
     together(**{"velocity[..., 0]": moving[..., 0], "rim_velocity[..., 0]": forward[..., 0]})
-    found: Floats = (5.0 * moving + 2.0 * forward) / 7.0
-    return found
+    rolling: Floats = (5.0 * moving + 2.0 * forward) / 7.0
+    return rolling
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:

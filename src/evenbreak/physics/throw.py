@@ -184,8 +184,8 @@ def throw_sensitivity(cut: FloatOrArray, topspin: FloatOrArray, side: FloatOrArr
     length = _length(left, up)
     across, along = np.abs(up / length), left / length
     with np.errstate(over="ignore"):
-        found = across * np.hypot(along * cos, across) / length
-    return plain(np.where((left == 0.0) & (up == 0.0), np.inf, found))
+        slope = across * np.hypot(along * cos, across) / length
+    return plain(np.where((left == 0.0) & (up == 0.0), np.inf, slope))
 
 
 class Aim(NamedTuple):
@@ -264,14 +264,14 @@ def aim(
         short = middle - throw(middle) < wanted
         low, high = np.where(short, middle, low), np.where(short, high, middle)
     # For stun the law of the text jumps where nothing slips; a cut without throw is a solution.
-    found = np.where(throw(wanted) == 0.0, wanted, 0.5 * (low + high))
+    cuts = np.where(throw(wanted) == 0.0, wanted, 0.5 * (low + high))
     slip = slip_of(np.sin(wanted), np.cos(wanted), topspin, side)
     rule = friction_of_slip(mu, speed, *slip) * distance * throw_factor(wanted, topspin, side)
     hand = hand_of(wanted)
     return Aim(
-        plain(found),
-        plain(hand * throw(found)),
-        plain(hand * distance * np.tan(found - wanted)),
+        plain(cuts),
+        plain(hand * throw(cuts)),
+        plain(hand * distance * np.tan(cuts - wanted)),
         plain(rule),
     )
 

@@ -88,9 +88,9 @@ def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
         return first, row.difference_to + 0.5
     widest = max(
         (
-            other.difference_to - other.difference_from + 1
-            for other in report.rows
-            if other.difference_to is not None
+            wider.difference_to - wider.difference_from + 1
+            for wider in report.rows
+            if wider.difference_to is not None
         ),
         default=report.scale.points_per_doubling,
     )

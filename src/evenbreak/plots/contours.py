@@ -103,7 +103,7 @@ def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
         if from_edge.max() < _CLEAR / 2:
             continue
         inner = piece[from_edge >= min(_CLEAR, from_edge.max())]
-        others = [other for there, other in enumerate(pieces) if there != here]
+        others = [outline for there, outline in enumerate(pieces) if there != here]
         tightness = -np.minimum(_distance(inner, others), _CLEAR)
         off_centre = np.hypot(*(inner - 0.5).T)
         # Rounded, so that of two equally good places the first one is taken.

@@ -152,8 +152,8 @@ def _start_of(graph: nx.DiGraph[Any]) -> Any:
 
 
 def _state_label(graph: nx.DiGraph[Any], state: Any) -> str:
-    given = graph.nodes[state].get("label")
-    if given is not None:
-        return str(given)
+    label = graph.nodes[state].get("label")
+    if label is not None:
+        return str(label)
     subscripted = re.fullmatch(r"([A-Za-z])(\d+)", str(state))
     return f"${subscripted[1]}_{{{subscripted[2]}}}$" if subscripted else str(state)

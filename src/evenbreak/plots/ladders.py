@@ -239,7 +239,7 @@ def _free_offsets(
     wide, high = _PANEL
     marks = [(point.matches / right * wide, point.sd / top * high) for point in listed]
     taken = [(x, y, 6.0, 6.0) for x, y in marks]
-    found = []
+    offsets = []
     for (x, y), point in zip(marks, listed, strict=True):
         width, height = 0.55 * _LETTER * len(point.name) + 4.0, _LETTER + 2.0
         side = width / 2.0 + 5.0
@@ -257,18 +257,18 @@ def _free_offsets(
         ]
         best = places[covered.index(min(covered))]
         taken.append((x + best[0], y + best[1], width, height))
-        found.append(best)
-    return found
+        offsets.append(best)
+    return offsets
 
 
-def _overlap(one: _Box, other: _Box) -> float:
+def _overlap(box: _Box, placed: _Box) -> float:
     """Return the area that two boxes share; a box is its centre, width and height.
 
     >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
     1.0
     """
-    across = (one[2] + other[2]) / 2.0 - abs(one[0] - other[0])
-    along = (one[3] + other[3]) / 2.0 - abs(one[1] - other[1])
+    across = (box[2] + placed[2]) / 2.0 - abs(box[0] - placed[0])
+    along = (box[3] + placed[3]) / 2.0 - abs(box[1] - placed[1])
     return max(0.0, across) * max(0.0, along)
 
 

@@ -212,13 +212,13 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
         size=(7.4, 4.2),
         ax=ax,
     )
-    named = sorted(watched, key=lambda one: -float(one.log_e.max()))[:MOST_NAMED]
+    named = sorted(watched, key=lambda watch: -float(watch.log_e.max()))[:MOST_NAMED]
     axes.axhline(1.0 / alpha, color="#555555", linewidth=0.8, linestyle=":", label="alarm")
-    for one in watched:
-        if one not in named:
-            axes.plot(*_curve(one), color="#bbbbbb", linewidth=0.6)
-    for one, line in zip(named, LINES, strict=False):
-        axes.plot(*_curve(one), **line._asdict(), label=one.player)
+    for watch in watched:
+        if watch not in named:
+            axes.plot(*_curve(watch), color="#bbbbbb", linewidth=0.6)
+    for watch, line in zip(named, LINES, strict=False):
+        axes.plot(*_curve(watch), **line._asdict(), label=watch.player)
     axes.set_yscale("log")
     axes.set_xlim(left=0)
     axes.locator_params(axis="x", integer=True)
@@ -228,13 +228,13 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
     return axes
 
 
-def _curve(one: Watched) -> tuple[range, list[float]]:
-    values = [1.0, *(math.exp(min(max(value, -300.0), 300.0)) for value in one.log_e)]
+def _curve(watched: Watched) -> tuple[range, list[float]]:
+    values = [1.0, *(math.exp(min(max(value, -300.0), 300.0)) for value in watched.log_e)]
     return range(len(values)), values
 
 
 @in_our_look
-def draw_calibration(found: Validation, *, ax: Axes | None = None) -> Axes:
+def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     """Draw how often favourites won against the chance that they had been given.
 
     Points on the diagonal are right; below it the chances were too extreme. The bars are
@@ -258,9 +258,9 @@ def draw_calibration(found: Validation, *, ax: Axes | None = None) -> Axes:
     )
     axes.plot([0.5, 1.0], [0.5, 1.0], color="0.6", linewidth=1.0, zorder=0, label="right")
     groups: tuple[tuple[str, Sequence[CalibrationBin], str, float, str], ...] = (
-        ("games", found.games, "o", -0.006, LINES[0].color),
-        ("matches", found.matches, "s", 0.0, LINES[1].color),
-        ("matches, ratings at face value", found.matches_plug_in, "^", 0.006, LINES[2].color),
+        ("games", validation.games, "o", -0.006, LINES[0].color),
+        ("matches", validation.matches, "s", 0.0, LINES[1].color),
+        ("matches, ratings at face value", validation.matches_plug_in, "^", 0.006, LINES[2].color),
     )
     lowest = 0.5
     for name, bins, marker, shift, color in groups:

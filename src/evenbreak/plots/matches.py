@@ -79,7 +79,7 @@ def draw_formats(
             label=str(played),
             **style._asdict(),
         )
-    points = [point for found in pairs for point in found.points]
+    points = [point for crossing in pairs for point in crossing.points]
     if points:
         axes.plot(
             [point.p1 for point in points],

@@ -345,7 +345,7 @@ def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, f
 
 def _neighbours(graph: nx.DiGraph[Any], node: Any) -> list[Any]:
     around = [*graph.predecessors(node), *graph.successors(node)]
-    return [other for other in dict.fromkeys(around) if other != node]
+    return [neighbour for neighbour in dict.fromkeys(around) if neighbour != node]
 
 
 def _on_a_line(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
@@ -387,7 +387,7 @@ def _in_layers(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, flo
 
     distance = nx.single_source_shortest_path_length(graph, start)
     beyond = 1 + max(distance.values())
-    ends = {node for node in graph if not any(other != node for other in graph.successors(node))}
+    ends = {node for node in graph if not any(near != node for near in graph.successors(node))}
     layers: dict[int, list[Any]] = {}
     for node in graph:
         if node not in ends:
@@ -401,10 +401,10 @@ def _in_layers(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, flo
     highest, lowest = max(rows.values(), default=0.0) + 1.0, min(rows.values(), default=0.0) - 1.0
     taken: set[tuple[float, float]] = set()
     for node in sorted((n for n in graph if n in ends), key=lambda n: distance.get(n, beyond)):
-        before = [places[other][0] for other in graph.predecessors(node) if other in places]
+        before = [places[near][0] for near in graph.predecessors(node) if near in places]
         x = 0.75 + (sum(before) / len(before) if before else 1.5 * beyond)
         y = highest if graph.nodes[node].get("winner") == 1 else lowest
-        while any(abs(x - other) < 1.0 and y == row for other, row in taken):
+        while any(abs(x - near) < 1.0 and y == row for near, row in taken):
             x += 0.25
         taken.add((x, y))
         places[node] = (x, y)
@@ -418,7 +418,7 @@ def _ordered(graph: nx.DiGraph[Any], layers: list[list[Any]]) -> dict[Any, float
         for nodes in layers:
 
             def mean(node: Any) -> float:
-                heights = [rows[other] for other in _neighbours(graph, node) if other in rows]
+                heights = [rows[near] for near in _neighbours(graph, node) if near in rows]
                 return sum(heights) / len(heights) if heights else 0.0
 
             nodes.sort(key=mean, reverse=True)

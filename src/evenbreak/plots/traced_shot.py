@@ -57,39 +57,39 @@ def shot_on_table(traced: Shot | AimedShot) -> Picture:
     ['', 'At the hit', '']
     """
     aimed = traced if isinstance(traced, AimedShot) else None
-    found = traced.shot if isinstance(traced, AimedShot) else traced
+    shot = traced.shot if isinstance(traced, AimedShot) else traced
     figure = Picture(figsize=_SIZE)
     whole = bare_axes(figure, (0.02, 0.42, 0.96, 0.57))
-    draw_table(whole, found.table)
-    _draw_shot(whole, found, aimed)
-    for leg in found.legs[-2:]:
-        _draw_end(whole, leg, found.table)
+    draw_table(whole, shot.table)
+    _draw_shot(whole, shot, aimed)
+    for leg in shot.legs[-2:]:
+        _draw_end(whole, leg, shot.table)
     near = bare_axes(figure, (0.03, 0.02, 0.42, 0.36))
-    near.set_title("At the hit" if found.reached else "As aimed", fontsize=11, pad=4)
-    _draw_shot(near, found, aimed)
-    middle = (0.5 * (found.ghost_position + found.object_position)) / INCH
+    near.set_title("At the hit" if shot.reached else "As aimed", fontsize=11, pad=4)
+    _draw_shot(near, shot, aimed)
+    middle = (0.5 * (shot.ghost_position + shot.object_position)) / INCH
     for name, at, reach in zip("xy", middle, (1.25 * _NEAR, _NEAR), strict=True):
         near.set(**{f"{name}lim": (at - reach, at + reach)})
     near.add_patch(_frame(near))
-    _write_key(bare_axes(figure, (0.48, 0.02, 0.5, 0.36)), found, aimed)
+    _write_key(bare_axes(figure, (0.48, 0.02, 0.5, 0.36)), shot, aimed)
     return figure
 
 
-def _draw_shot(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
+def _draw_shot(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
     """Draw balls, lines and paths."""
-    radius = found.strike.ball.radius / INCH
-    ghost, standing = found.ghost_position / INCH, found.object_position / INCH
-    line, tangent = found.line_of_centres, found.tangent
+    radius = shot.strike.ball.radius / INCH
+    ghost, standing = shot.ghost_position / INCH, shot.object_position / INCH
+    line, tangent = shot.line_of_centres, shot.tangent
     _line(axes, ghost, standing + _REACH * line, **_LINE_OF_CENTRES)
     _line(axes, ghost - 0.3 * _REACH * tangent, ghost + _REACH * tangent, **_TANGENT)
-    draw_ball(axes, found.approach.slide.position / INCH, radius, fc="white", ec="black")
+    draw_ball(axes, shot.approach.slide.position / INCH, radius, fc="white", ec="black")
     draw_ball(axes, standing, radius, fc=_OBJECT, ec="black", alpha=0.55)
     draw_ball(axes, ghost, radius, **_GHOST)
     if aimed is not None:
         unaided = aimed.unaided.ghost_position / INCH
         draw_ball(axes, unaided, radius, **_UNAIDED)
         axes.plot(*(aimed.target / INCH), marker="x", ms=7, color="black", zorder=6)
-    for leg in found.legs:
+    for leg in shot.legs:
         color = _CUE if leg.name == "cue ball" else _OBJECT
         for motion, dashes in _DASHES.items():
             x, y, _ = leg.path(motion=motion).T / INCH
@@ -119,7 +119,7 @@ def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
     axes.text(place[0], place[1], word, color=color, ha=aligned[0], va=aligned[1], fontsize=9)
 
 
-def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
+def _write_key(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
     """Write the key of the lines, and the angles."""
 
     def as_circle(**space: Any) -> Circle:
@@ -127,7 +127,7 @@ def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
         middle = (0.5 * space["width"] - space["xdescent"], 0.5 * space["height"])
         return Circle(middle, 0.5 * space["fontsize"])
 
-    drawn = {(phase.ball, phase.motion) for phase in found.phases}
+    drawn = {(phase.ball, phase.motion) for phase in shot.phases}
     rows: dict[str, Any] = {
         f"{name}, {motion}": Line2D([], [], color=color, ls=dashes)
         for name, color in (("cue ball", _CUE), ("object ball", _OBJECT))
@@ -143,25 +143,25 @@ def _write_key(axes: Axes, found: Shot, aimed: AimedShot | None) -> None:
     legend: dict[str, Any] = {"loc": "upper left", "frameon": False, "handlelength": 3.2}
     legend["handler_map"] = {Circle: HandlerPatch(patch_func=as_circle)}
     axes.legend(rows.values(), rows.keys(), fontsize=9.5, **legend)
-    axes.text(0.62, 0.955, "\n".join(_angles(found, aimed)), fontsize=9.5, va="top", ha="left")
+    axes.text(0.62, 0.955, "\n".join(_angles(shot, aimed)), fontsize=9.5, va="top", ha="left")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), aspect="auto")
 
 
-def _angles(found: Shot, aimed: AimedShot | None) -> list[str]:
+def _angles(shot: Shot, aimed: AimedShot | None) -> list[str]:
     """Return the angles of a shot, in words.
 
     >>> from evenbreak.physics import shot, strike
     >>> _angles(shot(strike(1.2), -0.5, 0.5), None)[0]
     'cut 28.6° to the left'
     """
-    side = "left" if found.cut < 0.0 else "right"
-    cut = f"{abs(found.cut) / DEGREE:.1f}"
+    side = "left" if shot.cut < 0.0 else "right"
+    cut = f"{abs(shot.cut) / DEGREE:.1f}"
     words = ["full hit" if cut == "0.0" else f"cut {cut}° to the {side}"]
-    if found.throw is None:
+    if shot.throw is None:
         return [*words, "no hit"]
-    words.append(f"throw {found.throw / DEGREE:.1f}°")
-    if found.deflection is not None:
-        words.append(f"deflection {found.deflection / DEGREE:.1f}°")
+    words.append(f"throw {shot.throw / DEGREE:.1f}°")
+    if shot.deflection is not None:
+        words.append(f"deflection {shot.deflection / DEGREE:.1f}°")
     if aimed is not None and (turn := f"{abs(aimed.turn) / DEGREE:.1f}") != "0.0":
         words.append(f"aim {turn}° {'thinner' if aimed.turn > 0.0 else 'fuller'}")
     return [word.replace("-", "\N{MINUS SIGN}") for word in words]

@@ -298,8 +298,8 @@ class Breakers(NamedTuple):
         checked_format(breaks)
         if p2 is None:
             raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
-        one, two = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
-        win, lose = (one, rack.chance(1, 2)), (rack.chance(2, 1), two)
+        keeps_1, keeps_2 = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
+        win, lose = (keeps_1, rack.chance(1, 2)), (rack.chance(2, 1), keeps_2)
         passes = (
             win[0] * (breaks(1, 1) == 2) + lose[0] * (breaks(1, 2) == 2),
             win[1] * (breaks(2, 1) == 1) + lose[1] * (breaks(2, 2) == 1),

@@ -305,7 +305,7 @@ def compare_shots(
         if not isinstance(shot, ShotChoice):
             raise InputError(f"a shot is {shot!r}; give ShotChoice(name, p1, p2)")
     by_win = [(shot, shot.win(look_ahead, via=via)) for shot in shots]
-    by_win.sort(key=lambda one: -round(one[1], 12))
+    by_win.sort(key=lambda by_score: -round(by_score[1], 12))
     ranked = [shot for shot, _ in by_win]
     if not ranked:
         raise InputError("shots is empty; give at least one ShotChoice")

@@ -103,14 +103,14 @@ class Roster:
     ) -> None:
         object.__setattr__(self, "players", names(players, "players"))
         many = len(self.players)
-        for name, given, kind, unstated in (
+        for name, stated, kind, unstated in (
             ("rating", rating, np.float64, math.nan),
             ("standard_error", standard_error, np.float64, math.nan),
             ("games", games, np.int64, NOT_STATED),
             ("component", component, np.int64, 0),
             ("matches", matches, np.int64, NOT_STATED),
         ):
-            values = np.full(many, unstated) if given is None else given
+            values = np.full(many, unstated) if stated is None else stated
             object.__setattr__(self, name, column(values, name, many, "players", kind))
         if np.isinf(self.rating).any():
             raise InputError("rating holds infinity; give numbers, NaN for a new player")

@@ -72,7 +72,7 @@ def bracket_pages(panels: Sequence[Panel], heading: Sequence[str]) -> list[Figur
         for size in SIZES
         for parts in (one_page, page_each)
     ]
-    readable = (one for one in tried if all(_is_readable(*page) for page in one[1]))
+    readable = (paper for paper in tried if all(_is_readable(*page) for page in paper[1]))
     size, pages = next(readable, tried[-1])
     return [_page(part, heading, size, area) for part, area in pages]
 

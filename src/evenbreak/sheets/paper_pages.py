@@ -47,7 +47,7 @@ def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") ->
     >>> draw_list_pdf([FirstMatch("Ann", 1, "W1.1", "Bo", 3)], "Tuesday")[:5]
     b'%PDF-'
     """
-    listed = sorted(players, key=lambda one: one.name.casefold())
+    listed = sorted(players, key=lambda first_match: first_match.name.casefold())
     wide, high = HEIGHT, WIDTH
     most = int((high - MARGIN - _TOP) / _ROW)
     pages = []
@@ -57,24 +57,24 @@ def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") ->
         page.text(MARGIN, MARGIN + 0.2, title, size=size, bold=True)
         line, size = fitted(about, 10, wide - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.45, line, size=size)
-        for k, one in enumerate(listed[start : start + most]):
-            _row(page, one, _TOP + (k + 0.7) * _ROW, wide, grey=k % 2 == 0)
+        for k, first_match in enumerate(listed[start : start + most]):
+            _row(page, first_match, _TOP + (k + 0.7) * _ROW, wide, grey=k % 2 == 0)
         pages.append(page.figure)
     return pdf_bytes(pages, f"The draw: {event}")
 
 
-def _row(page: Paper, one: FirstMatch, y: float, wide: float, *, grey: bool) -> None:
+def _row(page: Paper, first_match: FirstMatch, y: float, wide: float, *, grey: bool) -> None:
     if grey:
         page.band(MARGIN, y - 0.7 * _ROW, wide - 2 * MARGIN, _ROW, grey="0.93")
-    name, size = fitted(one.name, _SIZE, 2.6, bold=True)
+    name, size = fitted(first_match.name, _SIZE, 2.6, bold=True)
     page.text(MARGIN + 0.05, y, name, size=size, bold=True)
-    page.text(MARGIN + 2.75, y, f"seed {one.seed}", size=9, color="0.3")
-    page.text(MARGIN + 3.45, y, one.match, size=_SIZE)
-    against = f"against {one.other}" if one.other else ""
+    page.text(MARGIN + 2.75, y, f"seed {first_match.seed}", size=9, color="0.3")
+    page.text(MARGIN + 3.45, y, first_match.match, size=_SIZE)
+    against = f"against {first_match.other}" if first_match.other else ""
     against, size = fitted(against, _SIZE, 2.1)
     page.text(MARGIN + 4.3, y, against, size=size)
-    if one.table is not None:
-        page.text(wide - MARGIN - 0.05, y, f"table {one.table}", size=_SIZE, ha="right")
+    if first_match.table is not None:
+        page.text(wide - MARGIN - 0.05, y, f"table {first_match.table}", size=_SIZE, ha="right")
 
 
 _GAP = 0.25

@@ -70,8 +70,8 @@ class Bars:
 
     def ticks(self) -> list[Tick]:
         """Return the marks on the axis."""
-        found = round_numbers(self.low, self.high, most=6, steps=[1, 2, 2.5, 5, 10])
-        ticks = [Tick(self.place(tick), f"{tick:g}") for tick in found]
+        marks = round_numbers(self.low, self.high, most=6, steps=[1, 2, 2.5, 5, 10])
+        ticks = [Tick(self.place(tick), f"{tick:g}") for tick in marks]
         least, most = NOT_OVER_THE_EDGE
         return [tick for tick in ticks if least < tick.at < most]
 
@@ -229,7 +229,13 @@ def race_blocks(lines: Sequence[PlayerLine], races: Races, most: int | None = No
         Block(
             across,
             [
-                (line, [_race(races, line, other) if line != other else None for other in across])
+                (
+                    line,
+                    [
+                        _race(races, line, opponent) if line != opponent else None
+                        for opponent in across
+                    ],
+                )
                 for line in lines
             ],
         )
@@ -243,8 +249,8 @@ def parts_of(lines: Sequence[PlayerLine], most: int) -> list[Sequence[PlayerLine
     return [lines[first : first + size] for first in range(0, len(lines), size)]
 
 
-def _race(races: Races, player: PlayerLine, other: PlayerLine) -> str:
-    return races.get((player.name, other.name), NO_RACE)
+def _race(races: Races, player: PlayerLine, opponent: PlayerLine) -> str:
+    return races.get((player.name, opponent.name), NO_RACE)
 
 
 def race_cards(lines: Sequence[PlayerLine], races: Races, paired: pd.DataFrame) -> list[RaceCard]:
@@ -258,9 +264,13 @@ def race_cards(lines: Sequence[PlayerLine], races: Races, paired: pd.DataFrame) 
         RaceCard(
             line,
             [
-                (other, _race(races, line, other), chances.get((line.name, other.name), ""))
-                for other in lines
-                if other != line
+                (
+                    opponent,
+                    _race(races, line, opponent),
+                    chances.get((line.name, opponent.name), ""),
+                )
+                for opponent in lines
+                if opponent != line
             ],
         )
         for line in lines

@@ -156,7 +156,13 @@ def race_table(sheet: Sheet) -> pd.DataFrame:
     """
     names = sheet.listed["player"].tolist()
     rows = [
-        (row, *("" if row == other else sheet.races.get((row, other), NO_RACE) for other in names))
+        (
+            row,
+            *(
+                "" if row == opponent else sheet.races.get((row, opponent), NO_RACE)
+                for opponent in names
+            ),
+        )
         for row in names
     ]
     # A player may be called "player": the columns' names need not be different.
@@ -165,9 +171,9 @@ def race_table(sheet: Sheet) -> pd.DataFrame:
 
 def _with_errors(sheet: Sheet) -> pd.DataFrame:
     """Return the pairs with what two standard errors of the difference do to the chance."""
-    found = {(pair.player_a, pair.player_b): pair for pair in sheet.sure}
+    by_pair = {(pair.player_a, pair.player_b): pair for pair in sheet.sure}
     paired = sheet.paired
-    pairs = [found.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
+    pairs = [by_pair.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]
     more = {
         "p_win_a_low": [pair.low if pair else None for pair in pairs],
         "p_win_a_high": [pair.high if pair else None for pair in pairs],

@@ -55,9 +55,9 @@ def _anchor(heading: str) -> str:
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
-def verdicts_table(found: Iterable[Finding]) -> str:
+def verdicts_table(findings: Iterable[Finding]) -> str:
     """Return how many numbers have each verdict."""
-    count = Counter(finding.verdict for finding in found)
+    count = Counter(finding.verdict for finding in findings)
     return markdown_table(
         ["verdict", "numbers"], [*sorted(count.items()), ["all", sum(count.values())]]
     )
@@ -117,17 +117,17 @@ def _slip_block(slip: Erratum, where: str) -> str:
 _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two-shot look-ahead"}
 
 
-def section_5_page(found: Sequence[Finding], tables: Tables) -> str:
+def section_5_page(findings: Sequence[Finding], tables: Tables) -> str:
     """Return the page in Markdown.
 
     Parameters
     ----------
-    found
+    findings
         all printed numbers with what is computed.
     tables
         the tables of section 5, by the name of their file.
     """
-    return filled("section5", _blocks(found, tables))
+    return filled("section5", _blocks(findings, tables))
 
 
 def slips_of(place: str) -> list[Erratum]:
@@ -140,7 +140,7 @@ def slips_of(place: str) -> list[Erratum]:
     return [slip for slip in errata() if here.search(slip.where)]
 
 
-def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
+def _blocks(findings: Sequence[Finding], tables: Tables) -> Blocks:
     shown = {
         "games": (page_tables.games_table, "problem_5_09"),
         "values": (page_tables.eigenvalues, "problem_5_23"),
@@ -151,16 +151,16 @@ def _blocks(found: Sequence[Finding], tables: Tables) -> Blocks:
         **{f"table_5_{n}": (page_tables.TABLES[n], f"table_5_{n}") for n in range(1, 7)},
     }
     return {
-        "verdicts": lambda _: verdicts_table(found),
-        "numbers": lambda problem: _numbers(found, problem),
+        "verdicts": lambda _: verdicts_table(findings),
+        "numbers": lambda problem: _numbers(findings, problem),
         "slips": lambda place: slip_blocks(slips_of(place)),
         "errata": lambda class_: errata_table(errata(), class_),
         "scores": lambda p: page_tables.score_table(tables[f"problem_5_06_scores_{_name(p)}"]),
         "matches": lambda p: page_tables.score_table(tables[f"problem_5_06_matches_{_name(p)}"]),
         "triangle": lambda _: page_tables.triangle_table(),
         "matrix": lambda name: page_tables.matrix_table(name, tables),
-        "products": lambda _: page_tables.products_table(found),
-        "table_5_22": lambda _: page_tables.table_5_22(found),
+        "products": lambda _: page_tables.products_table(findings),
+        "table_5_22": lambda _: page_tables.table_5_22(findings),
         "polynomials": lambda _: page_tables.polynomials(tables["problem_5_27"]),
         **{
             name: lambda _, show=show, file=file: show(tables[file])  # type: ignore[misc]
@@ -173,10 +173,10 @@ def _name(p: str) -> str:
     return p.replace("=", "_").replace("/", "_")
 
 
-def _numbers(found: Sequence[Finding], problem: str) -> str:
+def _numbers(findings: Sequence[Finding], problem: str) -> str:
     rows = [
         [finding.published.quantity, _given(finding.published.inputs), *compared(finding)]
-        for finding in found
+        for finding in findings
         if finding.published.problem == problem
         and finding.published.printed is not None
         and not _in_a_table(finding.published)
@@ -206,12 +206,12 @@ def _given(inputs: str) -> str:
 _PROBLEM = re.compile(r"(\d)\.(\d+)")
 
 
-def physics_page(found: Sequence[Finding], tables: Iterable[str]) -> str:
+def physics_page(findings: Sequence[Finding], tables: Iterable[str]) -> str:
     """Return the page in Markdown.
 
     Parameters
     ----------
-    found
+    findings
         all numbers of sections 1 to 4 with what is computed.
     tables
         the names of the tables of sections 1 to 4, which are linked under their figures.
@@ -220,8 +220,8 @@ def physics_page(found: Sequence[Finding], tables: Iterable[str]) -> str:
     return filled(
         "physics",
         {
-            "verdicts": lambda _: verdicts_table(found),
-            "numbers": lambda span: _physics_numbers(found, span),
+            "verdicts": lambda _: verdicts_table(findings),
+            "numbers": lambda span: _physics_numbers(findings, span),
             "slips": lambda span: slip_blocks(
                 [slip for slip in slips if _within(slip.where, span)], placed=True
             ),
@@ -250,8 +250,8 @@ def _within(where: str, span: str) -> bool:
     return first <= place_of(where) <= last
 
 
-def _physics_numbers(found: Sequence[Finding], span: str) -> str:
-    here = [finding for finding in found if _within(finding.published.problem, span)]
+def _physics_numbers(findings: Sequence[Finding], span: str) -> str:
+    here = [finding for finding in findings if _within(finding.published.problem, span)]
     rows = []
     for finding in sorted(here, key=lambda finding: place_of(finding.published.problem)):
         row = finding.published

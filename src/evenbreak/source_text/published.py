@@ -193,7 +193,7 @@ def parse_inputs(text: str) -> Inputs:
     >>> parse_inputs("1:5 p=0.3").all(), parse_inputs("mean run 24").one("run")
     ((Fraction(1, 1), Fraction(5, 1)), Fraction(24, 1))
     """
-    found = Inputs()
+    inputs = Inputs()
     name = ""
     for word in text.split():
         before, equals, after = word.partition("=")
@@ -203,15 +203,15 @@ def parse_inputs(text: str) -> Inputs:
         if None not in parts:
             numbers = [part for part in parts if part]
             exact = (Fraction(number[1]) for number in numbers)
-            found.numbers[name] = (*found.numbers.get(name, ()), *exact)
+            inputs.numbers[name] = (*inputs.numbers.get(name, ()), *exact)
             if unit := _UNITS.get(numbers[0][2] or ""):
-                found.units[name] = unit
+                inputs.units[name] = unit
         elif equals:
-            found.texts[name] = word.replace("_", " ")
+            inputs.texts[name] = word.replace("_", " ")
         else:
             name = word
-            found.words.append(word)
-    return found
+            inputs.words.append(word)
+    return inputs
 
 
 class Finding(NamedTuple):
@@ -275,9 +275,9 @@ def deciding_tolerance(published: PublishedNumber) -> Decimal:
     return Decimal((0, (5,), int(published.printed.as_tuple().exponent) - 1))
 
 
-def differing(found: Iterable[Finding]) -> Iterator[str]:
+def differing(findings: Iterable[Finding]) -> Iterator[str]:
     """Yield a line for each number that does not have the expected verdict."""
-    for row, computed, verdict in found:
+    for row, computed, verdict in findings:
         if verdict != row.verdict:
             number = "nothing" if computed is None else f"{computed:.10g}"
             yield (

@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
+from matplotlib.axes import Axes
+
 from evenbreak.plots import image_bytes
-from evenbreak.plots.picture import our_look
+from evenbreak.plots.picture import figure_of, our_look
 from evenbreak.source_text.answers import physics_findings, section_5_findings
 from evenbreak.source_text.cells import Rows, Tables, csv_bytes
 from evenbreak.source_text.graph_to_limit import game_tables, graph_to_limit_page
@@ -24,7 +26,6 @@ from evenbreak.source_text.published import (
 from evenbreak.source_text.section5 import plots, tables
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -80,7 +81,7 @@ def physics_tables() -> Tables:
     }
 
 
-def figures() -> Mapping[str, Callable[[], Axes | Figure]]:
+def figures() -> Mapping[str, Callable[[], Figure]]:
     """Return every figure by name, each as a function that draws it.
 
     Notes
@@ -118,7 +119,12 @@ def figures() -> Mapping[str, Callable[[], Axes | Figure]]:
         "figure_4_7": section_4_plots.deflections,
         "figure_4_8": section_4_plots.gearing_tips,
     }
-    return {name: our_look()(draw) for name, draw in drawings.items()}
+    return {name: partial(_figure, our_look()(draw)) for name, draw in drawings.items()}
+
+
+def _figure(draw: Callable[[], Axes | Figure]) -> Figure:
+    drawn = draw()
+    return figure_of(drawn) if isinstance(drawn, Axes) else drawn
 
 
 def all_findings() -> tuple[Finding, ...]:

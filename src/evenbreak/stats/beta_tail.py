@@ -30,16 +30,15 @@ def beta_tail(a: Any, b: Any, x: Any) -> Any:
     import numpy as np
     from scipy.special import betainc
 
-    found: Any = np.asarray(betainc(a, b, x), dtype=float)
-    tiny = (found < _TINY) & (np.asarray(x) > 0.0)
+    tail: Any = np.asarray(betainc(a, b, x), dtype=float)
+    tiny = (tail < _TINY) & (np.asarray(x) > 0.0)
     if tiny.any():
         a, b, x = (
-            np.broadcast_to(np.asarray(value, dtype=float), found.shape)[tiny]
-            for value in (a, b, x)
+            np.broadcast_to(np.asarray(value, dtype=float), tail.shape)[tiny] for value in (a, b, x)
         )
-        found = found.copy()
-        found[tiny] = _by_series(a, b, x)
-    return found[()]
+        tail = tail.copy()
+        tail[tiny] = _by_series(a, b, x)
+    return tail[()]
 
 
 def _by_series(a: Any, b: Any, x: Any) -> Any:

@@ -182,14 +182,14 @@ def _welch(before: Scores, after: Scores, confidence: float) -> tuple[Significan
     from scipy.special import stdtrit
     from scipy.stats import ttest_ind_from_stats
 
-    found = ttest_ind_from_stats(
+    test = ttest_ind_from_stats(
         after.mean, after.sd, after.n, before.mean, before.sd, before.n, equal_var=False
     )
     parts = [side.sd**2 / side.n for side in (before, after)]
     rest = sum(part**2 / (side.n - 1) for part, side in zip(parts, (before, after), strict=True))
     freedom = sum(parts) ** 2 / rest
     half = -float(stdtrit(freedom, (1.0 - confidence) / 2.0)) * math.sqrt(sum(parts))
-    return Significance(float(found.statistic), (freedom,), float(found.pvalue)), half
+    return Significance(float(test.statistic), (freedom,), float(test.pvalue)), half
 
 
 def _equal_spreads(before: Scores, after: Scores) -> tuple[Significance, Significance]:
@@ -219,11 +219,11 @@ def _ranks(old: Floats, new: Floats) -> tuple[float, Significance | None]:
     """Return the share of pairs in which the later score is higher, and the test by ranks."""
     from scipy.stats import mannwhitneyu
 
-    found = mannwhitneyu(new, old, alternative="two-sided")
-    wins = float(found.statistic) / (old.size * new.size)
+    test = mannwhitneyu(new, old, alternative="two-sided")
+    wins = float(test.statistic) / (old.size * new.size)
     if min(old.min(), new.min()) == max(old.max(), new.max()):
         return wins, None
-    return wins, Significance(float(found.statistic), (), float(found.pvalue))
+    return wins, Significance(float(test.statistic), (), float(test.pvalue))
 
 
 def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significance | None:
@@ -232,8 +232,8 @@ def _chi_squared(counts: tuple[tuple[int, int], tuple[int, int]]) -> Significanc
     (a, b), (c, d) = counts
     if not (a + b and c + d and a + c and b + d):
         return None
-    found = chi2_contingency(counts, correction=False)
-    return Significance(float(found.statistic), (1.0,), float(found.pvalue))
+    test = chi2_contingency(counts, correction=False)
+    return Significance(float(test.statistic), (1.0,), float(test.pvalue))
 
 
 def _effect(before: Scores, after: Scores, confidence: float, wins: float) -> Effect:

@@ -158,11 +158,11 @@ class CountLaw(ABC):
     def _reaches(self, n: int, wanted: Fraction) -> bool:
         """Return whether P(count <= n) >= wanted; the smaller tail has the better digits."""
         if wanted < _HALF:
-            found, tail = self.cumulative(n), float(wanted)
+            reached, tail = self.cumulative(n), float(wanted)
         else:
-            found, tail = -self.at_least(n + 1), -float(1 - wanted)
-        if abs(found - tail) > _NEAR * abs(tail):
-            return bool(found > tail)
+            reached, tail = -self.at_least(n + 1), -float(1 - wanted)
+        if abs(reached - tail) > _NEAR * abs(tail):
+            return bool(reached > tail)
         return self.exact_cumulative(n) >= wanted
 
 

@@ -170,13 +170,13 @@ class InningsScore(CountLaw):
             low, high = (middle, high) if self._rises(middle, middle + 1) else (low, middle)
         return high
 
-    def _rises(self, n: int, other: int) -> bool:
+    def _rises(self, n: int, later: int) -> bool:
         """Return whether the score `other` is more probable than n, decided without rounding."""
-        first, second = self.probability([n, other]).tolist()
+        first, second = self.probability([n, later]).tolist()
         if abs(second - first) > _NEAR * max(first, second):
             return bool(second > first)
         exactly = [
-            self.exact_cumulative(score) - self.exact_cumulative(score - 1) for score in (n, other)
+            self.exact_cumulative(score) - self.exact_cumulative(score - 1) for score in (n, later)
         ]
         return exactly[1] > exactly[0]
 

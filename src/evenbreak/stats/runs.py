@@ -103,8 +103,8 @@ class RunLength(CountLaw):
         return np.where(n < 0, 0.0, np.where(n == 0, float(1 - safety * p), one_or_more))
 
     def _cumulative(self, n: Floats) -> Floats:
-        found = -np.expm1(self._log_at_least(np.maximum(n, 0) + 1))
-        return np.where(n < 0, 0.0, found)
+        shares = -np.expm1(self._log_at_least(np.maximum(n, 0) + 1))
+        return np.where(n < 0, 0.0, shares)
 
     def _at_least(self, n: Floats) -> Floats:
         return np.where(n <= 0, 1.0, np.exp(self._log_at_least(np.maximum(n, 1))))

@@ -303,9 +303,9 @@ def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
 def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
     """Return `many` probabilities that sum to 1, all of them Fractions or all floats."""
     listed = _numbers(probability, "probability", many=many, high=1.0)
-    rational = all(isinstance(one, int | Fraction) for one in listed)
+    rational = all(isinstance(p, int | Fraction) for p in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
         raise InputError(f"probability sums to {math.fsum(listed)!r}; make it sum to 1")
     if rational:
-        return tuple(Fraction(one) for one in listed)
-    return tuple(float(one) for one in listed)
+        return tuple(Fraction(p) for p in listed)
+    return tuple(float(p) for p in listed)

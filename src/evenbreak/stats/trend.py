@@ -46,11 +46,11 @@ def trend_line(times: Any, scores: Any, at: Any, confidence: float = 0.95) -> Tr
     """
     import numpy as np
 
-    found = trend(times, scores, confidence)
+    fitted = trend(times, scores, confidence)
     when, away = np.asarray(times, dtype=float), np.asarray(at, dtype=float) - np.mean(times)
-    line = np.mean(scores) + found.slope * away
+    line = np.mean(scores) + fitted.slope * away
     # The mean and the slope are independent, and the mean is off as the slope is at this distance.
-    half = (found.high - found.slope) * np.sqrt(when.var() + away**2)
+    half = (fitted.high - fitted.slope) * np.sqrt(when.var() + away**2)
     return TrendLine(line, line - half, line + half)
 
 

@@ -125,7 +125,7 @@ def test_the_legend_says_the_mass_ratios() -> None:
 
 @pytest.fixture
 def axes():
-    _, axes = new_axes("", "")
+    axes = new_axes("", "")
     ball_view(axes, "a ball")
     return axes
 

@@ -306,7 +306,7 @@ def test_ends_are_won_or_lost_and_only_states_have_circles(name: str) -> None:
     winners = nx.get_node_attributes(graph, "winner")
     assert all(winners[state] == {"W": 1, "L": 2}[state[0]] for state in ends)
     assert all(graph.out_degree(state) == 0 for state in ends)
-    axes = drawn(graph).axes[0]
+    axes = drawn(graph)
     circles = [patch for patch in axes.patches if isinstance(patch, Circle)]
     assert len(circles) == len(states) + len(ends)
 

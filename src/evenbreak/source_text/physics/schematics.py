@@ -225,15 +225,15 @@ def _turn(axes: Axes, centre: Pair, name: str, towards: float) -> None:
 def _angle(
     axes: Axes,
     corner: Any,
-    one: Any,
-    other: Any,
+    start: Any,
+    stop: Any,
     name: str,
     *,
     radius: float = 0.13,
     named: float = 0.5,
 ) -> None:
     """Mark the angle between two directions; `named` is how far along it its name goes."""
-    begin, end = (math.atan2(way[1], way[0]) for way in (one, other))
+    begin, end = (math.atan2(way[1], way[0]) for way in (start, stop))
     turn = begin + np.linspace(0.0, math.remainder(end - begin, 2.0 * math.pi), 41)
     arc = np.asarray(corner, float)[:, None] + radius * np.array([np.cos(turn), np.sin(turn)])
     axes.plot(*arc, color="black", lw=0.9)

@@ -131,10 +131,10 @@ def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[f
     left, right = across
     side = step + np.concatenate([-_spread(step - left)[::-1], _spread(right - step)])
     topspin = np.concatenate([-_spread(up)[::-1], _spread(up)])
-    found = throw_sensitivity(HALF_BALL, topspin[:, None], side)
+    values = throw_sensitivity(HALF_BALL, topspin[:, None], side)
     # Between grid points logarithms are closer to linear than the values themselves.
     lines = axes.contour(
-        side, topspin, np.log2(found), levels=np.log2(levels), colors="black", linewidths=0.9
+        side, topspin, np.log2(values), levels=np.log2(levels), colors="black", linewidths=0.9
     )
     lines.set_linestyle("-")
     axes.set(xlim=across, ylim=(-up, up), aspect="equal", xlabel=_SIDE, ylabel=_TOPSPIN)
@@ -213,8 +213,8 @@ def _sensitivities() -> Records:
     """Yield Fig. 4.5 for topspin; draw has the same values, and a stun shot 0."""
     for topspin in (spin for spin in _SPINS if spin > 0.0):
         for side in _SPINS:
-            found = throw_sensitivity(HALF_BALL, topspin, side)
-            yield record({"sidespin": side, "topspin": topspin}, {"sensitivity": found})
+            value = throw_sensitivity(HALF_BALL, topspin, side)
+            yield record({"sidespin": side, "topspin": topspin}, {"sensitivity": value})
 
 
 def _deflections() -> Records:

@@ -197,9 +197,9 @@ def _odds_of_30() -> float:
 
 def _p5_26() -> Iterator[Row]:
     for p in DRILL_P:
-        found = drill(float(p))
-        yield Row("level most worth practising", f"p={p}", found.practise_next)
-        for level, gain in enumerate(found.gain, 1):
+        statistics = drill(float(p))
+        yield Row("level most worth practising", f"p={p}", statistics.practise_next)
+        for level, gain in enumerate(statistics.gain, 1):
             yield Row("gain of the mean level", f"p={p} level={level}", gain)
 
 

@@ -142,13 +142,13 @@ def _p5_10() -> Iterator[Row]:
     law = GamesWon(120, Fraction("0.52"))
     for coverage in (0.95, 0.5):
         inputs = f"N=120 p=.52 coverage={coverage}"
-        for name, found in (
+        for name, span in (
             ("normal, to the nearest score", law.normal_range(coverage)),
             ("exact, the shortest", law.exact_range(coverage)),
         ):
-            yield Row(f"range low, {name}", inputs, found.low)
-            yield Row(f"range high, {name}", inputs, found.high)
-            yield Row(f"probability of the range, {name}", inputs, found.probability)
+            yield Row(f"range low, {name}", inputs, span.low)
+            yield Row(f"range high, {name}", inputs, span.high)
+            yield Row(f"probability of the range, {name}", inputs, span.probability)
     yield Row("exact P(51<=score<=73)", "N=120 p=.52", law.between(51, 73))
 
 

@@ -204,24 +204,24 @@ def eigenvalues(rows: Rows) -> str:
     return ", ".join(values).replace("-", "−")
 
 
-def products_table(found: Sequence[Finding]) -> str:
+def products_table(findings: Sequence[Finding]) -> str:
     """Return the sixteen means of P5.18."""
     means = [
         (row.inputs.split()[0], f"{computed:.6g}")
-        for row, computed, _ in found
+        for row, computed, _ in findings
         if row.quantity == "mean of two"
     ]
     values = dict.fromkeys(first for first, _ in means)
     return _lines_table(["mean of", *values], ((f"**{a}**", mean) for a, mean in means))
 
 
-def table_5_22(found: Sequence[Finding]) -> str:
+def table_5_22(findings: Sequence[Finding]) -> str:
     """Return the seven shots of P5.22 by both look-aheads."""
     return _lines_table(
         ["shot", "W infinite", "text", "W two shots", "text"],
         (
             (row.inputs, cell)
-            for row, computed, _ in found
+            for row, computed, _ in findings
             if row.problem == "P5.22" and row.quantity.startswith("W")
             for cell in (f"{computed:.4f}", str(row.printed))
         ),

@@ -123,10 +123,10 @@ def _p5_19() -> Iterator[Row]:
     of = "scores " + _listed(_SCORES)
     for method, name in (("normal", "normal"), ("t", "Student t")):
         for confidence in (0.8, 0.95):
-            found = mean_interval(_SCORES, confidence, method=method)  # type: ignore[arg-type]
+            interval = mean_interval(_SCORES, confidence, method=method)  # type: ignore[arg-type]
             inputs = f"{of} confidence={confidence}"
-            yield Row(f"interval of the true mean, {name}, low", inputs, found.low)
-            yield Row(f"interval of the true mean, {name}, high", inputs, found.high)
+            yield Row(f"interval of the true mean, {name}, low", inputs, interval.low)
+            yield Row(f"interval of the true mean, {name}, high", inputs, interval.high)
     luck = was_it_luck(_SCORES, _NEW, confidence=0.8)
     readings = (
         ("normal", luck.normal),

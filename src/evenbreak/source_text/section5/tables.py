@@ -22,7 +22,7 @@ from evenbreak.stats import score_probability
 _SIZE = 10
 
 
-def table_rows(found: Iterable[Finding], table: str) -> Rows:
+def table_rows(findings: Iterable[Finding], table: str) -> Rows:
     """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one beside it.
 
     Raises
@@ -31,7 +31,7 @@ def table_rows(found: Iterable[Finding], table: str) -> Rows:
         if no number of that table is among the findings.
     """
     rows: dict[tuple[Any, ...], dict[str, Any]] = {}
-    for published, computed, _ in found:
+    for published, computed, _ in findings:
         if published.problem != table or " less " in published.quantity:
             continue
         numbers = parse_inputs(published.inputs).numbers
@@ -119,13 +119,13 @@ def eight_ball_rows() -> Rows:
     return rows
 
 
-def ladder_rows(found: Iterable[Finding]) -> Rows:
+def ladder_rows(findings: Iterable[Finding]) -> Rows:
     """Return the spread of ratings under each chart, and its widest even race."""
     rows: dict[int, dict[str, Any]] = {
         number: {"chart": number, "even_up_to": chart(f"npl_{number}").rows[0].difference_to}
         for number in CHARTS
     }
-    for published, computed, _ in found:
+    for published, computed, _ in findings:
         number = parse_inputs(published.inputs).get("chart")
         if published.problem == "NPL" and number is not None:
             auto = "autocorrelation" in published.quantity
@@ -167,10 +167,10 @@ def file_of(problem: str) -> str:
     return f"problem_5_{int(problem.removeprefix('P5.')):02}"
 
 
-def problem_tables(found: Iterable[Finding]) -> Tables:
+def problem_tables(findings: Iterable[Finding]) -> Tables:
     """Return the answer of each problem by file name: printed numbers, then the rest."""
     printed: dict[str, list[dict[str, Any]]] = {}
-    for finding in found:
+    for finding in findings:
         home = finding.published.problem
         printed.setdefault(_PROBLEM_OF.get(home, home), []).append(row_of(finding))
     return {
