@@ -113,7 +113,7 @@ CASES = {
     "tournament time": Drawn(
         "tournament time FIELD --race 3 --tables 2 --minutes-per-game 8", of_finish, least=0.1
     ),
-    "chips odds": Drawn("chips odds FIELD --chart hoboken", TITLES),
+    "chips odds": Drawn("chips odds FIELD --chips hoboken", TITLES),
     "chips audit": Drawn("chips audit hoboken --entrants FIELD", of_chips),
     "chips design": Drawn("chips design FIELD --bands 600 --most 3", of_chips),
     "matchups": Drawn("matchups TRIO --race-to 4 --minutes-per-game 8 --tables 2", of_evening),

@@ -63,7 +63,7 @@ LINES: dict[tuple[str, str], list[str]] = {
         "tournament time plain.csv --race 7 --tables 2 --discipline 9-ball",
         "tournament time plain.csv --chart npl_10 --tables 2 --discipline 9-ball",
     ],
-    ("chips odds", "entrants"): ["chips odds plain.csv --chart hoboken"],
+    ("chips odds", "entrants"): ["chips odds plain.csv --chips hoboken"],
     ("chips audit", "--entrants"): ["chips audit hoboken --entrants plain.csv"],
     ("chips design", "entrants"): ["chips design plain.csv"],
     ("lineup", "ours"): [

@@ -59,7 +59,7 @@ GOOD: dict[str, Callable[[Path], str]] = {
     "rate LEAGUE --aliases {}": lambda _: first("demo_aliases.csv"),
     "tournament new {} --race 3 --tables 2 --out OUT": lambda _: first("demo_entrants.csv", 9),
     "tournament odds {} --race 3 --format single": lambda _: LIST,
-    "chips odds FIELD --chart {}": lambda _: CHIPS,
+    "chips odds FIELD --chips {}": lambda _: CHIPS,
     "chart audit {}": lambda _: first("house_chart.csv"),
     "chart show {}": lambda _: LEVELS,
     "drill --log {}": lambda _: first("drill_log.csv"),

@@ -35,7 +35,7 @@ def test_the_last_two_have_the_published_chances(chips):
 
 
 def test_odds_from_the_start_and_with_three_left(chips):
-    whole = read(chips("odds", "entrants.csv", "--chart", "pharaohs", "--tables", "1", "--json"))
+    whole = read(chips("odds", "entrants.csv", "--chips", "pharaohs", "--tables", "1", "--json"))
     assert not whole["exact"]
     assert [row["chips"] for row in whole["players"] if row["name"] == "Di"] == [7]
     assert sum(row["p_title"] for row in whole["players"]) == pytest.approx(1.0)
@@ -58,8 +58,8 @@ def test_a_designed_chart_is_fairer_and_can_be_read(chips, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("odds", "entrants.csv"), "--chart"),
-        (("odds", "entrants.csv", "--chart", "moon"), "moon"),
+        (("odds", "entrants.csv"), "--chips"),
+        (("odds", "entrants.csv", "--chips", "moon"), "moon"),
         (("odds", "entrants.csv", "--left", "Ann=0,Bo=1"), "Ann=0"),
         (("odds", "entrants.csv", "--left", "Ann=1,Ann=2"), "Ann"),
         (("odds", "entrants.csv", "--left", "Ann=1,Zoe=2"), "Zoe"),

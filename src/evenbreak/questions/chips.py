@@ -1,0 +1,157 @@
+"""Questions about chip tournaments and their charts."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import File, Named, Number, Whole
+from evenbreak.fields.question import Field, Says
+from evenbreak.questions.common import ScaleOf, Seed, Starters
+from evenbreak.tournaments.evening.format import Tables
+
+MOST_CHIPS, MOST_ROWS = 100, 30
+
+Chips: TypeAlias = Annotated[int, Field(Whole(1, 50))]
+
+
+def chips_left(text: str) -> dict[str, int]:
+    """Return the chips that players have left.
+
+    >>> chips_left("Ann=2, Bo=1")
+    {'Ann': 2, 'Bo': 1}
+    """
+    left: dict[str, int] = {}
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*(.+?)\s*=\s*(\d{1,3})\s*", part)
+        if match is None or not 1 <= int(match[2]) <= MOST_CHIPS:
+            raise InputError(f"{part.strip()!r}; give each player's chips, such as Ann=2,Bo=1")
+        if match[1] in left:
+            raise InputError(f"{match[1]!r} is in it twice")
+        left[match[1]] = int(match[2])
+    if len(left) < 2:
+        raise InputError("it has one player; give two or more")
+    return left
+
+
+def bands(text: str) -> list[float]:
+    """Return the ratings at which the rows of a chart begin.
+
+    >>> bands("450,350")
+    [350.0, 450.0]
+    """
+    parts = text.split(",")
+    try:
+        ratings = [Number(-1e6, 1e6).read(part) for part in parts]
+    except InputError:
+        ratings = []
+    if not 1 <= len(ratings) <= MOST_ROWS:
+        raise InputError(f"{text!r}; give the ratings at which the rows begin, such as 350,450,550")
+    return sorted(set(ratings))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChipField(Starters):
+    """Who plays a chip tournament, on how many tables."""
+
+    tables: Tables = 4
+    scale: Annotated[ScaleOf, Says(usual="what the ratings show; without a file, fargo")] = None
+    seed: Annotated[Seed, Says("The seed of the simulation.")] = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChipOdds(ChipField):
+    """Find each player's odds of winning a chip tournament.
+
+    The tournament is played out 10,000 times. The ratings are taken as right.
+    """
+
+    examples = """\
+  evenbreak chips odds entrants.csv --chips hoboken --tables 4
+  evenbreak chips odds entrants.csv --left "Ann=2,Bo=1,Cy=3"
+"""
+    entrants: Annotated[str, Field(File("ENTRANTS.csv"), argument=True)]
+    chips: Annotated[
+        str | None,
+        Field(
+            File("NAME|FILE.csv"),
+            "The chips at the start: hoboken, pharaohs, or a file.",
+            old=("chart",),
+            more="A [file](../files.md#chip-charts) has the columns `rating_from` and `chips`.",
+        ),
+    ] = None
+    left: Annotated[
+        dict[str, int] | None,
+        Field(
+            Named(chips_left, "NAME=CHIPS,..."),
+            "Instead of {chips}: the last players at one table and the chips that they have left, "
+            "in the order of the line; the first stays at the table.",
+            more="The second is the challenger. Up to four players are exact.",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse a tournament that starts twice, or not at all."""
+        if (self.chips is None) == (self.left is None):
+            self.refuse("give one of {chips} NAME and {left} NAME=CHIPS,...")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChipAudit(ChipField):
+    """Check whom a chip chart favours: hoboken, pharaohs, or one in a file.
+
+    Over a whole tournament, and between the last two players if both have all their chips. The
+    ratings are taken as right.
+    """
+
+    examples = """\
+  evenbreak chips audit hoboken
+  evenbreak chips audit pharaohs --entrants entrants.csv --tables 6
+"""
+    chart: Annotated[str, Field(File("NAME|FILE.csv"), argument=True)]
+    entrants: Annotated[
+        str | None,
+        Field(
+            File("FILE.csv"),
+            "The field.",
+            usual="16 players, spread over four doublings of the odds",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChipDesign(ChipField):
+    """Design a chip chart that makes a tournament as even as possible for its players.
+
+    Without ENTRANTS.csv the field is 16 players, spread over four doublings of the odds. Into a
+    file the chart is CSV that chips audit and chips odds read. The ratings are taken as right.
+    """
+
+    examples = """\
+  evenbreak chips design
+  evenbreak chips design entrants.csv --bands 351,451,501,601 --most 12 > ours.csv
+"""
+    entrants: Annotated[
+        str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
+    ] = None
+    fewest: Annotated[Chips, Says("Chips at least. More chips make a longer tournament.")] = 2
+    most: Annotated[Chips, Says("Chips at most.")] = 10
+    bands: Annotated[
+        list[float] | None,
+        Field(
+            Named(bands, "RATING,..."),
+            "The ratings at which a row begins.",
+            usual="every half doubling of the odds",
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse more chips at least than at most."""
+        if self.fewest > self.most:
+            self.refuse(
+                "{fewest} is {low} and {most} {high}; give fewer first",
+                low=self.fewest,
+                high=self.most,
+            )
