@@ -200,11 +200,6 @@ class Predictions:
         return log_loss(self.p, self.won, self.trials)
 
     @property
-    def mean_loss(self) -> float:
-        """The log-loss a game (or match)."""
-        return float(self.losses.sum() / self.trials.sum())
-
-    @property
     def toss_ups(self) -> int:
         """How many matches have no favourite."""
         return no_favourites(self.p, self.trials)
