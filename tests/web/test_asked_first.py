@@ -48,7 +48,7 @@ def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy:
     before = busy.state
     pair = " against ".join(before.pair("W2.2"))
     shown = busy.director.send("/desk/result", **WRONG)
-    assert f"W2.2, {pair}, would leave table 4 at 2:0." in shown.words
+    assert f"W2.2 ({pair}) would leave table 4 at 2:0." in shown.words
     assert "Nothing that was played is lost" in shown.words
     assert "would leave table 1." in shown.words
     assert busy.state.on_tables == before.on_tables
@@ -83,7 +83,7 @@ def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
 ) -> None:
     (name,) = [n for n, one in busy.state.live.items() if "Player 4" in one.what.players]
     shown = busy.director.send(f"/desk/{path}", **fields)
-    assert re.search(rf"{name}, [^.]*, would (leave table 4|end) at 2:0\.", shown.words), (
+    assert re.search(rf"{name} \([^.]*\) would (leave table 4|end) at 2:0\.", shown.words), (
         shown.words
     )
 
@@ -91,20 +91,20 @@ def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
 @pytest.mark.slow
 def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hall) -> None:
     desk = busy.director.open("/desk").words
-    assert "Undo: the call of W2.2 to table 4" in desk
+    assert "Undo: call of W2.2 to table 4" in desk
     entry = busy.state.numbers[-2]
     for k in range(TAPS):
         assert tap(busy, busy.guest, "W2.2", 2, 1 - k % 2).status == 200
         shown = busy.director.send("/desk/undo", entry=entry)
         assert shown.status == 200
-        assert "Taken back: the call of W2.2 to table 4." in shown.words
+        assert "Undone: call of W2.2 to table 4." in shown.words
         busy.director.send("/desk/call", match="W2.2", table=4)
         entry = len(read_events(busy.site.path))
     assert busy.state.live["W2.2"].what.score == (2, 1)
     assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
     history = busy.director.open("/desk/history").text
-    assert history.count("<s>The call of W2.2 to table 4</s> (undone)") == TAPS
-    assert history.count("taken back: the call of W2.2 to table 4") == TAPS
+    assert history.count("<s>Call of W2.2 to table 4</s> (undone)") == TAPS
+    assert history.count("undone: call of W2.2 to table 4") == TAPS
     busy.director.send("/language", language="de")
     history = busy.director.open("/desk/history").text
     assert len(re.findall(r"Eingabe \d+ zurückgenommen: [^<:]*W2.2[^<:]*Tisch 4", history)) == TAPS

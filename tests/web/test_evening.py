@@ -219,7 +219,7 @@ def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None
     played = hall.state.counted["W2.1"]
     shown = enter(match="W1.1", a=1, b=3, how="correct")
     assert "Please confirm" in shown.words
-    assert "Open again: W2.1" in shown.words
+    assert "Must be replayed: W2.1" in shown.words
     assert hall.state.counted["W2.1"] == played
     shown = enter(match="W1.1", a=1, b=3, how="correct", sure="yes")
     assert "W2.1" not in hall.state.counted

@@ -5,8 +5,11 @@ from pathlib import Path
 from evenbreak.files.store.tournament import read_tournament
 from web.phones import Phone, running
 
-NAMES = ["Tom and Jerry", "W1.1/Final", "Bo beat Ann 7:5", "winner of W1.1", "Jr. Smith", "Al in F"]
-WRONG = ["Tom und Jerry", "W1.1/Finale", "Bo schlägt Ann", "Sieger von W1.1"]
+NAMES = [
+    *("Tom and Jerry", "W1.1/Final", "Bo beat Ann 7:5", "winner of W1.1", "Jr. Smith", "Al in F"),
+    *("Player and Son", "the Shark"),
+]
+WRONG = ["Tom und Jerry", "W1.1/Finale", "Bo schlägt Ann", "Sieger von W1.1,", "Player und Son"]
 
 
 def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
@@ -39,3 +42,23 @@ def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
         for words in heard:
             assert not [one for one in WRONG if one in words], words
         assert all(any(name in words for words in heard) for name in NAMES)
+
+
+def test_no_team_is_renamed_on_a_german_page(tmp_path: Path) -> None:
+    teams = ("winner of W1.1", "the Shark")
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True, language="de")
+        plan = {"race": 3, "races": "even", "order": "alternate", "scale": "fargo", "count": "sets"}
+        ours, theirs = "Tom and Jerry,612\nPlayer and Son,590", "draw,600\nFinal,580"
+        asked = {"team_a": teams[0], "team_b": teams[1], "players_a": ours, "players_b": theirs}
+        director.send("/team/new", **plan, **asked)
+        put = {"by": "director", "team": 0, "number": 1, "pick": "0", "night": 1}
+        shown = director.send("/team/put", **put)
+        assert "Tom and Jerry spielt Satz 1" in shown.words
+        heard = [director.open(page).words for page in ("/team", "/team/history")]
+        for words in heard:
+            assert all(team in words for team in teams)
+            assert not [
+                one for one in ("Tom und Jerry", "Sieger von", "Player und") if one in words
+            ]
+        assert "winner of W1.1 stellt in Satz 1 auf: Tom and Jerry" in heard[1]

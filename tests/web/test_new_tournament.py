@@ -105,7 +105,7 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"format": "single", "losers_race": 2}, "no losers' side"),
         ({"format": "swiss", "final_race": 2}, "no final"),
         ({"format": "single", "rounds": 2}, "Only a Swiss"),
-        ({"qualifiers": 3}, "must be a power of 2"),
+        ({"qualifiers": 3}, "another power of 2"),
         ({"qualifiers": 2, "final": "single"}, "one final"),
         ({"format": "groups", "groups": 3}, "for 4 players; with fewer groups"),
         ({"format": "pods"}, "too few"),
@@ -290,6 +290,6 @@ def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     assert "Player 1 forfeited to Player 16 in W1.1" in shown.words
     assert not hall.state.dropped
     shown = hall.director.send("/desk/drop", player="Player 1", sure="yes")
-    assert "Player 1 has dropped out." in shown.words
+    assert "Player 1 has withdrawn." in shown.words
     assert "Player 1" in hall.state.dropped
     assert hall.director.send("/desk/drop", player="").status == 400

@@ -1,5 +1,6 @@
 """Every language says all that a page can show, with the values that the English has."""
 
+import ast
 from collections.abc import Iterator
 
 import pytest
@@ -7,6 +8,7 @@ from babel.messages.catalog import Message
 
 from catalogued import collected
 from evenbreak.files.catalogues import FILE, OWN, face_in, languages, problems_of, read_catalogue
+from places import SRC
 
 CODES = [code for code in languages() if (OWN / code / FILE).is_file()]
 
@@ -47,3 +49,28 @@ def test_translations_have_the_values_of_the_english(code: str) -> None:
     assert face_in(code).language == code
     for message in read_catalogue(OWN / code / FILE):
         assert list(problems_of(message)) == []
+
+
+SAYING = {"say": 1, "say_as": 2, "say_count": 2}
+ROOMS = ("answers", "tournaments", "teams", "files", "web", "questions")
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_templates_are_literals_that_can_be_collected(room: str) -> None:
+    """A template that is a variable or an f-string would never reach a catalogue."""
+    wrong = [
+        f"{path.relative_to(SRC)}:{node.lineno}"
+        for path in (SRC / room).rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and any(isinstance(one, ast.JoinedStr) for one in node.args[: SAYING.get(node.func.id, 0)])
+    ]
+    assert wrong == []
+
+
+def test_no_sentence_of_a_page_is_an_f_string(capsys: pytest.CaptureFixture[str]) -> None:
+    """Babel says so of each; it cannot be translated."""
+    collected.cache_clear()
+    collected()
+    assert "f-string" not in capsys.readouterr().err

@@ -7,7 +7,7 @@ from subprocess import list2cmdline
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of
 from evenbreak.answers.kit.parts import Quantities, Table
-from evenbreak.answers.kit.wording import listed
+from evenbreak.words import listed
 
 
 def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> Answer:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 from evenbreak.checks import probability
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
+from evenbreak.words import Sentence, joined, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -325,14 +326,14 @@ def unstated_scale(
             remedy=remedy,
         )
     raise InputError(
-        "{where}the ratings from {low:g} to {high:g} do not show their scale: {name} wins a "
-        "game against {name_2} {high_2}; {remedy}",
+        "{where}the ratings from {low:g} to {high:g} do not show their scale: {best} wins a "
+        "game against {worst} {readings}; {remedy}",
         where=where,
         low=low,
         high=high,
-        name=names[first],
-        name_2=names[last],
-        high_2=_readings(high - low, SCALES),
+        best=names[first],
+        worst=names[last],
+        readings=_readings(high - low, SCALES),
         remedy=remedy,
     )
 
@@ -393,22 +394,22 @@ def refuse_contradicted(
         )
     raise InputError(
         "the ratings from {low:g} to {high:g} do not look like {title} ratings, the scale of "
-        "{whose}: {name} wins a game against {name_2} {high_2}; {remedy}",
+        "{whose}: {best} wins a game against {worst} {readings}; {remedy}",
         low=low,
         high=high,
         title=title,
         whose=whose,
-        name=names[first],
-        name_2=names[last],
-        high_2=_readings(high - low, [scale.name, *(like or set(USUAL) - {scale.name})]),
+        best=names[first],
+        worst=names[last],
+        readings=_readings(high - low, [scale.name, *(like or set(USUAL) - {scale.name})]),
         remedy=remedy,
     )
 
 
-def _readings(gap: float, scales: Iterable[str]) -> str:
+def _readings(gap: float, scales: Iterable[str]) -> Sentence:
     """Return how often a player this far ahead wins a game, by each of some scales."""
     shares = [(name, SCALES[name].win_probability(gap)) for name in scales]
-    return ", ".join(
-        f"{share:.0%}{' of the time' * (k == 0)} by {NAMES[name]} ratings"
-        for k, (name, share) in enumerate(shares)
-    )
+    (first, share), *rest = shares
+    said = [say("{p:.0%} of the time by {scale} ratings", p=float(share), scale=NAMES[first])]
+    said += [say("{p:.0%} by {scale} ratings", p=float(p), scale=NAMES[name]) for name, p in rest]
+    return joined(said, ", ")

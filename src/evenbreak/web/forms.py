@@ -31,7 +31,7 @@ Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
 """The fields of a form by name: a text, or what is in a file."""
 
 
-CHOOSE_IT = "choose what ratings they are"
+CHOOSE_IT = say("choose the rating scale")
 """What to do about ratings that do not show their scale."""
 
 

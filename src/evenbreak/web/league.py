@@ -22,6 +22,7 @@ from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.store.folder import write_files
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 from evenbreak.web.beside import Beside
+from evenbreak.web.night import problem_of
 from evenbreak.web.uploads import ending_of, read_upload
 from evenbreak.words import Sentence, say
 
@@ -150,11 +151,10 @@ class League:
     async def _run(self, asked: int) -> None:
         try:
             sheet = await self._thread.run(lambda: self._rated(asked))
-        except EvenbreakError as error:
-            problem = str(error)
         except Exception as error:
-            _LOG.exception("the league could not be rated", exc_info=error)
-            problem = str(error) or type(error).__name__
+            if not isinstance(error, EvenbreakError):
+                _LOG.exception("the league could not be rated", exc_info=error)
+            problem = problem_of(error)
         else:
             if asked == self._asked:
                 self.sheet, self.progress = sheet, None

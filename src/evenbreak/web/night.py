@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
-from evenbreak.errors import InputError
+from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import keep_prizes, kept_prizes
 from evenbreak.files.store.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
@@ -29,6 +29,7 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
+from evenbreak.words import say
 
 _LOG = logging.getLogger(__name__)
 _STALE = 30.0  # seconds after which the finish is worked out again
@@ -180,9 +181,16 @@ class Night:
             found = await self.beside.run(work)
         except Exception as error:  # the pages go on without: the director has to mend it there
             _LOG.exception("the odds could not be worked out", exc_info=error)
-            found = Known(state, 0.0, problem=str(error) or type(error).__name__)
+            found = Known(state, 0.0, problem=problem_of(error))
         clock = asyncio.get_running_loop().time()
         self.known = replace(found, at=clock)
+
+
+def problem_of(error: Exception) -> str:
+    """Return what a page says of an error in work that goes on beside it."""
+    if isinstance(error, EvenbreakError):
+        return error.sentence
+    return say(str(error) or type(error).__name__)
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:

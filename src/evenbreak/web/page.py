@@ -18,6 +18,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import Match
 
+from evenbreak.answers.faces.in_face import answer_in_face, brief
 from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
@@ -27,14 +28,10 @@ from evenbreak.web.faces import page_face
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
-from evenbreak.web.words.sentences import answer_in_language, in_language
-from evenbreak.words import Figure, in_face, say, say_as, say_count
+from evenbreak.words import Figure, capital_in_face, in_face, say, say_as, say_count
 
 _LANGUAGE = "language"
 _SAID = "said"
-_TYPED = ("name", "player", "team_a", "team_b")
-"""The fields in which names are typed."""
-
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 
@@ -84,19 +81,9 @@ def language(request: Request) -> str:
 
 
 def in_words(request: Request, text: str) -> str:
-    """Return sentences in the reader's language, with every name as it is."""
-    code = language(request)
-    said: str = in_face(text, page_face(code))
-    if said != str(text):
-        return _without_folder(request, said)
-    return in_language(code, _without_folder(request, text), _names(request))
-
-
-def _names(request: Request) -> set[str]:
-    """Return the names that a sentence may hold: those of the site, and those just typed."""
-    form: Form | None = getattr(request.state, "form", None)
-    typed = (str(form.fields.get(name, "")) for name in _TYPED) if form else ()
-    return {*site_of(request).names, *filter(None, (" ".join(name.split()) for name in typed))}
+    """Return a text as the reader's page says it."""
+    said: str = in_face(text, page_face(language(request)))
+    return _without_folder(request, said)
 
 
 def choose_language(request: Request, code: str) -> None:
@@ -134,12 +121,8 @@ def page(
     code = language(request)
     face = page_face(code)
 
-    def tr(text: str) -> str:
-        return in_words(request, text)
-
     def capital(text: str) -> str:
-        shown: str = in_face(text, face)
-        return shown[:1].upper() + shown[1:]
+        return _without_folder(request, capital_in_face(text, face))
 
     shown = (
         _templates()
@@ -149,7 +132,6 @@ def page(
             say=say,
             say_as=say_as,
             say_count=say_count,
-            tr=tr,
             percent=share_at_a_glance,
             share=share,
             number=_number,
@@ -220,8 +202,9 @@ def _can_be_opened(request: Request, path: str) -> bool:
 
 
 def reason(request: Request, why: Exception) -> str:
-    """Return why something is refused, in the reader's language."""
-    return in_words(request, why.sentence if isinstance(why, EvenbreakError) else str(why))
+    """Return why something is refused, in the reader's language: a line each."""
+    text = why.sentence if isinstance(why, EvenbreakError) else str(why)
+    return _without_folder(request, capital_in_face(text, page_face(language(request))))
 
 
 def _without_folder(request: Request, text: str) -> str:
@@ -237,7 +220,7 @@ def answer_shown(request: Request, answer: Answer) -> Markup:
 
     Its tables may be wider than a phone: they can be scrolled, also by keys.
     """
-    shown = to_html(answer_in_language(language(request), answer, _names(request)))
+    shown = to_html(answer_in_face(brief(answer), page_face(language(request))))
     # Every text in it is escaped there.
     return Markup(shown.replace("<table>", '<table tabindex="0">'))  # noqa: S704
 

@@ -138,7 +138,7 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
         raise RefusalError("The two lists are on different scales. Put all ratings on one scale.")
     if stated:
         for one in lists:
-            refuse_to_read(one.file, stated[0], "the other team's list", CHOOSE_IT)
+            refuse_to_read(one.file, stated[0], say("the other team's list"), CHOOSE_IT)
         return stated[0]
     unrated = all(np.isnan(one.file.roster.rating).all() for one in lists)
     if unrated and league.sheet is not None:

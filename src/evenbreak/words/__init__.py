@@ -9,8 +9,8 @@ How to say a sentence:
   `Figure(p, ".1%", sign="<")` is a number that is shown by itself.
 - `say_count("{n} game is left.", "{n} games are left.", n)` where a number decides the wording;
   `say_as("heading", "race")` where one English word has several meanings.
-- `listed(names)` is "a, b and c"; `joined(sentences, " ")` puts sentences one after another.
-  `+`, `" ".join` and f-strings give plain text, which stays English.
+- `listed(names)` is "a, b and c"; `joined(sentences, " ")` and `+` put texts one after another.
+  `" ".join` and f-strings give plain text, which stays English.
 - `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field), as does a name
   in braces that has no value: `say("{win_by} is {value}", value=3)`;
   `Command("tournament result", "W1.2")` a command (or what a page has in its place),
@@ -26,9 +26,11 @@ from evenbreak.words.sentence import (
     FilePath,
     Parameter,
     Sentence,
+    capital_in_face,
     in_face,
     joined,
     listed,
+    ordinal,
     say,
     say_as,
     say_count,
@@ -42,9 +44,11 @@ __all__ = [
     "FilePath",
     "Parameter",
     "Sentence",
+    "capital_in_face",
     "in_face",
     "joined",
     "listed",
+    "ordinal",
     "say",
     "say_as",
     "say_count",

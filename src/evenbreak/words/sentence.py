@@ -79,6 +79,23 @@ class Sentence(str):
         template = self.wording.said(face)
         return _InFace(face).vformat(template, (), self.values) if self.values else template
 
+    def is_ours(self, face: Face) -> bool:
+        """Return whether it begins with a word of ours in a face, and not with a value."""
+        template = self.wording.said(face)
+        if not template.startswith("{") or not self.values:
+            return True
+        first = next(name for _, name, _, _ in Formatter().parse(template) if name)
+        value = self.values[first]
+        return isinstance(value, Sentence) and value.is_ours(face)
+
+    def __add__(self, after: str) -> Sentence:
+        """Return this sentence and what follows it."""
+        return Joined((self, after), "")
+
+    def __radd__(self, before: str) -> Sentence:
+        """Return what comes before this sentence, and it."""
+        return Joined((before, self), "")
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what a copy in another process is made from."""
         return type(self), (self.wording, dict(self.values))
@@ -115,6 +132,11 @@ class Joined(Sentence):
         sentence.parts, sentence.between = kept, between
         return sentence
 
+    def is_ours(self, face: Face) -> bool:
+        """Return whether it begins with a word of ours, and not with a value."""
+        first = self.parts[0] if self.parts else ""
+        return isinstance(first, Sentence) and first.is_ours(face)
+
     def said(self, face: Face) -> str:
         """Return the text as a face says it."""
         between: str = in_face(self.between, face)
@@ -141,6 +163,10 @@ class _Thing(Sentence):
     def shown(face: Face, *arguments: Any) -> str:
         """Return it as a face shows it."""
         raise NotImplementedError
+
+    def is_ours(self, face: Face) -> bool:  # noqa: ARG002
+        """Return whether it begins with a word of ours, and not with a value."""
+        return isinstance(self, Parameter)
 
     def said(self, face: Face) -> str:
         """Return the text as a face says it."""
@@ -246,6 +272,22 @@ def in_face(text: Any, face: Face) -> Any:
     return text.said(face) if isinstance(text, Sentence) else text
 
 
+def capital_in_face(text: str, face: Face) -> str:
+    """Return a text as a face says it; each line gets a capital unless it begins with a name.
+
+    >>> capital_in_face(say("match {match} is over", match="W1.1"), PYTHON)
+    'Match W1.1 is over'
+    >>> capital_in_face(say("{player} has entered", player="the Shark"), PYTHON)
+    'the Shark has entered'
+    """
+    if isinstance(text, Joined) and text.between == "\n":
+        return "\n".join(capital_in_face(part, face) for part in text.parts)
+    said: str = in_face(text, face)
+    if isinstance(text, Sentence) and text.is_ours(face):
+        return said[:1].upper() + said[1:]
+    return said
+
+
 def say(template: str, /, **values: Any) -> Sentence:
     """Return a sentence, with what it holds filled in.
 
@@ -284,6 +326,17 @@ def joined(parts: Iterable[str], between: str = " ") -> Sentence:
     '8 players are drawn. Ann'
     """
     return Joined(parts, between)
+
+
+def ordinal(n: int) -> Sentence:
+    """Return a number that says which one is meant.
+
+    >>> ordinal(1), ordinal(12), ordinal(22), ordinal(103)
+    ('1st', '12th', '22nd', '103rd')
+    """
+    if n // 10 % 10 == 1 or n % 10 not in (1, 2, 3):
+        return say("{n}th", n=n)
+    return {1: say("{n}st", n=n), 2: say("{n}nd", n=n), 3: say("{n}rd", n=n)}[n % 10]
 
 
 def listed(parts: Sequence[Any], last: str = "and") -> Sentence:

@@ -20,7 +20,7 @@ NPL, FARGO = SCALES["npl"], SCALES["fargo"]
 def test_two_ratings_of_another_scale(scale, ratings, other):
     doubts = two_ratings_doubts(scale, *ratings)
     assert len(doubts) == bool(other)
-    assert all(f"--scale {other}" in doubt for doubt in doubts)
+    assert all(f"set scale to {other}" in doubt for doubt in doubts)
 
 
 @pytest.mark.parametrize(

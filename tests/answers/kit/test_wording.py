@@ -1,6 +1,7 @@
 import pytest
 
 from evenbreak.answers.kit import wording
+from evenbreak.words import listed
 from rows import each_of
 
 
@@ -54,7 +55,7 @@ def test_an_hour_has_sixty_minutes(minutes, text):
 
 
 def test_long_lists_are_cut_short():
-    assert wording.listed(["Ann", 2, "Cy"]) == "Ann, 2 and Cy"
+    assert listed(["Ann", 2, "Cy"]) == "Ann, 2 and Cy"
     assert wording.some_of(["Ann", "Bo"], most=2) == "Ann, Bo"
     assert wording.some_of([str(k) for k in range(2000)], most=1) == "0 and 1,999 more"
     assert wording.some_of([]) == ""

@@ -15,7 +15,7 @@ def test_rated_players():
 
 def test_ratings_of_another_scale_raise_a_doubt():
     (doubt,) = TwoPlayers.rated(612, 521, scale_of("npl")).doubts
-    assert "--scale fargo" in doubt
+    assert "set scale to fargo" in doubt
 
 
 def test_players_whose_break_matters():

@@ -30,8 +30,8 @@ def results(*scores):
 @pytest.mark.parametrize(
     ("scores", "how", "chances", "words"),
     [
-        ([], {}, (0.5, 0.5), "Racks needs 2 of the 3 sets to finish, and Cues needs 2"),
-        ([(4, 1)], {}, None, "Racks needs 1 of the 2 sets to finish, and Cues needs 2"),
+        ([], {}, (0.5, 0.5), "Racks needs 2 of the 3 sets left, and Cues needs 2"),
+        ([(4, 1)], {}, None, "Racks needs 1 of the 2 sets left, and Cues needs 2"),
         ([(4, 1), (4, 1)], {}, (1.0, 0.0), "Racks has won"),
         ([(4, 1), (1, 4), (0, 4)], {}, None, "Cues has won"),
         ([(4, 1)], {"count": "games"}, (0.8, 0.2), "Racks leads by 3 games with 2 sets"),
@@ -56,10 +56,10 @@ def test_what_is_played():
 
 def test_a_cap_says_who_cannot_be_put_up():
     assert cap_words(after(), 0) == []
-    assert cap_words(after(cap=15), 0)[1].startswith("Everybody")
+    assert cap_words(after(cap=15), 0)[1].startswith("Every player")
     state = after(NAMED[0], NAMED[1], NAMED[3], NAMED[2], cap=15)
-    assert cap_words(state, 0)[0] == "The sum of the levels so far: 11 of 15."
-    assert cap_words(state, 0)[1].startswith("Cleo cannot be put up in set 3")
+    assert cap_words(state, 0)[0] == "So far the sum of the levels is 11 of 15."
+    assert cap_words(state, 0)[1].startswith("Cleo can't be put up in set 3")
     assert cap_words(after(order="sealed", cap=15), 0) == []
 
 
@@ -77,7 +77,7 @@ def test_the_sum_under_a_cap_counts_who_has_just_been_put_up(order):
             state = after(*happened, order=order, cap=15)
             for team in (0, 1):
                 words = cap_words(state.seen_by(team), team)
-                assert words[0] == f"The sum of the levels so far: {sums[team]} of 15."
+                assert words[0] == f"So far the sum of the levels is {sums[team]} of 15."
         happened.append(Result(number, (4, 1)))
 
 
@@ -111,5 +111,5 @@ def test_a_night_that_an_undo_brings_back_has_its_own_names_again():
     what = [Begun(first), Begun(second), Undone(), PutUp(0, 1, ("Ann",))]
     events = [Event(AT, one) for one in what]
     lines = history_words(events, team_evening(events))
-    assert lines[1] == "Cues against Racks begun"
+    assert lines[1] == "start of Cues against Racks"
     assert lines[3] == "Racks put up Ann in set 1"

@@ -97,9 +97,9 @@ def test_one_number_is_for_both_players(odds):
 @pytest.mark.parametrize(
     ("line", "meant"),
     [
-        ("612 521 --scale npl", "--scale fargo"),
+        ("612 521 --scale npl", "set --scale to fargo"),
         ("612 521", ""),
-        ("85 40 --scale fargo", "--scale npl"),
+        ("85 40 --scale fargo", "set --scale to npl"),
         ("105 62", ""),
         ("-20 30", ""),
         ("612 521 --scale fargo", ""),

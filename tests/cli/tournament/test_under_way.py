@@ -30,7 +30,7 @@ def night(run, tmp_path):
 def begun(night):
     words = ("--race", "3", "--tables", "2", "--starter-sd", "20", "--at", "18:50")
     result = night.run("tournament", "new", night.entrants, *words, "--out", night.file, "--text")
-    assert "1 player without a rating (Cy): taken as 500 ± 20." in result.stdout
+    assert "1 player without a rating (Cy): assumed to be 500 ± 20." in result.stdout
     night("draw", "--at", "19:00")
     return night
 
@@ -192,7 +192,7 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     assert "W2.1 is off table 2." in said.stdout
     assert begun.run("tournament", "call", "--back", "--file", begun.file).exit_code == 2
     said = begun.run("tournament", "undo", "--file", begun.file, "--text")
-    assert "Taken back: W2.1 taken off its table." in said.stdout
+    assert "Undone: W2.1 taken off its table." in said.stdout
     assert len(read_events(begun.file)) == entered + 4
 
 

@@ -7,12 +7,13 @@ from typing import Any
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import decimals, listed, percent, race, range_words
+from evenbreak.answers.kit.wording import decimals, percent, race, range_words
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell, PointsAudit, audit_points
 from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import NAMES, SCALES
+from evenbreak.words import listed
 
 SAME_SCALE = 0.05
 """Scales that differ by a smaller share are the same scale to a reader."""

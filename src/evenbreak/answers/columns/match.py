@@ -3,6 +3,7 @@
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, games, race, signed
+from evenbreak.words import say
 
 MATCH = registry(
     number("p_game_a", "{a} wins a game", chance),
@@ -29,8 +30,8 @@ MATCH = registry(
     number("racks_left_p90", "9 out of 10 matches end within", games),
     number("rack", "game"),
     number("won_by", "won by"),
-    number("score", "score"),
-    number("wins_a", "{a}\nwins", chance, "p_win_a"),
+    number("score", say("score")),
+    number("wins_a", say("{a}\nwins"), chance, "p_win_a"),
     number("swing_a", "change", signed(4)),
     number("leverage", "leverage", chance),
     text("score_a", ""),

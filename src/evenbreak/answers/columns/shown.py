@@ -9,6 +9,7 @@ from typing import Any
 
 from evenbreak.answers.kit.parts import Column, Show
 from evenbreak.answers.kit.wording import clock, decimals, range_words
+from evenbreak.words import joined, say
 
 plain: Show = "{:g}".format
 """A number as it was typed."""
@@ -134,15 +135,28 @@ def moves(minutes: float) -> str:
     ('1 h 12 earlier', '0 min')
     """
     if abs(minutes) < 0.5:
-        return "0 min"
-    return f"{clock(abs(minutes))} {'later' if minutes > 0 else 'earlier'}"
+        return clock(0.0)
+    if minutes > 0:
+        return say("{time} later", time=clock(minutes))
+    return say("{time} earlier", time=clock(-minutes))
+
+
+def pair(names: Sequence[str]) -> str:
+    """Return who plays whom in a table.
+
+    >>> pair(["Ann", "Bo"])
+    'Ann - Bo'
+    """
+    return joined(names, " - ")
 
 
 def later(minutes: float) -> str:
     """Return by how much the finish moves, if that is worth saying."""
     if abs(minutes) < _WORTH_SAYING:
         return ""
-    return f"{abs(minutes):.0f} min {'later' if minutes > 0 else 'earlier'}"
+    if minutes > 0:
+        return say("{n:.0f} min later", n=minutes)
+    return say("{n:.0f} min earlier", n=-minutes)
 
 
 def with_range(digits: int, to: str = " to ") -> Show:

@@ -71,7 +71,7 @@ def column_of(
     if key.startswith("-"):
         changes["words"] = None
     elif entry.words is not None:
-        changes["words"] = say(entry.words, **fields) if "{" in entry.words else say(entry.words)
+        changes["words"] = say(entry.words, **fields) if "{" in entry.words else entry.words
     if isinstance(entry.name, str):
         changes["name"] = "_".join(filter(None, [entry.name.format(**fields), unit]))
     else:

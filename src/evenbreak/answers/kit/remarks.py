@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from evenbreak.answers.kit.wording import listed, some_of
+from evenbreak.answers.kit.wording import some_of
+from evenbreak.words import listed
 
 if TYPE_CHECKING:  # they load numpy
     from evenbreak.files.lists.roster import RosterFile

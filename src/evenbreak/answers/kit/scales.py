@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from evenbreak.answers.kit.parts import Show
 from evenbreak.answers.kit.wording import percent, some_of
 from evenbreak.ratings.scale import NAMES, SCALES, Scale
+from evenbreak.words import Figure, Parameter, Sentence, say, say_count
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from evenbreak.ratings.roster import Roster
 
 
-LIKE = {"npl": "an NPL-like scale", "fargo": "a Fargo-like scale", "elo": "an Elo-like scale"}
+LIKE = {
+    "npl": say("an NPL-like scale"),
+    "fargo": say("a Fargo-like scale"),
+    "elo": say("an Elo-like scale"),
+}
 
 
 def scale_words(scale: Scale) -> str:
@@ -28,7 +33,8 @@ def scale_words(scale: Scale) -> str:
     >>> scale_words(scale_of("fargo"))
     'on the Fargo scale (100 points double the odds)'
     """
-    return f"on the {NAMES.get(scale.name, scale.name)} scale ({_points(scale)})"
+    name = NAMES.get(scale.name, scale.name)
+    return say("on the {scale} scale ({points})", scale=name, points=_points(scale))
 
 
 def like_scale_words(scale: Scale) -> str:
@@ -40,11 +46,12 @@ def like_scale_words(scale: Scale) -> str:
     >>> like_scale_words(scale_of(50))
     'a scale of its own (50 points double the odds)'
     """
-    return f"{LIKE.get(scale.name, 'a scale of its own')} ({_points(scale)})"
+    like = LIKE.get(scale.name) or say("a scale of its own")
+    return say("{scale} ({points})", scale=like, points=_points(scale))
 
 
-def _points(scale: Scale) -> str:
-    return f"{scale.points_per_doubling:.6g} points double the odds"
+def _points(scale: Scale) -> Sentence:
+    return say("{points:.6g} points double the odds", points=scale.points_per_doubling)
 
 
 def decimals_of(scale: Scale) -> int:
@@ -64,7 +71,8 @@ def points_on(scale: Scale, sign: str = "") -> Show:
     >>> points_on(scale_of("npl"))(81.26), points_on(scale_of("fargo"), "+")(12.4)
     ('81.3', '+12')
     """
-    return f"{{:{sign}.{decimals_of(scale)}f}}".format
+    spec = f"{sign}.{decimals_of(scale)}f"
+    return lambda value: Figure(value, spec)
 
 
 def game_chance(scale: Scale) -> str:
@@ -142,9 +150,14 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
         return ""
     own, name = NAMES.get(scale.name, scale.name), NAMES[other.name]
     seen = percent(float(won.sum() / (won + lost).sum()))
-    return (
-        f"the results contradict {own} ratings: by them the player rated higher would have won "
-        f"{share(scale)} of the games, by {name} ratings {share(other)}; they won {seen}"
+    return say(
+        "the results contradict {own} ratings: by them the player rated higher would have won "
+        "{expected} of the games, by {other} ratings {likelier}; they won {seen}",
+        own=own,
+        expected=share(scale),
+        other=name,
+        likelier=share(other),
+        seen=seen,
     )
 
 
@@ -155,9 +168,9 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
 
     >>> from evenbreak.ratings import SCALES
     >>> two_ratings_doubts(SCALES["npl"], 612, 521)
-    ['most NPL ratings are between 20 and 130; for Fargo ratings add --scale fargo']
+    ['most NPL ratings are between 20 and 130; for Fargo ratings, set scale to fargo']
     >>> two_ratings_doubts(SCALES["fargo"], 1750, 1612)
-    ['most Fargo ratings are between 200 and 850; for Elo ratings add --scale elo']
+    ['most Fargo ratings are between 200 and 850; for Elo ratings, set scale to elo']
     """
     if scale.name in USUAL and max(ratings) > 1000:
         other = "elo"
@@ -169,8 +182,16 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
         return []
     low, high = USUAL[scale.name]
     return [
-        f"most {NAMES[scale.name]} ratings are between {low} and {high}; "
-        f"for {NAMES[other]} ratings add --scale {other}"
+        say(
+            "most {scale} ratings are between {low} and {high}; for {other} ratings, set {option} "
+            "to {name}",
+            scale=NAMES[scale.name],
+            low=low,
+            high=high,
+            other=NAMES[other],
+            option=Parameter("scale"),
+            name=other,
+        )
     ]
 
 
@@ -207,8 +228,14 @@ def league_doubts(
     middle = float(np.median(known))  # one slip makes no other scale
     if scale.centre and abs(middle - scale.centre) > FAR * scale.points_per_doubling:
         doubts.append(
-            f"{NAMES.get(scale.name, scale.name)} ratings average about {scale.centre:g}, but "
-            f"these average about {middle:.0f}; {remedy}"
+            say(
+                "{scale} ratings average about {usual:g}, but these average about {middle:.0f}; "
+                "{remedy}",
+                scale=NAMES.get(scale.name, scale.name),
+                usual=scale.centre,
+                middle=middle,
+                remedy=remedy,
+            )
         )
     return doubts + far_doubts(scale, given, names)
 
@@ -240,11 +267,31 @@ def far_doubts(scale: Scale, ratings: ArrayLike, names: Sequence[str] = ()) -> l
     apart = len(far)
     if not apart:
         return []
-    named = [f"{names[k]}: {given[k]:g}" for k in far.tolist()] if names else []
-    who = f" ({some_of(named)})" if named else ""
+    values = {"all": len(known), "edge": edge, "middle": middle}
+    if not names:
+        return [
+            say_count(
+                "{n} of {all:,} ratings is more than {edge:.0f} points from the median of "
+                "{middle:.0f}; are they all on the same scale?",
+                "{n:,} of {all:,} ratings are more than {edge:.0f} points from the median of "
+                "{middle:.0f}; are they all on the same scale?",
+                apart,
+                **values,
+            )
+        ]
+    named = some_of(
+        [say("{name}: {rating:g}", name=names[k], rating=given[k]) for k in far.tolist()]
+    )
     return [
-        f"{apart:,} of {len(known):,} ratings{who} {'is' if apart == 1 else 'are'} more than "
-        f"{edge:.0f} points from the median of {middle:.0f}; are they all on the same scale?"
+        say_count(
+            "{n} of {all:,} ratings ({named}) is more than {edge:.0f} points from the median of "
+            "{middle:.0f}; are they all on the same scale?",
+            "{n:,} of {all:,} ratings ({named}) are more than {edge:.0f} points from the median of "
+            "{middle:.0f}; are they all on the same scale?",
+            apart,
+            named=named,
+            **values,
+        )
     ]
 
 
@@ -261,7 +308,7 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
     >>> from evenbreak.ratings import SCALES
     >>> starter_doubts(SCALES["fargo"], [92, 71, float("nan")])
     ['new players start at 500, the middle of the Fargo scale, but the other ratings go from 71 to
-    92; give the rating of a new player with --starter']
+    92; set the rating of a new player with starter']
     """
     import numpy as np
 
@@ -273,9 +320,15 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
     if least - edge <= scale.centre <= most + edge:
         return []
     return [
-        f"new players start at {scale.centre:g}, the middle of the "
-        f"{NAMES.get(scale.name, scale.name)} scale, but the other ratings go from {least:g} to "
-        f"{most:g}; give the rating of a new player with --starter"
+        say(
+            "new players start at {start:g}, the middle of the {scale} scale, but the other "
+            "ratings go from {least:g} to {most:g}; set the rating of a new player with {starter}",
+            start=scale.centre,
+            scale=NAMES.get(scale.name, scale.name),
+            least=least,
+            most=most,
+            starter=Parameter("starter"),
+        )
     ]
 
 
@@ -293,9 +346,13 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
     if best is None or abs(best.points_per_doubling / own - 1.0) <= SCALE_OFF:
         return []
     return [
-        f"the races of {chart.name} fit a scale on which about {best.points_per_doubling:.0f} "
-        f"points double the odds, but here {own:.4g} do; make sure that it is the chart for these "
-        "ratings"
+        say(
+            "the races of {chart} fit a scale on which about {points:.0f} points double the odds, "
+            "but here {own:.4g} do; make sure that it is the chart for these ratings",
+            chart=chart.name,
+            points=best.points_per_doubling,
+            own=own,
+        )
     ]
 
 

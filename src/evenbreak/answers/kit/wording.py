@@ -1,9 +1,9 @@
 """Numbers and lists as people read them: chances, decimals, counts, times, names."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from evenbreak.answers.kit.parts import Show
+from evenbreak.words import Figure, joined, say
 
 
 def chance(p: float) -> str:
@@ -12,7 +12,7 @@ def chance(p: float) -> str:
     >>> chance(0.65263), chance(0.00101), chance(1.234e-9), chance(1 - 1e-9)
     ('0.6526', '0.0010', '1.2e-09', '1.0000')
     """
-    return f"{p:.2g}" if 0.0 < p < 5e-5 else f"{p:.4f}"
+    return Figure(p, ".2g" if 0.0 < p < 5e-5 else ".4f")
 
 
 def percent(p: float, left: float = 0.0) -> str:
@@ -29,14 +29,14 @@ def percent(p: float, left: float = 0.0) -> str:
     ('1%', '1.0%')
     """
     if p == 1.0 and left > 0.0:
-        return "more than 99.9%"
+        return say("more than {p:.1%}", p=0.999)
     if p == round(p, 2):
-        return f"{100 * p:.0f}%"
+        return Figure(p, ".0%")
     if p < 0.001:
-        return "less than 0.1%"
+        return say("less than {p:.1%}", p=0.001)
     if p > 0.999:
-        return "more than 99.9%"
-    return f"{100 * p:.1f}%" if p < 0.0995 or p >= 0.995 else f"{100 * p:.0f}%"
+        return say("more than {p:.1%}", p=0.999)
+    return Figure(p, ".1%" if p < 0.0995 or p >= 0.995 else ".0%")
 
 
 def share(p: float) -> str:
@@ -46,10 +46,10 @@ def share(p: float) -> str:
     ('90.7%', '8.0%', '<0.1%', '>99.9%', '0%', '100%')
     """
     if p == 0.0 or p > 1.0 - 1e-12:
-        return f"{p:.0%}"
+        return Figure(p, ".0%")
     if p < 0.0005:
-        return "<0.1%"
-    return ">99.9%" if p > 0.9995 else f"{p:.1%}"
+        return Figure(0.001, ".1%", sign="<")
+    return Figure(0.999, ".1%", sign=">") if p > 0.9995 else Figure(p, ".1%")
 
 
 def share_at_a_glance(p: float) -> str:
@@ -58,7 +58,7 @@ def share_at_a_glance(p: float) -> str:
     >>> share_at_a_glance(0.90701), share_at_a_glance(0.0757), share_at_a_glance(3e-5)
     ('91%', '7.6%', '<0.1%')
     """
-    return f"{p:.0%}" if 0.0995 <= p < 0.995 else share(p)
+    return Figure(p, ".0%") if 0.0995 <= p < 0.995 else share(p)
 
 
 def decimals(places: int) -> Show:
@@ -69,8 +69,7 @@ def decimals(places: int) -> Show:
     """
 
     def show(value: float) -> str:
-        text = f"{value:,.{places}f}"
-        return text.removeprefix("-") if not text.strip("-0.,") else text
+        return Figure(value, f"z,.{places}f")
 
     return show
 
@@ -81,7 +80,7 @@ def signed(places: int) -> Show:
     >>> signed(4)(0.0521), signed(1)(-3.26), signed(1)(-0.04)
     ('+0.0521', '-3.3', '+0.0')
     """
-    return lambda value: f"{value:+z.{places}f}"
+    return lambda value: Figure(value, f"+z.{places}f")
 
 
 def games(value: float) -> str:
@@ -91,8 +90,8 @@ def games(value: float) -> str:
     ('13', '10.27', '3.2e+11')
     """
     if value >= 1e9:
-        return f"{value:.3g}"
-    return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
+        return Figure(value, ".3g")
+    return Figure(value, ".2f" if isinstance(value, float) else ",")
 
 
 def yes_or_no(truth: bool) -> str:
@@ -101,7 +100,7 @@ def yes_or_no(truth: bool) -> str:
     >>> yes_or_no(True), yes_or_no(False)
     ('yes', 'no')
     """
-    return "yes" if truth else "no"
+    return say("yes") if truth else say("no")
 
 
 def race(needs: tuple[int, int]) -> str:
@@ -120,8 +119,8 @@ def range_words(first: int, last: int | None) -> str:
     ('7 to 18', '7', '49 and more')
     """
     if last is None:
-        return f"{first} and more"
-    return f"{first} to {last}" if last > first else str(first)
+        return say("{first} and more", first=first)
+    return say("{first} to {last}", first=first, last=last) if last > first else str(first)
 
 
 def count_of(number: int, one: str, many: str = "") -> str:
@@ -133,16 +132,6 @@ def count_of(number: int, one: str, many: str = "") -> str:
     return f"{number:,} {one if number == 1 else many or one + 's'}"
 
 
-def listed(words: Sequence[Any], last: str = "and") -> str:
-    """Return words as a list in a sentence.
-
-    >>> listed(["Ann"]), listed(["Ann", "Bo"]), listed(["winner", "loser", "alternate"], "or")
-    ('Ann', 'Ann and Bo', 'winner, loser or alternate')
-    """
-    *most, end = map(str, words)
-    return f"{', '.join(most)} {last} {end}" if most else end
-
-
 def some_of(words: Sequence[str], most: int = 8) -> str:
     """Return the first of many names, and how many more there are.
 
@@ -150,7 +139,8 @@ def some_of(words: Sequence[str], most: int = 8) -> str:
     'Ann, Bo and 1 more'
     """
     more = len(words) - most
-    return f"{', '.join(words[:most])} and {more:,} more" if more > 0 else ", ".join(words)
+    names = joined(words[:most], ", ")
+    return say("{names} and {n:,} more", names=names, n=more) if more > 0 else names
 
 
 def clock(minutes: float) -> str:
@@ -160,7 +150,9 @@ def clock(minutes: float) -> str:
     ('52 min', '2 h 00', '3 h 05')
     """
     whole = round(minutes)
-    return f"{whole} min" if whole < 60 else f"{whole // 60} h {whole % 60:02d}"
+    if whole < 60:
+        return say("{n} min", n=whole)
+    return say("{hours} h {minutes:02d}", hours=whole // 60, minutes=whole % 60)
 
 
 def how_often(p: float) -> str:
@@ -170,12 +162,12 @@ def how_often(p: float) -> str:
     ('about 1 time in 83', 'about 30 times in 100', 'nearly always')
     """
     if p > 0.99:
-        return "nearly always"
+        return say("nearly always")
     if p < 0.001:
-        return "less than 1 time in 1000"
+        return say("less than 1 time in 1000")
     if p < 0.1:
-        return f"about 1 time in {1 / p:.0f}"
-    return f"about {100 * p:.0f} times in 100"
+        return say("about 1 time in {n:.0f}", n=1 / p)
+    return say("about {n:.0f} times in 100", n=100 * p)
 
 
 def luck_words(p: float) -> str:
@@ -185,7 +177,7 @@ def luck_words(p: float) -> str:
     ('this may well be luck', 'this is probably not luck')
     """
     if p >= 0.1:
-        return "this may well be luck"
+        return say("this may well be luck")
     if p >= 0.05:
-        return "this could be luck"
-    return "this is probably not luck" if p >= 0.01 else "this is not luck"
+        return say("this could be luck")
+    return say("this is probably not luck") if p >= 0.01 else say("this is not luck")

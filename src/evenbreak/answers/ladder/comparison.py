@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Column, Part, Table
-from evenbreak.answers.kit.wording import listed
 from evenbreak.answers.ladder.ladder import OPPONENTS
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart import chart as printed
@@ -16,6 +15,7 @@ from evenbreak.handicaps.ladders.opponents import Opponents
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.league.reestimate import Reestimated, reestimate
+from evenbreak.words import listed
 
 OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
 """The other systems; those without a printed chart are played by a chart of their own."""

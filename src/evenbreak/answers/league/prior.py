@@ -1,19 +1,21 @@
 """What ratings start from: the prior, levels and groups, and players without a rating."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Show, Table
-from evenbreak.answers.kit.wording import count_of, decimals, listed, some_of
+from evenbreak.answers.kit.remarks import MOST_NAMES
+from evenbreak.answers.kit.wording import count_of, decimals, some_of
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
 from evenbreak.ratings.prior import Evidence, PriorChoice
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Figure, Sentence, joined, listed, say, say_count
 
 _ONE = decimals(1)
 _FEW = 5  # names that are listed
@@ -234,21 +236,33 @@ def starters_words(listed: Roster, filled: Roster) -> str:
 
     >>> listed = Roster(["Ann", "Bo"], [600, np.nan])
     >>> starters_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
-    '1 player has no rating (Bo) and is taken as 500 ± 100.'
+    '1 player without a rating (Bo): assumed to be 500 ± 100.'
     """
     new = np.flatnonzero(np.isnan(listed.rating))
     said = [games_words(listed, filled)]
     if new.size:
-        names = some_of([listed.players[place] for place in new])
-        rating, error = filled.rating[new[0]], filled.standard_error[new[0]]
-        off = "" if np.isnan(error) else f" ± {error:g}"
-        have, verb = ("has", "is") if new.size == 1 else ("have", "are")
-        said.insert(
-            0,
-            f"{count_of(int(new.size), 'player')} {have} no rating ({names}) and {verb} taken as "
-            f"{rating:g}{off}.",
-        )
-    return " ".join(filter(None, said))
+        rating, error = float(filled.rating[new[0]]), float(filled.standard_error[new[0]])
+        off = 0.0 if np.isnan(error) else error
+        said.insert(0, unrated_words([listed.players[place] for place in new], rating, off))
+    return joined(filter(None, said))
+
+
+def unrated_words(names: Sequence[str], rating: float, error: float) -> Sentence:
+    """Return what is assumed of players without a rating.
+
+    >>> unrated_words(["Ann"], 80.0, 30.0)
+    '1 player without a rating (Ann): assumed to be 80 ± 30.'
+    """
+    points = say("{rating:g}", rating=rating)
+    if error > 0.0:
+        points = say("{rating:g} ± {error:g}", rating=rating, error=error)
+    return say_count(
+        "{n} player without a rating ({players}): assumed to be {points}.",
+        "{n} players without a rating ({players}): assumed to be {points}.",
+        len(names),
+        players=some_of(names, MOST_NAMES),
+        points=points,
+    )
 
 
 def games_words(listed: Roster, filled: Roster) -> str:
@@ -260,7 +274,7 @@ def games_words(listed: Roster, filled: Roster) -> str:
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, NOT_STATED])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
     'The error of 1 rating comes from its games: ± 17 for Ann after 300. The games of 1 rating (Bo)
-    are not stated: it is taken to be as uncertain as that of a new player, ± 100.'
+    are not stated: it is assumed to be as uncertain as that of a new player, ± 100.'
     """
     rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error)
     by_games = np.flatnonzero(rated & (listed.games != NOT_STATED))
@@ -270,17 +284,29 @@ def games_words(listed: Roster, filled: Roster) -> str:
         name = listed.players[least]
         error = filled.standard_error[filled.position(name)]
         said.append(
-            f"The {'errors' if by_games.size > 1 else 'error'} of "
-            f"{count_of(by_games.size, 'rating')} "
-            f"{'come from their games, such as' if by_games.size > 1 else 'comes from its games:'} "
-            f"± {error:.{0 if error >= 10 else 1}f} for {name} after {listed.games[least]:,}."
+            say_count(
+                "The error of {n} rating comes from its games: ± {error} for {player} after "
+                "{games:,}.",
+                "The errors of {n:,} ratings come from their games, such as ± {error} for "
+                "{player} after {games:,}.",
+                int(by_games.size),
+                error=Figure(error, f".{0 if error >= 10 else 1}f"),
+                player=name,
+                games=int(listed.games[least]),
+            )
         )
     silent = [listed.players[k] for k in np.flatnonzero(rated & (listed.games == NOT_STATED))]
     error = filled.standard_error[filled.position(silent[0])] if silent else np.nan
     if not np.isnan(error):
         said.append(
-            f"The games of {count_of(len(silent), 'rating')} ({some_of(silent)}) are not stated: "
-            f"{'they are' if silent[1:] else 'it is'} taken to be as uncertain as that of a new "
-            f"player, ± {error:.4g}."
+            say_count(
+                "The games of {n} rating ({players}) are not stated: it is assumed to be as "
+                "uncertain as that of a new player, ± {error:.4g}.",
+                "The games of {n:,} ratings ({players}) are not stated: they are assumed to be as "
+                "uncertain as that of a new player, ± {error:.4g}.",
+                len(silent),
+                players=some_of(silent),
+                error=float(error),
+            )
         )
-    return " ".join(said)
+    return joined(said)

@@ -9,7 +9,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import form_data, form_details, form_words, like_scale_words
-from evenbreak.answers.kit.wording import count_of, decimals, listed, percent
+from evenbreak.answers.kit.wording import count_of, decimals, percent
 from evenbreak.answers.league.prior import (
     evidence_rows,
     group_rows,
@@ -22,6 +22,7 @@ from evenbreak.answers.league.prior import (
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
+from evenbreak.words import listed
 
 NOT_LINKED = "no chain of opponents links the two"
 

@@ -29,6 +29,7 @@ from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import FilePath, joined
 
 
 def most_active(ratings: Ratings, top: int) -> list[int]:
@@ -78,7 +79,10 @@ def find_players(
             found[place] = None
     if unknown:
         raise InputError(
-            f"{said}: not in {where}: {', '.join(unknown)}; write names as they stand there"
+            "{said}: not in {where}: {names}; write names as they are there",
+            said=said,
+            where=FilePath(where),
+            names=joined(unknown, ", "),
         )
     return list(found)
 

@@ -7,7 +7,7 @@ from typing import Any
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.league.prior import evidence_rows, levels_data
 from evenbreak.answers.league.validate_findings import details, findings_table
 from evenbreak.answers.league.validate_handicaps import (
@@ -29,6 +29,7 @@ from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validation.advantages import FEWEST_ON_A_DATE
 from evenbreak.ratings.validation.validate import Validation
+from evenbreak.words import listed
 
 
 def validate_answer(

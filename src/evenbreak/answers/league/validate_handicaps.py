@@ -9,13 +9,14 @@ from scipy.special import ndtri
 from evenbreak.answers.columns.shown import percent_interval
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import count_of, listed, percent, race
+from evenbreak.answers.kit.wording import count_of, percent, race
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.ratings.validation.calibration import Of, Scored
 from evenbreak.ratings.validation.starts import StartGroup, Starts, even_start
 from evenbreak.ratings.validation.validate import HandicapFairness, Validation
+from evenbreak.words import listed
 
 UNLIKELY = 0.01
 """A p-value below which chance is ruled out; it is small because several tests are made."""

@@ -22,11 +22,12 @@ from evenbreak.ratings.fitted import Ratings, rating_sources
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results, who_won
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import FilePath, joined, say
 
 SOURCES = {
-    "prior": "assumed before",
-    "brought": "rating brought along",
-    "results": "these results",
+    "prior": say("assumed before"),
+    "brought": say("rating brought along"),
+    "results": say("these results"),
 }
 """What a person reads for each source of a rating."""
 
@@ -71,15 +72,23 @@ def why_answer(
     names = ratings.players[pair[0]], ratings.players[pair[1]]
     brought, sources = ratings.levels.beginning is not None, [_sources_table(ratings, pair)]
     return Answer(
-        f"{names[0]} and {names[1]} in {file.source}\nRatings on {like_scale_words(scale)}",
+        say(
+            "{a} and {b} in {file}\nRatings on {scale}",
+            a=names[0],
+            b=names[1],
+            file=FilePath(file.source),
+            scale=like_scale_words(scale),
+        ),
         [
-            " ".join([_now_in_words(now, names, scale), _more_in_words(more, now)]).rstrip(),
+            joined(filter(None, [_now_in_words(now, names, scale), _more_in_words(more, now)])),
             _players_table(ratings, pair),
             *(sources if brought else []),
             *([_more_table(more, now, names, scale)] if more else []),
             *(_matches_table(matches, name, scale) for name in names),
-            "Worth: how much lower (or, with a minus, higher) the rating would be if this match "
-            "had not been played and all others had.",
+            say(
+                "Worth: how much lower (or, with a minus, higher) the rating would be if this "
+                "match alone had not been played."
+            ),
         ],
         details=[*prior_details(ratings, choice), *([] if brought else sources)],
         warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice)],
@@ -112,26 +121,42 @@ def why_answer(
 def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
     a, b = names
     points, (first, second) = points_on(scale), now.ratings
-    text = f"{a} is rated {points(first)} and {b} {points(second)}"
+    rated = {"first": points(first), "second": points(second)}
     if now.race is None or now.p_win is None or now.difference_error is None:
-        return f"{text}. No chain of opponents links the two, so they cannot be compared."
-    return (
-        f"{text}: {points(abs(first - second))} points apart, give or take "
-        f"{points(now.difference_error)}. Their fairest race is {race(now.race)}, and {a} "
-        f"wins it {percent(now.p_win)} of the time."
+        return say(
+            "{a} is rated {first} and {b} {second}. No chain of opponents links the two, so they "
+            "can't be compared.",
+            a=a,
+            b=b,
+            **rated,
+        )
+    return say(
+        "{a} is rated {first} and {b} {second}: {gap} points apart, ± {error}. Their fairest race "
+        "is {race}, and {a} wins it {p} of the time.",
+        a=a,
+        b=b,
+        **rated,
+        gap=points(abs(first - second)),
+        error=points(now.difference_error),
+        race=race(now.race),
+        p=percent(now.p_win),
     )
 
 
 def _more_in_words(more: Sequence[OneMore], now: Standing) -> str:
     changes = [
-        f"If {one.winner} wins their next match {one.score}, the race becomes "
-        f"{race(one.then.race)}."
+        say(
+            "If {winner} wins their next match {score}, the race becomes {race}.",
+            winner=one.winner,
+            score=one.score,
+            race=race(one.then.race),
+        )
         for one in more
         if one.then.race is not None and one.then.race != now.race
     ]
     if more and not changes:
-        return "Whoever wins their next match, that race stays."
-    return " ".join(changes)
+        return say("The race stays the same whoever wins their next match.")
+    return joined(changes)
 
 
 def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
@@ -168,7 +193,7 @@ def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
         for player in pair
         for source in rating_sources(ratings, player)
     ]
-    title = "What the ratings are made of: each is the average of its sources, by weight."
+    title = say("What the ratings are made of: each is the average of its sources, by weight.")
     return Table("sources", columns, rows, title)
 
 
@@ -185,7 +210,7 @@ def _more_table(
     )
     rows = [
         (
-            f"{one.winner} wins {one.score}",
+            say("{winner} wins {score}", winner=one.winner, score=one.score),
             one.then.ratings[0] - now.ratings[0],
             one.then.ratings[1] - now.ratings[1],
             one.then.race,
@@ -193,7 +218,7 @@ def _more_table(
         )
         for one in more
     ]
-    title = "What one more match between the two would change, at their fair race:"
+    title = say("What one more match between the two would change, at their fair race:")
     return Table("", columns, rows, title)
 
 
@@ -208,8 +233,11 @@ def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) 
     rows = [
         (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most
     ]
-    which = f"the {len(most)} that matter most of {len(own)}" if len(own) > len(most) else "all"
-    title = f"The matches behind the rating of {name}: {which if own else 'none yet'}."
+    if len(own) > len(most):
+        which = say("the {n} that matter most of {all}", n=len(most), all=len(own))
+    else:
+        which = say("all") if own else say("none yet")
+    title = say("The matches behind the rating of {player}: {which}.", player=name, which=which)
     return Table("", columns, rows, title)
 
 

@@ -13,7 +13,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
 from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import chance, count_of, games, listed
+from evenbreak.answers.kit.wording import chance, count_of, games
 from evenbreak.chains.chain import Chain
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.limits import Limit, stochastic_limit
@@ -24,6 +24,7 @@ from evenbreak.chains.spectrum import Spectrum, spectrum
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import AccuracyError, ChainError, GameError
 from evenbreak.game import Game, graph_of
+from evenbreak.words import listed
 
 if TYPE_CHECKING:
     import networkx as nx

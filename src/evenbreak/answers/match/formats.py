@@ -8,7 +8,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import chance, count_of, listed, percent
+from evenbreak.answers.kit.wording import chance, count_of, percent
 from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.chains.ways import Way
 from evenbreak.games.rack import Rack
@@ -16,6 +16,7 @@ from evenbreak.matches.crossings import Crossing, Crossings
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.odds import MatchOdds
 from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
+from evenbreak.words import listed
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""

@@ -16,8 +16,9 @@ from evenbreak.answers.kit.columns import (
     table_by_column,
 )
 from evenbreak.answers.kit.parts import Quantities, Table
-from evenbreak.answers.kit.wording import chance, count_of, listed, percent
+from evenbreak.answers.kit.wording import chance, count_of, percent
 from evenbreak.answers.match.chain import Road, in_the_end, mean_steps_of
+from evenbreak.words import listed
 
 LEADING = 6
 """Eigenvalues that a person reads."""

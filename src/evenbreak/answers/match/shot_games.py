@@ -7,7 +7,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way
 from evenbreak.answers.kit.columns import columns_of, quantities_of
 from evenbreak.answers.kit.parts import Quantities, Table
-from evenbreak.answers.kit.wording import chance, count_of, listed, percent
+from evenbreak.answers.kit.wording import chance, count_of, percent
 from evenbreak.chains.ways import Way
 from evenbreak.matches.straight_pool import (
     Spot,
@@ -23,6 +23,7 @@ from evenbreak.practice.shots import (
     compare_shots,
     critical_p2,
 )
+from evenbreak.words import listed
 
 SAME = 1e-12
 """Two chances that differ by less are the same but for rounding."""

@@ -12,13 +12,14 @@ from evenbreak.answers.kit.by_way import error_of_share, luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.kit.wording import percent
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import NAMED, OURS, THEIRS, mirrored, order_of
 from evenbreak.teams.sealed import SealedLineUp, SealedNight, sealed
 from evenbreak.teams.solve import SolvedNight, solved, steps_of
+from evenbreak.words import Sentence, joined, listed, say, say_count
 
 MOST_DRAWS, _FEWEST_DRAWS = 400, 20
 """Draws of the ratings: fewer where a night takes long to solve."""
@@ -54,8 +55,8 @@ def lineup_answer(
     >>> us, them = Roster(["Ann", "Bo"], [600, 500]), Roster(["Cy", "Di"], [560, 540])
     >>> squads = Squad(us.players), Squad(them.players)
     >>> meeting = Meeting(us, them, squads, 5, SCALES["fargo"], (1,), "A")
-    >>> lineup_answer(meeting).sentences[0].partition(",")[0]
-    'Put up Ann: you then win the night 67% of the time'
+    >>> lineup_answer(meeting).sentences[0]
+    'Put up Ann: you win the night 67% of the time if they make their best reply (Cy).'
     """
     if meeting.order == SEALED:
         return sealed_answer(meeting, warnings)
@@ -79,7 +80,7 @@ def lineup_answer(
     table = _table(found, sure, draws)
     tied = night.payoff(0) > 0.0 and 0 in night.leads_after(night.sets)
     parts: list[Part] = [
-        _in_words(found, named) + (" A tie counts as half a win." if tied else ""),
+        joined([_in_words(found, named), *([TIE] if tied else [])]),
         Quantities(quantities_of({"-p_win_night": found.worth, "best": _name(found.best)})),
         table,
     ]
@@ -107,7 +108,10 @@ def _name(option: Option) -> str:
     return names_words(option.names)
 
 
-def names_words(names: Sequence[str]) -> str:
+TIE = say("A tie counts as half a win.")
+
+
+def names_words(names: Sequence[str]) -> Sentence:
     """Return a pick: a player, or the pair of a doubles set.
 
     >>> names_words(["Ann"]), names_words(["Ann", "Bo"])
@@ -118,54 +122,73 @@ def names_words(names: Sequence[str]) -> str:
 
 def _heading(meeting: Meeting, found: Advice) -> str:
     ours, theirs = len(meeting.ours), len(meeting.theirs)
-    return (
-        f"Set {found.set_number} of {len(meeting.sizes)}: {ours} players against {theirs}, "
-        f"{race_words(meeting.race)}\nRatings "
-        f"{scale_words(meeting.scale)}"
+    return say(
+        "Set {n} of {sets}: {ours} players against {theirs}, {races}\nRatings {scale}",
+        n=found.set_number,
+        sets=len(meeting.sizes),
+        ours=ours,
+        theirs=theirs,
+        races=race_words(meeting.race),
+        scale=scale_words(meeting.scale),
     )
 
 
-def _in_words(found: Advice, named: Sequence[str]) -> str:
+def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
     best, p = found.best, percent(found.worth)
     worths = {option.worth for option in found.options}
     if worths in ({1.0}, {0.0}):
-        return f"The match is decided: you have {'won' if found.worth else 'lost'} it."
+        if found.worth:
+            return say("The match is decided: you have won it.")
+        return say("The match is decided: you have lost it.")
     if found.blind:
         mixed = [
-            f"{_name(option)} {percent(option.mix)}"
+            say("{pick} {share}", pick=_name(option), share=percent(option.mix))
             for option in sorted(found.options, key=lambda option: -option.mix)
             if option.mix > 5e-4
         ]
         if len(mixed) == 1:
-            return f"Put up {_name(best)}: you win the night {p} of the time at least."
-        return (
-            f"Pick at random, {listed(mixed)}: you then win the night {p} of the time, "
-            "whatever they do."
+            return say(
+                "Put up {pick}: you win the night at least {p} of the time.", pick=_name(best), p=p
+            )
+        return say(
+            "Pick at random, {picks}: you win the night {p} of the time, whatever they do.",
+            picks=listed(mixed),
+            p=p,
         )
     if found.ours and named:
-        return (
-            f"Answer {names_words(named)} with {_name(best)}: you then win the night {p} of the "
-            "time."
+        return say(
+            "Answer {theirs} with {pick}: you win the night {p} of the time.",
+            theirs=names_words(named),
+            pick=_name(best),
+            p=p,
         )
     if found.ours:
-        return (
-            f"Put up {_name(best)}: you then win the night {p} of the time, if they answer as well "
-            f"as they can (with {names_words(best.answer)})."
+        return say(
+            "Put up {pick}: you win the night {p} of the time if they make their best reply "
+            "({reply}).",
+            pick=_name(best),
+            p=p,
+            reply=names_words(best.answer),
         )
     if named:
-        return (
-            f"Their best answer to {names_words(named)} is {_name(best)}: you then win the night "
-            f"{p} of the time."
+        return say(
+            "Their best answer to {ours} is {pick}: you win the night {p} of the time.",
+            ours=names_words(named),
+            pick=_name(best),
+            p=p,
         )
-    return (
-        f"They name first. Their best pick is {_name(best)}; answer with "
-        f"{names_words(best.answer)}, and you win the night {p} of the time."
+    return say(
+        "They name first. Their best pick is {pick}; answer with {reply}, and you win the night "
+        "{p} of the time.",
+        pick=_name(best),
+        reply=names_words(best.answer),
+        p=p,
     )
 
 
 def _table(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> Table:
     sign = 1.0 if found.ours else -1.0
-    whose = "player" if found.ours else "their pick"
+    whose = say("player") if found.ours else say("their pick")
     columns = columns_of("pick p_win_night cost", whose=whose)
     answers = any(option.answer for option in found.options) and not found.blind
     if answers:
@@ -200,11 +223,13 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
     gap = abs(first - second)
     toss = {"name_first": first, "answer_first": second, "worth": gap}
     if gap < 5e-4:
-        return toss, "Who names first makes no difference."
-    better = "answer" if second > first else "name first"
-    return toss, (
-        f"If you win the toss, {better}: you win {percent(max(first, second))} of such nights, "
-        f"against {percent(min(first, second))} the other way round."
+        return toss, say("Who names first makes no difference.")
+    return toss, say(
+        "If you win the toss, {choice}: you win {better} of such nights, compared with {worse} the "
+        "other way round.",
+        choice=say("answer") if second > first else say("name first"),
+        better=percent(max(first, second)),
+        worse=percent(min(first, second)),
     )
 
 
@@ -223,13 +248,13 @@ def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
 
 
 def _order_words(name: str, order: str) -> str:
-    who = "you" if order[0] == OURS else "they"
+    who = say("you") if order[0] == OURS else say("they")
     return {
-        "alternate": f"in turn, {who} in set 1",
-        "home": f"always {who}",
-        "blind": "both at once, unseen",
-        "winner": f"the winner of the last set, {who} in set 1",
-        "loser": f"the loser of the last set, {who} in set 1",
+        "alternate": say("in turn, {who} in set 1", who=who),
+        "home": say("always {who}", who=who),
+        "blind": say("both at once, unseen"),
+        "winner": say("the winner of the last set, {who} in set 1", who=who),
+        "loser": say("the loser of the last set, {who} in set 1", who=who),
     }[name]
 
 
@@ -240,12 +265,19 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -
     best, share = _name(found.best), sure.get(found.best.names, 0.0)
     others = [names for names in sure if names != found.best.names]
     if share > 0.95 or not others:
-        return f"{best} is the best pick even if the ratings are off by what their errors allow."
-    return (
-        f"With ratings that are off by what their errors allow, {best} is the best pick "
-        f"{percent(share)} of the time and {names_words(others[0])} {percent(sure[others[0]])}, in "
-        f"{draws} draws ({luck_words([error_of_share(each, draws) for each in sure.values()])}); "
-        f"on average it is {best}."
+        return say(
+            "{pick} is the best pick even if the ratings are off by what their errors allow.",
+            pick=best,
+        )
+    return say(
+        "Given rating uncertainty, {pick} is the best pick {p} of the time and {other} {q}, in "
+        "{draws} draws ({luck}); on average it is {pick}.",
+        pick=best,
+        p=percent(share),
+        other=names_words(others[0]),
+        q=percent(sure[others[0]]),
+        draws=draws,
+        luck=luck_words([error_of_share(each, draws) for each in sure.values()]),
     )
 
 
@@ -277,15 +309,26 @@ def sealed_answer(
     found = solution or sealed(meeting.night())
     played = [one for one in found.ours if one.mix > 5e-4]
     if len(played) == 1:
-        words = f"Play {listed(list(played[0].names))}, in an order drawn at random"
+        line_up = listed(list(played[0].names))
+        words = say(
+            "Play {players}, in an order drawn at random: you win the night {p} of the time, "
+            "whatever they do.",
+            players=line_up,
+            p=percent(found.worth),
+        )
     else:
-        words = "Draw one of the line-ups below by its share, and its order at random"
+        words = say(
+            "Draw one of the line-ups below by its share, and its order at random: you win the "
+            "night {p} of the time, whatever they do.",
+            p=percent(found.worth),
+        )
     columns = columns_of("-name sits_out p_win_night cost mix")
     listing = found.ours[:_LISTED]
     rows = [
         [
             ", ".join(one.names),
-            ", ".join(name for name in meeting.ours.players if name not in one.names) or "nobody",
+            ", ".join(name for name in meeting.ours.players if name not in one.names)
+            or say("nobody"),
             one.worth,
             max(0.0, found.worth - one.worth),
             one.mix,
@@ -293,17 +336,26 @@ def sealed_answer(
         for one in listing
     ]
     left = len(found.ours) - len(listing)
-    more = f" {count_of(left, 'more line-up')} not listed." if left else ""
+    notes = [say("Against a random order, every order of theirs is worth the same.")]
+    if left:
+        notes.append(
+            say_count("{n} more line-up is not listed.", "{n} more line-ups are not listed.", left)
+        )
     table = Table("options", columns, rows)
     return Answer(
-        f"Sealed line-ups of {count_of(len(meeting.sizes), 'set')}: {len(meeting.ours)} players "
-        f"against {len(meeting.theirs)}, {race_words(meeting.race)}\nRatings "
-        f"{scale_words(meeting.scale)}",
+        say(
+            "Sealed line-ups of {sets}: {ours} players against {theirs}, {races}\nRatings {scale}",
+            sets=say_count("{n} set", "{n} sets", len(meeting.sizes)),
+            ours=len(meeting.ours),
+            theirs=len(meeting.theirs),
+            races=race_words(meeting.race),
+            scale=scale_words(meeting.scale),
+        ),
         [
-            f"{words}: you win the night {percent(found.worth)} of the time, whatever they do.",
+            words,
             Quantities(quantities_of({"-p_win_night": found.worth, "best": _best(found.ours)})),
             table,
-            f"Against a random order, every order of theirs is worth the same.{more}",
+            joined(notes),
         ],
         data={"toss": None, "blind": True, "ours": True, "set": 1},
         warnings=warnings,
@@ -315,12 +367,14 @@ def _best(line_ups: Sequence[SealedLineUp]) -> str:
     return ", ".join(line_ups[0].names)
 
 
-def race_words(race: Race) -> str:
+def race_words(race: Race) -> Sentence:
     """Return what is played in a set.
 
     >>> race_words(5), race_words(Fairest(7))
     ('races to 5', 'the fairest races to 7')
     """
     if isinstance(race, Fairest):
-        return f"the fairest races to {race.race_to}"
-    return f"races to {race}" if isinstance(race, int) else f"races by {race.name}"
+        return say("the fairest races to {n}", n=race.race_to)
+    if isinstance(race, int):
+        return say("races to {n}", n=race)
+    return say("races by {chart}", chart=race.name)

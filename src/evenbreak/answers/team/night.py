@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from evenbreak.answers.kit.wording import count_of, listed, percent
-from evenbreak.answers.team.lineup import names_words, race_words
+from evenbreak.answers.kit.wording import percent
+from evenbreak.answers.team.lineup import TIE, names_words, race_words
 from evenbreak.teams.evening.choices import choices
 from evenbreak.teams.evening.events import (
     Begun,
@@ -20,14 +20,22 @@ from evenbreak.teams.evening.events import (
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import NightPlan
 from evenbreak.teams.night import WINNER
+from evenbreak.words import Sentence, joined, listed, say, say_count
 
 _DECIDED = 1e-9
 
 
 def night_words(state: TeamEvening) -> str:
     """Return what is played tonight."""
-    counted = "" if state.plan.count == "sets" else f", all {state.plan.count} count"
-    return f"{count_of(state.plan.sets, 'set')}, {race_words(state.meeting.race)}{counted}"
+    played = [
+        say_count("{n} set", "{n} sets", state.plan.sets),
+        race_words(state.meeting.race),
+    ]
+    if state.plan.count == "games":
+        played.append(say("all games count"))
+    elif state.plan.count == "points":
+        played.append(say("all points count"))
+    return joined(played, ", ")
 
 
 def decided(state: TeamEvening, chances: tuple[float, float] | None) -> bool:
@@ -47,39 +55,58 @@ def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str
     """
     (first, second), (a, b) = state.teams, state.score
     if state.over and a == b:
-        return "The night ends in a tie."
+        return say("The night ends in a tie.")
     if decided(state, chances):
         won = a > b if state.over or chances is None else chances[0] > 0.5
-        return f"{(second, first)[won]} has won the night."
+        return say("{team} has won the night.", team=(second, first)[won])
     left = sum(line.score is None for line in state.sets)
     if state.plan.count != "sets":
         if a == b:
-            return f"The score is level with {count_of(left, 'set')} to finish."
-        ahead = count_of(abs(a - b), state.plan.count.removesuffix("s"))
-        return f"{state.teams[a < b]} leads by {ahead} with {count_of(left, 'set')} to finish."
+            return say("The score is level with {sets} left.", sets=_sets_words(left))
+        ahead = say_count("{n} game", "{n} games", abs(a - b))
+        if state.plan.count == "points":
+            ahead = say_count("{n} point", "{n} points", abs(a - b))
+        return say(
+            "{team} leads by {lead} with {sets} left.",
+            team=state.teams[a < b],
+            lead=ahead,
+            sets=_sets_words(left),
+        )
     needed = [state.plan.sets // 2 + 1 - won for won in (a, b)]
-    return (
-        f"To win the night {first} needs {needed[0]} of the {count_of(left, 'set')} to finish, "
-        f"and {second} needs {needed[1]}."
+    return say(
+        "To win the night {first} needs {n} of the {sets} left, and {second} needs {m}.",
+        first=first,
+        n=needed[0],
+        sets=_sets_words(left),
+        second=second,
+        m=needed[1],
     )
+
+
+def _sets_words(n: int) -> Sentence:
+    return say_count("{n} set", "{n} sets", n)
 
 
 def chance_words(state: TeamEvening, chances: tuple[float, float]) -> str:
     """Return how often each team wins the night from here."""
     first, second = state.teams
     counted = state.plan.count == "sets" and state.plan.sets % 2
-    tied = "" if counted else " A tie counts as half a win."
-    return (
-        f"{first} wins the night {percent(chances[0])} of the time, and {second} wins it "
-        f"{percent(chances[1])}.{tied}"
+    text = say(
+        "{first} wins the night {p} of the time, {second} {q}.",
+        first=first,
+        p=percent(chances[0]),
+        second=second,
+        q=percent(chances[1]),
     )
+    return text if counted else joined([text, TIE])
 
 
 def cap_words(state: TeamEvening, team: int) -> list[str]:
     """Return how far a team's caps are used up, and who can still be put up."""
     found = choices(state, team)
-    lines = [
-        f"{cap.name.capitalize()} so far: {cap.total:g} of {cap.most:g}." for cap in found.caps
+    lines: list[str] = [
+        say("So far {cap} is {total:g} of {most:g}.", cap=cap.name, total=cap.total, most=cap.most)
+        for cap in found.caps
     ]
     line = state.to_name
     if line is None or not found.caps:
@@ -89,11 +116,15 @@ def cap_words(state: TeamEvening, team: int) -> list[str]:
     if line.picks[team] and not state.unseen(line.number):  # nothing to choose before the answer
         return lines
     if not found.barred:
-        return [*lines, "Everybody who has not played can still be put up."]
+        return [*lines, say("Every player who has not played can still be put up.")]
     return [
         *lines,
-        f"{listed(found.barred)} cannot be put up in set {line.number}: the sets after it could "
-        "no longer be filled within the limit.",
+        say(
+            "{players} can't be put up in set {n}: the sets after it could no longer be filled "
+            "within the limit.",
+            players=listed(found.barred),
+            n=line.number,
+        ),
     ]
 
 
@@ -102,11 +133,12 @@ def waiting_words(state: TeamEvening) -> str:
     line = state.to_name
     if line is None or state.due:
         return ""
-    who = "winner" if state.meeting.order[line.number - 1] == WINNER else "loser"
-    return (
-        f"The {who} of set {line.number - 1} names first in set {line.number}, so enter its result "
-        "first."
-    )
+    sets = {"last": line.number - 1, "n": line.number}
+    if state.meeting.order[line.number - 1] == WINNER:
+        return say(
+            "The winner of set {last} names first in set {n}, so enter its result first.", **sets
+        )
+    return say("The loser of set {last} names first in set {n}, so enter its result first.", **sets)
 
 
 def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
@@ -147,21 +179,35 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
     >>> plan = NightPlan((us, them), 2, race=5)
     >>> one = Event("2025-03-01T19:30:00", PutUp(0, 1, ("Ann",)))
     >>> event_words(one, plan, {1}), event_words(one, plan, set())
-    ('Racks put up Ann in set 1', 'Racks put up somebody in set 1')
+    ('Racks put up Ann in set 1', 'Racks put up a player in set 1')
     """
     names = [team.name for team in plan.teams]
     match event.what:
         case Begun():
-            return f"{names[0]} against {names[1]} begun"
+            return say("start of {a} against {b}", a=names[0], b=names[1])
         case PutUp(team, number, pick):
-            who = names_words(pick) if number in shown else "somebody"
-            return f"{names[team]} put up {who} in set {number}"
+            if number not in shown:
+                return say("{team} put up a player in set {n}", team=names[team], n=number)
+            return say(
+                "{team} put up {players} in set {n}",
+                team=names[team],
+                players=names_words(pick),
+                n=number,
+            )
         case HandedIn(team, picks):
-            who = f": {', '.join(map(names_words, picks))}" if shown else ""
-            return f"{names[team]} handed in the line-up{who}"
+            if not shown:
+                return say("{team} handed in the line-up", team=names[team])
+            line_up = joined(map(names_words, picks), ", ")
+            return say("{team} handed in the line-up: {players}", team=names[team], players=line_up)
         case Proposed(team, number, score):
-            return f"{names[team]} says {score[0]}:{score[1]} in set {number}"
+            return say(
+                "{team} reports {a}:{b} in set {n}",
+                team=names[team],
+                a=score[0],
+                b=score[1],
+                n=number,
+            )
         case Result(number, score):
-            return f"result of set {number}: {score[0]}:{score[1]}"
+            return say("result of set {n}: {a}:{b}", n=number, a=score[0], b=score[1])
         case Undone():
-            return "the last entry undone"
+            return say("last entry undone")

@@ -10,10 +10,11 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.arrays import Ints
 from evenbreak.teams.season.chances import SeasonChances
 from evenbreak.teams.season.season import TeamSeason
+from evenbreak.words import listed
 
 _HOME, _AWAY = 0, 2
 _NOTHING = 5e-4  # a change that is not listed

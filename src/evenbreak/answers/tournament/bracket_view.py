@@ -14,17 +14,23 @@ from itertools import pairwise
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.events import race_words
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.words import Sentence, say
 
 _MAIN = ("winners", "knock-out")
 """The sides that a final belongs to."""
 
 _NAME = re.compile(r"([A-Z]+)(\d+)\.(\d+)")
 _TITLES = {
-    "winners": "Winners' side",
-    "losers": "Losers' side",
-    "consolation": "Consolation",
-    "third place": "Third place",
+    "winners": say("Winners' side"),
+    "losers": say("Losers' side"),
+    "consolation": say("Consolation"),
+    "third place": say("Third place"),
+    "knock-out": say("Knock-out"),
+    "round robin": say("Round robin"),
+    "king of the hill": say("King of the hill"),
+    "Swiss": say("Swiss"),
 }
 
 
@@ -91,8 +97,7 @@ class Box:
         """What is raced to, such as 'race to 5', unlike a score; '' where it is not known."""
         if self.needs is None:
             return ""
-        one, other = self.needs
-        return f"race to {one}" if one == other else f"race {one}:{other}"
+        return race_words(self.needs)
 
 
 @dataclass(frozen=True)
@@ -184,16 +189,24 @@ def _panel(state: Evening, side: str, matches: list[Match]) -> Panel:
     for k in range(last + 1):
         here = [match for match in matches if columns[match.name] == k]
         headings.append(_heading(here[0]) if here else "")
-    title = _TITLES.get(side, side[:1].upper() + side[1:])
+    kind, _, letter = side.partition(" ")
+    title: str = _TITLES.get(side) or side[:1].upper() + side[1:]
+    if kind == "group":
+        title = say("Group {name}", name=letter)
     if side == "winners" and not any(match.side == "losers" for match in state.bracket.matches):
         title = ""
     return Panel(title, tuple(headings), boxes)
 
 
+_FINALS = {
+    "final": say("Final"),
+    "second final": say("Second final"),
+    "third place": say("Third place"),
+}
+
+
 def _heading(match: Match) -> str:
-    return {"final": "Final", "second final": "Second final", "third place": "Third place"}.get(
-        match.side, f"Round {match.round}"
-    )
+    return _FINALS.get(match.side) or say("Round {n}", n=match.round)
 
 
 def _columns(matches: list[Match]) -> dict[str, int]:
@@ -283,11 +296,16 @@ def _box(state: Evening, match: Match, column: int, height: float, to: str) -> B
 
 def _from(slot: int | Source) -> str:
     """Return where the player of an empty slot comes from."""
-    if not isinstance(slot, Source):
-        return ""
+    return source_words(slot) if isinstance(slot, Source) else ""
+
+
+def source_words(slot: Source) -> Sentence:
+    """Return where a player comes from, such as 'winner of W1.2'."""
     if isinstance(slot.outcome, int):
-        return f"number {slot.outcome} of {slot.match}"
-    return f"{slot.outcome} of {slot.match}"
+        return say("number {n} of {group}", n=slot.outcome, group=slot.match)
+    if slot.outcome == "winner":
+        return say("winner of {match}", match=slot.match)
+    return say("loser of {match}", match=slot.match)
 
 
 def short_names(names: Iterable[str]) -> dict[str, str]:

@@ -10,15 +10,18 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import clock, count_of, share
+from evenbreak.answers.kit.wording import share
 from evenbreak.answers.tournament.time import (
+    CHANGES,
     WORTH_SAYING,
+    earlier_words,
     ends_words,
     finish_luck,
     finish_quantities,
     minute_of_day,
     time_of_day,
 )
+from evenbreak.answers.tournament.tournament import against
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.evenings import event_pace
@@ -26,26 +29,37 @@ from evenbreak.tournaments.clock.finish import bands_of
 from evenbreak.tournaments.evening.events import Result, as_dict, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.words import Sentence, joined, ordinal, say, say_count
 
 
-def chip_heading(state: Evening) -> str:
+def chip_heading(state: Evening) -> Sentence:
     """Return what is played, in words."""
     chart = "" if state.plan.chips is None else state.plan.chips.name
-    return f"Chips by the chart {chart}, on {count_of(state.plan.tables, 'table')}"
+    return say_count(
+        "Chips by the chart {chart}, on {n} table",
+        "Chips by the chart {chart}, on {n} tables",
+        state.plan.tables,
+        chart=chart,
+    )
 
 
-def rack_words(result: Result) -> str:
+def rack_words(result: Result) -> Sentence:
     """Return who won a rack.
 
     >>> rack_words(Result("R7", ("Ann", "Bo"), (0, 1), "Bo"))
     'Bo beat Ann in R7'
     """
     if result.forfeit:
-        return f"{score_words(result)} in {result.match}"
-    return f"{result.winner} beat {result.loser} in {result.match}"
+        return say("{result} in {match}", result=score_words(result), match=result.match)
+    return say(
+        "{winner} beat {loser} in {match}",
+        winner=result.winner,
+        loser=result.loser,
+        match=result.match,
+    )
 
 
-def chip_changes(before: Evening, after: Evening) -> list[str]:
+def chip_changes(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words whose chips have changed, and who comes to a table."""
     if not (before.drawn and after.drawn):
         return []
@@ -54,37 +68,51 @@ def chip_changes(before: Evening, after: Evening) -> list[str]:
     for name, chips in now.chips.items():
         if was.chips.get(name, chips) == chips:
             continue
-        words = f"{name} has {count_of(chips, 'chip') if chips else 'no chips'} left"
+        left = {"player": name, "chips": _chips_words(chips)}
         if name in now.gone:
-            place = len(now.order) + len(now.gone) - now.gone.index(name)
-            words += f" and finishes in place {place}"
+            place = ordinal(len(now.order) + len(now.gone) - now.gone.index(name))
+            said.append(say("{player} has {chips} left and finishes {place}.", place=place, **left))
         elif name in now.line:
-            words += f" and is number {now.line.index(name) + 1} in the line"
-        said.append(f"{words}.")
+            spot = now.line.index(name) + 1
+            said.append(say("{player} has {chips} left and is no. {n} in line.", n=spot, **left))
+        else:
+            said.append(say("{player} has {chips} left.", **left))
     seated = {(one.table, one.players) for one in was.playing}
     said += [
-        f"Table {one.table}: {' against '.join(one.players)}."
+        say("Table {n}: {pair}.", n=one.table, pair=against(one.players))
         for one in now.playing
         if (one.table, one.players) not in seated
     ]
     if len(now.order) > 1:
-        said += [f"Table {k} is closed." for k in was.tables if k not in now.tables]
+        said += [say("Table {n} is closed.", n=k) for k in was.tables if k not in now.tables]
     gone = {one.result.match for one in before.aside}
     came = [rack_words(one.result) for one in after.aside if one.result.match not in gone]
-    said += [f"Set aside: {words}." for words in came]
+    said += [say("Set aside: {result}.", result=words) for words in came]
     back = gone & after.counted.keys()
-    said += [f"Counts again: {rack_words(after.counted[name])}." for name in sorted(back)]
-    return said
+    return said + [
+        say("Counts again: {results}.", results=rack_words(after.counted[name]))
+        for name in sorted(back)
+    ]
 
 
-def entered_words(state: Evening, name: str) -> str:
+def _chips_words(chips: int) -> Sentence:
+    return say_count("{n} chip", "{n} chips", chips) if chips else say("no chips")
+
+
+def entered_words(state: Evening, name: str) -> Sentence:
     """Return where a late player goes."""
     night = state.chip_night
-    entered = f"{name} has entered with {count_of(night.chips[name], 'chip')}"
+    entered = {"player": name, "chips": _chips_words(night.chips[name])}
     if name in night.line:
-        return f"{entered} and is number {night.line.index(name) + 1} in the line."
+        return say(
+            "{player} has entered with {chips} and is no. {n} in line.",
+            n=night.line.index(name) + 1,
+            **entered,
+        )
     rack = next(rack for rack in night.playing if name in rack.players)
-    return f"{entered} and plays on table {rack.table}."
+    return say(
+        "{player} has entered with {chips} and plays on table {table}.", table=rack.table, **entered
+    )
 
 
 def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answer:
@@ -124,10 +152,12 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
         parts.insert(0, finish_quantities(finishes))
         luck.append(finish_luck(finishes))
         begun = minute_of_day(night.start)
-        words += [f"Next in the line: {name}." for name in state.chip_night.line[:1]]
+        words += [say("Next in line: {player}.", player=name) for name in state.chip_night.line[:1]]
         words.append(ends_words(*(begun + at for at in bands_of(finishes)[0])))
     else:
-        words += [f"{name} wins the tournament." for name in state.chip_night.order]
+        words += [
+            say("{player} wins the tournament.", player=name) for name in state.chip_night.order
+        ]
     table = _players(night, playing=playing)
     pairs = zip(state.order, odds.title.tolist(), night.as_if_sure.title.tolist(), strict=True)
     data = {
@@ -137,11 +167,14 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
         "set_aside": [as_dict(one.result) for one in state.aside],
     }
     warnings = [
-        f"{rack_words(one.result)}, but after the correction one of them had no chips left by "
-        "then; the rack is kept but does not count, and its chip is given back"
+        say(
+            "{result}, but after the correction one of them had no chips left by then; the rack is "
+            "on hold, and its chip is given back",
+            result=rack_words(one.result),
+        )
         for one in state.aside
     ]
-    shown: list[Part] = ["\n".join(words), *parts, table]
+    shown: list[Part] = [joined(words, "\n"), *parts, table]
     return Answer(heading, shown, details=luck, warnings=warnings, data=data, csv=table)
 
 
@@ -153,7 +186,7 @@ def _tables(night: Outlook) -> Table:
             rack.table,
             rack.name,
             rack.players,
-            f"since {time_of_day(begun + night.minutes(rack.since))}",
+            say("since {time}", time=time_of_day(begun + night.minutes(rack.since))),
         ]
         for rack in night.state.chip_night.playing
     ]
@@ -208,24 +241,29 @@ def chip_time_answer(
     bands, _ = bands_of(finishes)
     begun = minute_of_day(outlook.start)
     words = ends_words(*(begun + at for at in bands))
-    changes = {"one_more_table": usual + 1, "one_table_fewer": usual - 1}
     rows = []
-    for key, many in changes.items():
+    for key, many in {"one_more_table": usual + 1, "one_table_fewer": usual - 1}.items():
         if many:
             moved = outlook.chip_finishes(tables=many, turnover=turnover)
             later = float(np.median(moved)) - bands[1]
-            rows.append([key, f"With {key.replace('_', ' ')}", later])
+            rows.append([key, say("With {change}", change=CHANGES[key]), later])
             if key == "one_more_table" and later <= -WORTH_SAYING:
-                words += f" With one more table it would end {clock(-later)} earlier."
+                words = joined([words, earlier_words(key, -later)])
     columns = columns_of("-change in_words minutes_later")
-    change = Table("what_if", columns, rows, title="What if")
+    change = Table("what_if", columns, rows, title=say("What if"))
     parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
     plain = event_pace(state.plan.discipline).mean_minutes(1)
-    usual_words = (
-        f"A rack of {state.plan.discipline} usually takes about {plain:.0f} minutes, with the "
-        "change of players."
+    usual_words = say(
+        "A rack of {game} usually takes about {minutes:.0f} minutes, with the change of players.",
+        game=state.plan.discipline,
+        minutes=plain,
     )
     if timed := len(outlook.timed):
-        usual_words += f" The {count_of(timed, 'rack')} timed so far tonight adjust that."
+        adjusted = say_count(
+            "The {n} rack timed so far tonight adjusts that.",
+            "The {n} racks timed so far tonight adjust that.",
+            timed,
+        )
+        usual_words = joined([usual_words, adjusted])
     parts.append(usual_words)
     return Answer(heading, parts, csv=change, data={"start": outlook.start.isoformat()})

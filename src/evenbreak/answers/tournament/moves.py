@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from evenbreak.answers.kit.wording import some_of
+from evenbreak.answers.league.prior import unrated_words
 from evenbreak.answers.tournament.chips import chip_changes, entered_words, rack_words
 from evenbreak.answers.tournament.night import waits_for
-from evenbreak.answers.tournament.tournament import slot_words, unrated_words
+from evenbreak.answers.tournament.tournament import (
+    against,
+    met_words,
+    place_words,
+)
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.bracket_of_plan import KNOCK_OUT, pairings
@@ -31,9 +36,10 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.losses import losses
 from evenbreak.tournaments.evening.settling import TieBreak
+from evenbreak.words import Sentence, joined, say
 
 
-def happened(before: Evening, after: Evening, event: Event) -> list[str]:
+def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
     """Return in words what a result changed: who moves where, what no longer counts.
 
     Parameters
@@ -47,8 +53,8 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
         return []
     result = event.what
     if after.plan.form == "chips":
-        return [f"{rack_words(result)}.", *chip_changes(before, after)]
-    said = [f"{score_words(result)} in {result.match}."]
+        return [say("{result}.", result=rack_words(result)), *chip_changes(before, after)]
+    said = [_result_words(result.match, result)]
     if any(_leads_on(after, result.match)):
         said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
     if result.corrects and after.plan.form == "swiss":
@@ -56,16 +62,31 @@ def happened(before: Evening, after: Evening, event: Event) -> list[str]:
     return [*said, *reopened(before, after, result.match)]
 
 
-def _kept_rounds(state: Evening, match: str) -> list[str]:
+def _result_words(match: str, result: Result) -> Sentence:
+    return say("{result} in {match}.", result=score_words(result), match=match)
+
+
+def _kept_rounds(state: Evening, match: str) -> list[Sentence]:
     """Return which rounds of a Swiss had been paired with the result that was corrected."""
     first = int(match[1:].partition(".")[0]) + 1
     last = len(state.later)
     if last < first:
         return []
-    which = f"Round {first} was" if first == last else f"Rounds {first} to {last} were"
+    if first == last:
+        return [
+            say(
+                "Round {n} was paired by the result as it was before. The pairings stay, and the "
+                "standings count the corrected result.",
+                n=first,
+            )
+        ]
     return [
-        f"{which} paired by the result as it stood before; the pairings stay as they are, and the "
-        "standings count the corrected result."
+        say(
+            "Rounds {first} to {last} were paired by the result as it was before. The pairings "
+            "stay, and the standings count the corrected result.",
+            first=first,
+            last=last,
+        )
     ]
 
 
@@ -79,16 +100,16 @@ def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
     )
 
 
-def settled_words(before: Evening, after: Evening) -> list[str]:
+def settled_words(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words the results that count otherwise since a match was let stand."""
     return [
-        f"{score_words(result)} in {name}."
+        _result_words(name, result)
         for name, result in after.counted.items()
         if before.counted.get(name, result) != result
     ]
 
 
-def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
+def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentence]:
     """Return in words which matches are open again, and which results count again.
 
     Parameters
@@ -105,44 +126,62 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[str]:
     said = []
     gone = [name for name in before.counted if name not in after.counted and name != besides]
     if gone:
-        said.append(f"Open again: {some_of([_open_words(after, name) for name in gone])}.")
+        again = some_of([_open_words(after, name) for name in gone])
+        said.append(say("Must be replayed: {matches}.", matches=again))
     back = [
-        f"{score_words(result)} in {name}"
+        say("{result} in {match}", result=score_words(result), match=name)
         for name, result in after.counted.items()
         if name not in before.counted and name != besides and name in after.records
     ]
     if back:
-        said.append(f"Counts again: {'; '.join(back)}.")
+        said.append(say("Counts again: {results}.", results=joined(back, "; ")))
     return said
 
 
-def lost_words(before: Evening, after: Evening) -> list[str]:
+def lost_words(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words what an entry takes away besides that which it is about."""
     said = []
     for one in losses(before, after):
-        match = f"{one.match}, {' against '.join(one.players)},"
+        match = say("{match} ({pair})", match=one.match, pair=against(one.players))
         at = "" if one.score is None or not any(one.score) else "{}:{}".format(*one.score)
         if one.result is not None:
-            said.append(f"{one.match}, {score_words(one.result)}, would no longer count.")
+            match = say("{match} ({result})", match=one.match, result=score_words(one.result))
+            said.append(say("{match} would no longer count.", match=match))
         elif one.table is None:
-            said.append(f"{match} would end at {at}.")
+            said.append(say("{match} would end at {score}.", match=match, score=at))
         elif after.drawn and after.plan.form == "chips" and one.match in after.on_tables:
-            now = " against ".join(after.pair(one.match))
-            said.append(f"{match} would be {now} on table {one.table}.")
+            now = against(after.pair(one.match))
+            said.append(
+                say(
+                    "{match} would become {pair} on table {table}.",
+                    match=match,
+                    pair=now,
+                    table=one.table,
+                )
+            )
+        elif at:
+            said.append(
+                say(
+                    "{match} would leave table {table} at {score}.",
+                    match=match,
+                    table=one.table,
+                    score=at,
+                )
+            )
         else:
-            said.append(f"{match} would leave table {one.table}{f' at {at}' if at else ''}.")
+            said.append(say("{match} would leave table {table}.", match=match, table=one.table))
     return said
 
 
 def _open_words(state: Evening, match: str) -> str:
     """Return a match with whoever plays it now, or what it waits for."""
     if match in state.standing.to_play:
-        return f"{match} ({' against '.join(state.pair(match))})"
+        return say("{match} ({pair})", match=match, pair=against(state.pair(match)))
     waits = waits_for(state, match)
-    return f"{match} (waits for {waits})" if waits else match
+    return say("{match} (waits for {matches})", match=match, matches=waits) if waits else match
 
 
-def _moves(state: Evening, match: str, player: str) -> str:
+def _moves(state: Evening, match: str, player: str) -> Sentence:
     """Return where a player goes from a match."""
     seat = state.order.index(player)
     for one in state.bracket.matches:
@@ -155,13 +194,17 @@ def _moves(state: Evening, match: str, player: str) -> str:
             if other == NOBODY:
                 continue
             rival = (
-                f"the {slot_words(state.bracket, one.slots[1 - k])}"
-                if other is None
-                else state.order[other]
+                met_words(state.bracket, one.slots[1 - k]) if other is None else state.order[other]
             )
-            return f"{player} goes to {one.name} and meets {rival}."
-    place = _place(state, match, player)
-    return f"{player} finishes in place {place}." if place else f"{player} has no match to come."
+            return say(
+                "{player} goes to {match} and meets {opponent}.",
+                player=player,
+                match=one.name,
+                opponent=rival,
+            )
+    if place := _place(state, match, player):
+        return say("{player} finishes {place}.", player=player, place=place_words(place))
+    return say("{player} has no match left.", player=player)
 
 
 def _place(state: Evening, match: str, player: str) -> Place | None:
@@ -170,132 +213,152 @@ def _place(state: Evening, match: str, player: str) -> Place | None:
     return played.winner_place if won else played.loser_place
 
 
-def forfeited(before: Evening, after: Evening) -> list[str]:
+def forfeited(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words what follows from a player going home."""
     gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
-    said = [f"{name} has dropped out." for name in sorted(gone)]
+    said = [say("{player} has withdrawn.", player=name) for name in sorted(gone)]
     if after.plan.form == "chips":
         return said + chip_changes(before, after)
     if after.drawn:
         said += [
-            f"{score_words(result)} in {name}."
+            _result_words(name, result)
             for name, result in after.counted.items()
             if name not in before.counted
         ]
     return said
 
 
-def entry_words(state: Evening, name: str) -> str:
+def entry_words(state: Evening, name: str) -> Sentence:
     """Return in words where a late player plays first."""
     entrant = state.entrants[name]
     plan = state.plan
     if (entrant.rating, entrant.standard_error) == (plan.starter, plan.starter_error):
-        return f"{_entered(state, name)} {unrated_words([name], plan.starter, plan.starter_error)}"
+        assumed = unrated_words([name], plan.starter, plan.starter_error)
+        return joined([_entered(state, name), assumed])
     return _entered(state, name)
 
 
-def _entered(state: Evening, name: str) -> str:
+def _entered(state: Evening, name: str) -> Sentence:
     if not state.drawn:
-        return f"{name} has entered."
+        return say("{player} has entered.", player=name)
     if state.plan.form == "chips":
         return entered_words(state, name)
     seat = state.order.index(name)
     for match, seats in state.standing.seats.items():
         if seat in seats:
             other = seats[1 - seats.index(seat)]
-            rival = "a player to come" if other is None else state.order[other]
-            return f"{name} has entered in place of a bye and meets {rival} in {match}."
-    return f"{name} has entered."
+            rival = say("an opponent not yet known") if other is None else state.order[other]
+            return say(
+                "{player} has entered in place of a bye and meets {opponent} in {match}.",
+                player=name,
+                opponent=rival,
+                match=match,
+            )
+    return say("{player} has entered.", player=name)
 
 
-def draw_words(before: Evening, after: Evening) -> str:
+def draw_words(before: Evening, after: Evening) -> Sentence:
     """Return what was drawn."""
-    said = [] if before.drawn else [f"{len(after.order)} players are drawn."]
+    said: list[Sentence] = []
+    if not before.drawn:
+        said.append(say("{n} players are drawn.", n=len(after.order)))
     for stage in after.later.keys() - before.later.keys():
         if stage == KNOCK_OUT:
-            said.append("The losers' qualifiers are drawn.")
+            said.append(say("The losers' qualifiers are drawn."))
         else:
             pairs = pairings(after.later)[int(stage[1:]) - 1]
             byes = [p.first for p in pairs if p.second is None]
-            bye = f"; {byes[0]} has a bye" if byes else ""
-            said.append(f"Round {stage[1:]} is drawn{bye}.")
-    return " ".join(said)
+            if byes:
+                said.append(
+                    say("Round {n} is drawn; {player} has a bye.", n=stage[1:], player=byes[0])
+                )
+            else:
+                said.append(say("Round {n} is drawn.", n=stage[1:]))
+    return joined(said)
 
 
-def undone_words(what: What) -> str:
+def undone_words(what: What) -> Sentence:
     """Return what was taken back.
 
     >>> undone_words(Result("W1.1", ("Ann", "Bo"), (7, 5), "Ann"))
-    'Taken back: Ann beat Bo 7:5 in W1.1.'
+    'Undone: Ann beat Bo 7:5 in W1.1.'
     """
-    return f"Taken back: {event_words(what)}."
+    return say("Undone: {entry}.", entry=event_words(what))
 
 
-def event_words(what: What) -> str:
+def event_words(what: What) -> Sentence:
     """Return what happened, in a few words.
 
     >>> event_words(Called("W1.1", 3, ("Ann", "Bo")))
-    'the call of W1.1 to table 3'
+    'call of W1.1 to table 3'
     """
     match what:
         case Result(corrects=corrects, stands=stands):
-            kind = "the correction " if corrects and not stands else ""
-            return f"{kind}{score_words(what)} in {what.match}"
+            found = say("{result} in {match}", result=score_words(what), match=what.match)
+            return say("correction: {result}", result=found) if corrects and not stands else found
         case Scored(match=match, score=score):
-            return f"the score {score[0]}:{score[1]} of {match}"
+            return say("score {a}:{b} in {match}", a=score[0], b=score[1], match=match)
         case Ranked():
-            return "the breaking of the ties"
+            return say("tie-break")
         case Called():
-            return f"the call of {what.match} to table {what.table}"
+            return say("call of {match} to table {table}", match=what.match, table=what.table)
         case CalledBack(match=match):
-            return f"{match} taken off its table"
+            return say("{match} taken off its table", match=match)
         case Drawn():
-            return "the draw"
+            return say("draw")
         case LaterDraw(stage=stage):
-            round_of = stage != KNOCK_OUT
-            return f"the draw of round {stage[1:]}" if round_of else "the draw of the qualifiers"
+            if stage == KNOCK_OUT:
+                return say("draw of the qualifiers")
+            return say("draw of round {n}", n=stage[1:])
         case _:
             return _entry_words(what)
 
 
-def history_words(events: Sequence[Event]) -> list[str]:
+def history_words(events: Sequence[Event]) -> list[Sentence]:
     """Return what happened in each entry, in a few words; of an undo, what it took back.
 
     >>> called = Event("2025-03-01T19:30:00", Called("W1.1", 3, ("Ann", "Bo")))
     >>> history_words([called, Event("2025-03-01T19:31:00", Undone(1))])[1]
-    'entry 1 taken back: the call of W1.1 to table 3'
+    'entry 1 undone: call of W1.1 to table 3'
     """
     said = [event_words(one.what) for one in events]
     for k, one in enumerate(events):
         if isinstance(one.what, Undone) and one.what.entry is not None:
-            said[k] += f": {said[one.what.entry - 1]}"
+            said[k] = say(
+                "entry {n} undone: {entry}", n=one.what.entry, entry=said[one.what.entry - 1]
+            )
     return said
 
 
-def _entry_words(what: What) -> str:
+def _entry_words(what: What) -> Sentence:
     """Return in words what concerns the list of players, or the evening as a whole."""
     match what:
         case Changed():
-            return "the change of tables or races"
+            return say("change of tables or races")
         case Late():
-            return f"the entry of {what.entrant.name}"
+            return say("entry of {player}", player=what.entrant.name)
         case Edited(name=name, entrant=entrant):
-            return f"{name} corrected to {entrant.name}, {entrant.rating:g}"
+            return say(
+                "{player} corrected to {name}, {rating:g}",
+                player=name,
+                name=entrant.name,
+                rating=entrant.rating,
+            )
         case Dropped():
-            return f"{what.name} dropping out"
+            return say("withdrawal of {player}", player=what.name)
         case Undone(entry=None):
-            return "the last entry taken back"
+            return say("last entry undone")
         case Undone(entry=entry):
-            return f"entry {entry} taken back"
+            return say("entry {n} undone", n=entry)
         case _:
-            return "the beginning"
+            return say("start")
 
 
-def tie_words(found: TieBreak) -> list[str]:
+def tie_words(found: TieBreak) -> list[Sentence]:
     """Return in words how ties were broken."""
-    said = [f"The order is {', '.join(found.ranked.order)}."]
+    said = [say("The order is {players}.", players=", ".join(found.ranked.order))]
     if found.by_lot:
-        said.append(f"Drawn by lot: {', '.join(found.by_lot)}.")
+        said.append(say("Drawn by lot: {players}.", players=", ".join(found.by_lot)))
     else:
-        said.append("Games won minus games lost broke the ties.")
+        said.append(say("Games won minus games lost broke the ties."))
     return said

@@ -10,7 +10,7 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import count_of, listed, percent
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament.odds import points_off
 from evenbreak.answers.tournament.prizes import Stake, stakes
@@ -21,7 +21,7 @@ from evenbreak.answers.tournament.time import (
     minute_of_day,
     time_of_day,
 )
-from evenbreak.answers.tournament.tournament import pair_words, races_words
+from evenbreak.answers.tournament.tournament import against, pair_words, races_words
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
@@ -34,11 +34,11 @@ from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.moves import free_tables
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.settling import tied_groups
+from evenbreak.words import Command, Sentence, joined, listed, say, say_count
 
 _LISTED = 8  # waiting matches that are named
-_UNDECIDED = (
-    "What each match decides is left out: many matches are still to be played, or something is "
-    "still to be drawn."
+_UNDECIDED = say(
+    "What each match decides is left out: many matches are left, or something is still to be drawn."
 )
 _SHOWN = 6  # players whose title odds everybody sees
 
@@ -49,16 +49,22 @@ def heading(outlook: Outlook, source: str = "") -> str:
     chips = state.plan.form == "chips"
     races = chip_heading(state) if chips else races_words(state.races)
     if not state.drawn:
-        text = f"{count_of(len(state.entrants), 'player')}, not drawn yet\n{races}"
+        count = say_count("{n} player", "{n} players", len(state.entrants))
+        text = say("{players}, not drawn yet\n{races}", players=count, races=races)
     else:
         form = state.bracket.format
         played = len(state.winners)
-        so_far = f"{count_of(played, 'match', 'matches')} decided"
+        so_far = say_count("{n} match decided", "{n} matches decided", played)
         if chips:
-            so_far = f"{count_of(played, 'rack')} played"
-        players = count_of(len(state.order), "player")
-        text = f"{form[0].upper()}{form[1:]}: {players}, {so_far}\n{races}"
-    return f"{source}: {text}" if source else text
+            so_far = say_count("{n} rack played", "{n} racks played", played)
+        text = say(
+            "{format}: {players}, {so_far}\n{races}",
+            format=form[0].upper() + form[1:],
+            players=say_count("{n} player", "{n} players", len(state.order)),
+            so_far=so_far,
+            races=races,
+        )
+    return say("{file}: {heading}", file=source, heading=text) if source else text
 
 
 def begun_at(outlook: Outlook) -> int:
@@ -117,11 +123,11 @@ def night_answer(
     else:
         first = [state.order[k] for k in np.flatnonzero(odds.title > 0.0).tolist()]
         if len(first) == 1:
-            words.append(f"{first[0]} wins the tournament.")
+            words.append(say("{player} wins the tournament.", player=first[0]))
         else:
-            words.append(f"First place is tied: {listed(first)}.")
+            words.append(say("First place is tied: {players}.", players=listed(first)))
             if state.plan.form != "swiss":
-                words[-1] += " Break the ties with: evenbreak tournament tiebreak"
+                words.append(_break_the_ties())
         parts.append(_places(state, odds.p_place, odds.bracket.places))
     if state.plan.form == "swiss":
         parts += swiss_table(state)
@@ -143,7 +149,7 @@ def night_answer(
         data["next"] = []  # nothing can be played before a draw or a tie-break
     warnings = [_aside_words(state, one.result) for one in state.aside]
     above = heading(night, source)
-    said_all: list[Part] = ["\n".join(words), *parts]
+    said_all: list[Part] = [joined(words, "\n"), *parts]
     return Answer(above, said_all, details=luck, warnings=warnings, data=data)
 
 
@@ -156,10 +162,15 @@ def _what_is_next(
     found, calls = night.as_things_are, night.calls
     tables = _tables(night)
     if tied:
-        words.append(
-            f"Group {' and '.join(tied)} {'is' if len(tied) == 1 else 'are'} tied. Break the "
-            "ties with: evenbreak tournament tiebreak"
-        )
+        words += [
+            say_count(
+                "Group {groups} is tied.",
+                "Groups {groups} are tied.",
+                len(tied),
+                groups=listed(tied),
+            ),
+            _break_the_ties(),
+        ]
     if can_draw(state):
         words.append(_draw_words(state))
     elif state.standing.to_play:
@@ -173,11 +184,17 @@ def _what_is_next(
     return words, parts
 
 
+def _break_the_ties() -> Sentence:
+    return say("To break the ties: {tiebreak}", tiebreak=Command("tournament tiebreak"))
+
+
 def _draw_words(state: Evening) -> str:
     """Return that something can be drawn now."""
     stage = str(stage_to_draw(state))
-    what = f"Round {stage[1:]}" if state.plan.form == "swiss" else "The losers' qualifiers"
-    return f"{what} can be drawn now, with: evenbreak tournament draw"
+    draw = Command("tournament draw")
+    if state.plan.form == "swiss":
+        return say("Round {n} can be drawn now: {draw}", n=stage[1:], draw=draw)
+    return say("The losers' qualifiers can be drawn now: {draw}", draw=draw)
 
 
 def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
@@ -191,8 +208,10 @@ def _title_table(night: Outlook) -> Table:
     sure = column_of("p_title_if_sure")
     shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
     few = [row[: len(shown)] for row in rows[:_SHOWN]]
-    luck = "" if night.odds.exact else f", give or take {points_off(night.odds, title=True)}"
-    return Table("", shown, few, title=f"Odds of the title{luck}")
+    title = say("Title odds")
+    if not night.odds.exact:
+        title = say("Title odds (± {points})", points=points_off(night.odds, title=True))
+    return Table("", shown, few, title=title)
 
 
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
@@ -202,35 +221,35 @@ def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answe
         columns.append(column_of("chips"))
         for row, entrant in zip(rows, state.entrants.values(), strict=True):
             row.append(chips_of(state.plan, entrant))
-    words = [*said, "Make the draw with: evenbreak tournament draw"]
-    return Answer(heading, ["\n".join(words), Table("entrants", columns, rows)])
+    words = [*said, say("To make the draw: {draw}", draw=Command("tournament draw"))]
+    return Answer(heading, [joined(words, "\n"), Table("entrants", columns, rows)])
 
 
 def _aside_words(state: Evening, result: Result) -> str:
     """Return what is to be done about a match that the wrong players have played."""
     name = result.match
     seats = state.standing.seats.get(name)
+    stand = Command("tournament stand", name)
+    play = say("Play {match} again, let it stand ({stand})", match=name, stand=stand)
     if seats is None:  # its draw was undone
-        now, play = "the match is not drawn now", ""
+        now, play = say("the match is not drawn now"), say("Draw again")
     elif NOBODY in seats:
-        now, play = "the match is not needed now", ""
+        now, play = say("the match is not needed now"), say("Let it stand ({stand})", stand=stand)
     elif None in seats:
-        waits = waits_for(state, name)
-        now, play = f"the match waits for {waits} now", f"Play {name} again, "
+        now = say("the match is waiting for {matches} now", matches=waits_for(state, name))
     else:
-        now = f"it is {' against '.join(state.pair(name))} now"
-        play = f"Play {name} again, "
-    stand = f"let it stand (evenbreak tournament stand {name})"
-    settle = f"{play}{stand}" if play else f"{stand[0].upper()}{stand[1:]}"
-    if seats is None:
-        settle = "Draw again"
-    return (
-        f"{score_words(result)} in {name}, but {now}; the result is kept but does not count. "
-        f"{settle} or undo the correction"
+        now = say("it is {pair} now", pair=against(state.pair(name)))
+    return say(
+        "{result} in {match}, but {now}, so that result is on hold. {settle} or undo the "
+        "correction",
+        result=score_words(result),
+        match=name,
+        now=now,
+        settle=play,
     )
 
 
-def waits_for(state: Evening, match: str) -> str:
+def waits_for(state: Evening, match: str) -> Sentence | str:
     """Return the matches whose result decides who plays a match."""
     seats = state.standing.seats[match]
     slots = state.bracket.match(match).slots
@@ -239,7 +258,7 @@ def waits_for(state: Evening, match: str) -> str:
         for slot, seat in zip(slots, seats, strict=True)
         if seat is None and isinstance(slot, Source)
     ]
-    return " and ".join(dict.fromkeys(sources))
+    return listed(list(dict.fromkeys(sources))) if sources else ""
 
 
 def _tables(night: Outlook) -> list[tuple[int | None, str]]:
@@ -261,29 +280,44 @@ def next_calls(night: Outlook) -> list[tuple[int, str]]:
 
 def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str:
     ready = [
-        f"{name}, {' against '.join(state.pair(name))}, on table {table}"
+        say(
+            "{match}, {pair}, on table {table}",
+            match=name,
+            pair=against(state.pair(name)),
+            table=table,
+        )
         for table, name in tables
         if table is not None and name not in state.on_tables
     ]
     waiting = [name for table, name in tables if table is None]
     said = []
     if ready:
-        said.append(f"Now play {'; '.join(ready)}.")
-    if waiting:
-        verb = "waits" if len(waiting) == 1 else "wait"
-        if len(waiting) <= _LISTED:
-            said.append(f"{listed(waiting)} {verb} for a table.")
-        else:
-            said.append(f"{len(waiting)} matches wait for a table or for their players.")
-    return " ".join(said) or "No match can be called before one of those on the tables ends."
+        said.append(say("Now play {matches}.", matches=joined(ready, "; ")))
+    if waiting and len(waiting) <= _LISTED:
+        said.append(
+            say_count(
+                "{matches} waits for a table.",
+                "{matches} wait for a table.",
+                len(waiting),
+                matches=listed(waiting),
+            )
+        )
+    elif waiting:
+        said.append(say("{n} matches wait for a table or for their players.", n=len(waiting)))
+    if not said:
+        return say("No match can be called until one on the tables is over.")
+    return joined(said)
 
 
 def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
     """Return which match decides most."""
     name, stake = next(iter(decided.items()))
-    pair = " against ".join(state.pair(name))
-    moves = percent(stake.title)
-    return f"{name}, {pair}, matters most for the title: its result moves {moves} of the odds."
+    return say(
+        "{match}, {pair}, matters most for the title: its result moves {share} of the odds.",
+        match=name,
+        pair=against(state.pair(name)),
+        share=percent(stake.title),
+    )
 
 
 def _next_table(
@@ -301,9 +335,9 @@ def _next_table(
         pair = state.pair(name)
         if name in state.on_tables:
             since = begun_at(night) + night.minutes(state.on_tables[name].at)
-            words = f"playing since {time_of_day(since)}"
+            words = say("playing since {time}", time=time_of_day(since))
         else:
-            words = "call" if table else "waits for a table"
+            words = say("call") if table else say("waits for a table")
         score = night.scores.get(name)
         rows.append([name, pair, state.needed(name, pair), score, table, words])
         if calls:
@@ -348,7 +382,9 @@ def bracket_table(state: Evening) -> Table:
         result = state.counted.get(match.name)
         score = winner = None
         if result is not None:
-            winner = f"{result.winner} (forfeit)" if result.forfeit else result.winner
+            winner = result.winner
+            if result.forfeit:
+                winner = say("{player} (forfeit)", player=winner)
             games = result.games
             score = None if result.forfeit else (games[names[0]], games[names[1]])
         on_table = state.on_tables.get(match.name)
@@ -368,5 +404,5 @@ def swiss_table(state: Evening) -> list[Part]:
         return []
     rows = swiss_standings(swiss_of(state.plan, state.order), over)
     columns = columns_of("name matches_won buchholz")
-    title = f"Standings after round {len(over)}"
+    title = say("Standings after round {n}", n=len(over))
     return [Table("standings", columns, [list(row) for row in rows], title=title)]

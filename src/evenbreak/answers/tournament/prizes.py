@@ -15,6 +15,7 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.calcutta import calcutta, fair_shares, lot_worth
 from evenbreak.tournaments.money.payouts import Payouts
 from evenbreak.tournaments.odds.title import PlaceOdds
+from evenbreak.words import Sentence, joined, say, say_count
 
 
 def tournament_prizes_answer(
@@ -52,16 +53,18 @@ def tournament_prizes_answer(
     amounts = payouts.amounts(entrants, pot)
     paid = sum(amounts)
     if len(amounts) > entrants:
-        raise InputError(f"{len(amounts)} places are paid, but there are {entrants} players")
-    left = "" if pot - paid < 0.005 else f"; the other {pot - paid:.2f} of {pot:.2f} is the house's"
+        raise InputError(
+            "{places} places are paid, but there are {players} players",
+            places=len(amounts),
+            players=entrants,
+        )
     places = Table(
         "places",
         columns_of("place share money"),
         [[k, amount / pot if pot else 0.0, amount] for k, amount in enumerate(amounts, start=1)],
     )
     parts: list[Part] = [
-        f"{paid:.2f} is paid to {count_of(len(amounts), 'place')} of "
-        f"{count_of(entrants, 'player')}: {amounts[0]:.2f} for the winner{left}.",
+        _paid_words(amounts, entrants, pot),
         Quantities(quantities_of({"pot": pot, "paid": paid})),
         places,
     ]
@@ -70,9 +73,27 @@ def tournament_prizes_answer(
         csv = _expected(odds, amounts)
         parts.append(csv)
     else:
-        parts.append("What each player may expect is known after the draw.")
-    how = f"Shares: {payouts.name}" + (f" ({payouts.source})." if payouts.source else ".")
-    return Answer(source or "Prizes", [*parts, how], csv=csv)
+        parts.append(say("Each player's expected payout is known after the draw."))
+    how = say("Shares: {payouts}.", payouts=payouts.name)
+    if payouts.source:
+        how = say("Shares: {payouts} ({source}).", payouts=payouts.name, source=payouts.source)
+    return Answer(source or say("Prizes"), [*parts, how], csv=csv)
+
+
+def _paid_words(amounts: Sequence[float], entrants: int, pot: float) -> Sentence:
+    paid = sum(amounts)
+    text = say_count(
+        "{paid:.2f} is paid to {n} place of {players} players: {winner:.2f} for the winner.",
+        "{paid:.2f} is paid to {n} places of {players} players: {winner:.2f} for the winner.",
+        len(amounts),
+        paid=paid,
+        players=entrants,
+        winner=amounts[0],
+    )
+    if pot - paid < 0.005:
+        return text
+    left = say("The other {left:.2f} of {pot:.2f} is the house's.", left=pot - paid, pot=pot)
+    return joined([text, left])
 
 
 def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:
@@ -86,7 +107,7 @@ def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:
         )
     ]
     rows.sort(key=lambda row: -row[2])
-    return Table("players", columns, rows, title="What each player may expect")
+    return Table("players", columns, rows, title=say("Expected payouts"))
 
 
 def calcutta_answer(

@@ -11,13 +11,14 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of, quantity_of
 from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
 from evenbreak.answers.kit.scales import form_used_words
-from evenbreak.answers.kit.wording import clock, count_of
+from evenbreak.answers.kit.wording import clock
 from evenbreak.answers.tournament.tournament import Tournament, pair_words
 from evenbreak.arrays import Floats
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
 from evenbreak.tournaments.clock.finish import QUANTILES, Finish, bands_of, finish, minutes_later
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
+from evenbreak.words import Sentence, joined, say, say_count
 
 _DAY = 24 * 60
 
@@ -41,17 +42,23 @@ def minute_of_day(moment: datetime) -> int:
     return 60 * moment.hour + moment.minute
 
 
-def ends_words(early: float, middle: float, late: float) -> str:
+def ends_words(early: float, middle: float, late: float) -> Sentence:
     """Return when something ends, all times in minutes after the midnight before it began.
 
     >>> ends_words(23 * 60, 24 * 60 + 15, 26 * 60)
-    'It ends at about 00:15 the next day; 8 times out of 10 between 23:00 and 02:00.'
+    'It ends at about 00:15 the next day; eight times out of ten between 23:00 and 02:00.'
     """
     days = round(middle) // _DAY
-    day = {0: "", 1: " the next day"}.get(days, f" {days} days later")
-    return (
-        f"It ends at about {time_of_day(middle)}{day}; 8 times out of 10 between "
-        f"{time_of_day(early)} and {time_of_day(late)}."
+    end: str = time_of_day(middle)
+    if days == 1:
+        end = say("{time} the next day", time=end)
+    elif days > 1:
+        end = say("{time} {days} days later", time=end, days=days)
+    return say(
+        "It ends at about {end}; eight times out of ten between {early} and {late}.",
+        end=end,
+        early=time_of_day(early),
+        late=time_of_day(late),
     )
 
 
@@ -75,13 +82,13 @@ def finish_luck(finishes: Floats) -> str:
 
     >>> import numpy as np
     >>> finish_luck(np.arange(101.0))
-    '101 evenings were played out; other luck would move the times of the finish by no more than
-    about 10 minutes.'
+    '101 evenings were simulated; sampling error up to about 10 minutes.'
     """
     _, error = bands_of(finishes)
-    return (
-        f"{len(finishes):,} evenings were played out; other luck would move the times of the "
-        f"finish by no more than about {2.0 * error:.0f} minutes."
+    return say(
+        "{n:,} evenings were simulated; sampling error up to about {minutes:.0f} minutes.",
+        n=len(finishes),
+        minutes=2.0 * error,
     )
 
 
@@ -124,7 +131,7 @@ def tournament_time_answer(
     >>> tonight = Tournament(file, club, *asked)
     >>> answer = tournament_time_answer(tonight, tables=2, pace="9-ball", start=19 * 60)
     >>> print(answer.sentences[0].splitlines()[0])
-    It ends at about 22:05; 8 times out of 10 between 21:19 and 23:06.
+    It ends at about 22:05; eight times out of ten between 21:19 and 23:06.
     """
     asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
     form = tournament.file.form
@@ -141,7 +148,7 @@ def tournament_time_answer(
     quantities = finish_quantities(found.finishes, *saved)
     table = starts_table(found, show)
     when = _takes(found) if start is None else ends_words(*(start + at for at in found.bands))
-    words = "\n".join(filter(None, [when, savings_words(changes)]))
+    words = joined(filter(None, [when, savings_words(changes)]), "\n")
     parts: list[Part] = [words, quantities, table, changes]
     assumed = assumed_words(tables, pace, turnover)
     unrated = tournament.unrated_words(spread=False)
@@ -158,7 +165,12 @@ def tournament_time_answer(
 
 def _takes(found: Finish) -> str:
     early, middle, late = map(clock, found.bands)
-    return f"It takes about {middle}; 8 times out of 10 between {early} and {late}."
+    return say(
+        "It takes about {middle}; eight times out of ten between {early} and {late}.",
+        middle=middle,
+        early=early,
+        late=late,
+    )
 
 
 def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
@@ -168,7 +180,9 @@ def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
         show={
             "start_p50": show,
             "start_band": lambda band: (
-                "" if band[0] == band[1] else f"{show(band[0])} and {show(band[1])}"
+                ""
+                if band[0] == band[1]
+                else say("{early} and {late}", early=show(band[0]), late=show(band[1]))
             ),
         },
     )
@@ -184,28 +198,32 @@ def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
 
 def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:
     """Return what the times assume."""
-    of_games = (
-        f"Matches take as long as {pace} matches do in real tournaments"
-        if isinstance(pace, str)
-        else f"A game takes {pace.per_game:g} minutes on average"
-    )
-    between = "about 4 minutes" if turnover is None else f"{turnover.mean:g} minutes on average"
-    return (
-        f"{of_games}, on {count_of(tables, 'table')}, with {between} between two matches on a "
-        "table. As on most evenings, a round starts when the rounds that feed it are over; of the "
-        "matches that can start, the one with the longest way to the end goes first. Matches that "
-        "are called sooner, as soon as both players and a table are free, gain time on this."
+    if isinstance(pace, str):
+        of_games = say("Matches take as long as {game} matches do in real tournaments", game=pace)
+    else:
+        of_games = say("A game takes {minutes:g} minutes on average", minutes=pace.per_game)
+    between = say("about {minutes} minutes", minutes=4)
+    if turnover is not None:
+        between = say("{minutes:g} minutes on average", minutes=turnover.mean)
+    return say(
+        "{games}, on {tables}, with {between} between two matches on a table. As on most evenings, "
+        "a round starts when the rounds that feed it are over; priority goes to the match with the "
+        "most rounds still behind it. Matches that are called as soon as both players and a table "
+        "are free gain time on this.",
+        games=of_games,
+        tables=say_count("{n} table", "{n} tables", tables),
+        between=between,
     )
 
 
 WORTH_SAYING = 10.0
 """How many minutes sooner are worth a sentence."""
 
-_CHANGES = {
-    "one_more_table": "one more table",
-    "one_table_fewer": "one table fewer",
-    "races_one_shorter": "all races one game shorter",
-    "losers_races_one_shorter": "the losers' side one game shorter",
+CHANGES = {
+    "one_more_table": say("one more table"),
+    "one_table_fewer": say("one table fewer"),
+    "races_one_shorter": say("all races one game shorter"),
+    "losers_races_one_shorter": say("the losers' side one game shorter"),
 }
 
 
@@ -244,9 +262,9 @@ def what_if(
     rows = []
     for key, change in changes.items():
         later, error = minutes_later(ask(*change), found)
-        rows.append([key, f"With {_CHANGES[key]}", later, error])
+        rows.append([key, say("With {change}", change=CHANGES[key]), later, error])
     columns = columns_of("-change in_words minutes_later minutes_later_error")
-    return Table("what_if", columns, rows, title="What if")
+    return Table("what_if", columns, rows, title=say("What if"))
 
 
 def savings(changes: Table) -> dict[str, float]:
@@ -257,10 +275,17 @@ def savings(changes: Table) -> dict[str, float]:
 
 def savings_words(changes: Table) -> str:
     """Return the changes that are worth it, in words; '' if none is."""
-    return " ".join(
-        f"With {_CHANGES[key]} it would end {clock(saved)} earlier."
+    return joined(
+        earlier_words(key, saved)
         for key, saved in savings(changes).items()
         if saved >= WORTH_SAYING
+    )
+
+
+def earlier_words(change: str, minutes: float) -> Sentence:
+    """Return by how much a change would bring the end forward."""
+    return say(
+        "With {change} it would end {time} earlier.", change=CHANGES[change], time=clock(minutes)
     )
 
 

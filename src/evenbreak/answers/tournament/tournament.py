@@ -8,19 +8,21 @@ from functools import cached_property
 
 import numpy as np
 
-from evenbreak.answers.kit.remarks import Remark, file_name
+from evenbreak.answers.kit.remarks import file_name
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, some_of
-from evenbreak.answers.league.prior import games_words
+from evenbreak.answers.league.prior import games_words, unrated_words
+from evenbreak.answers.tournament.bracket_view import source_words
 from evenbreak.arrays import Floats
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.tournaments.brackets.bracket import Bracket, Slot
+from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot
 from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.evening.bracket_of_plan import TO_DRAW
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
+from evenbreak.words import Sentence, joined, ordinal, say
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,11 +73,14 @@ class Tournament:
     @property
     def heading(self) -> str:
         """What is played by whom."""
-        players = count_of(len(self.roster), "player")
-        return (
-            f"{self.bracket.format[0].upper()}{self.bracket.format[1:]}: {players} in "
-            f"{file_name(self.file)}, {self.seeding}\n"
-            f"{races_words(self.races)}; ratings {scale_words(self.scale)}"
+        return say(
+            "{format}: {players} in {file}, {seeding}\n{races}; ratings {scale}",
+            format=self.bracket.format[0].upper() + self.bracket.format[1:],
+            players=count_of(len(self.roster), "player"),
+            file=file_name(self.file),
+            seeding=self.seeding,
+            races=races_words(self.races),
+            scale=scale_words(self.scale),
         )
 
     @property
@@ -84,7 +89,7 @@ class Tournament:
         names = [self.bracket.players[player] for _, player in self.bracket.byes]
         if not names:
             return ""
-        return f"Byes in the first round: {some_of(names)}."
+        return say("Byes in the first round: {players}.", players=some_of(names))
 
     @property
     def unrated(self) -> tuple[str, ...]:
@@ -100,36 +105,37 @@ class Tournament:
             seat = self.roster.players.index(names[0])
             error = float(self.roster.standard_error[seat]) if spread else 0.0
             said.insert(0, unrated_words(names, float(self.roster.rating[seat]), error))
-        return " ".join(filter(None, said))
+        return joined(filter(None, said))
 
 
-def unrated_words(names: Sequence[str], rating: float, error: float) -> str:
-    """Return what is assumed of players without a rating.
-
-    >>> unrated_words(["Ann"], 80.0, 30.0)
-    '1 player without a rating (Ann): taken as 80 ± 30.'
-    """
-    taken = f"taken as {rating:g} ± {error:g}" if error > 0.0 else f"taken as {rating:g}"
-    return str(Remark(f"{count_of(len(names), 'player')} without a rating", taken, names))
-
-
-def races_words(races: Races) -> str:
+def races_words(races: Races) -> Sentence:
     """Return what is played.
 
     >>> races_words(Races(7, losers=5, final=9))
     "Races to 7, on the losers' side to 5, in the final to 9"
     >>> races_words(Races(Fairest(7)))
-    'Races to 7 for the stronger player, and the fairest number of games for the weaker'
+    'Races to 7 for the stronger player; the weaker gets the fairest race'
     """
     if isinstance(races.race, Chart):
-        return f"Races by the chart {races.race.name}"
-    text = f"Races to {_games(races.race)}"
-    if races.losers is not None:
-        text += f", on the losers' side to {_games(races.losers)}"
-    if races.final is not None:
-        text += f", in the final to {_games(races.final)}"
+        return say("Races by the chart {chart}", chart=races.race.name)
+    race, losers, final = (
+        None if one is None else _games(one) for one in (races.race, races.losers, races.final)
+    )
+    if losers is not None and final is not None:
+        text = say(
+            "Races to {race}, on the losers' side to {losers}, in the final to {final}",
+            race=race,
+            losers=losers,
+            final=final,
+        )
+    elif losers is not None:
+        text = say("Races to {race}, on the losers' side to {losers}", race=race, losers=losers)
+    elif final is not None:
+        text = say("Races to {race}, in the final to {final}", race=race, final=final)
+    else:
+        text = say("Races to {race}", race=race)
     if isinstance(races.race, Fairest):
-        text += " for the stronger player, and the fairest number of games for the weaker"
+        return say("{races} for the stronger player; the weaker gets the fairest race", races=text)
     return text
 
 
@@ -153,12 +159,44 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
     if isinstance(slot, int):
         return bracket.players[slot]
     if slot.match == TO_DRAW:
-        return "a qualifier to be drawn"
+        return say("a qualifier to be drawn")
     if _of_swiss(bracket, slot):
-        return "to be drawn"
+        return say("to be drawn")
+    return source_words(slot)
+
+
+def met_words(bracket: Bracket, slot: Slot) -> str:
+    """Return whom a player meets who meets whoever is in a slot of a match."""
+    if isinstance(slot, int) or slot.match == TO_DRAW or _of_swiss(bracket, slot):
+        return slot_words(bracket, slot)
     if isinstance(slot.outcome, int):
-        return f"number {slot.outcome} of {slot.match}"
-    return f"{slot.outcome} of {slot.match}"
+        return say("the number {n} of {group}", n=slot.outcome, group=slot.match)
+    if slot.outcome == "winner":
+        return say("the winner of {match}", match=slot.match)
+    return say("the loser of {match}", match=slot.match)
+
+
+def against(pair: Sequence[str]) -> Sentence:
+    """Return who plays whom.
+
+    >>> against(["Ann", "Bo"])
+    'Ann against Bo'
+    """
+    return say("{a} against {b}", a=pair[0], b=pair[1])
+
+
+def place_words(place: Place) -> Sentence:
+    """Return a place, or the places that some players share.
+
+    >>> place_words(Place(1, 1)), place_words(Place(5, 8))
+    ('1st', '5th to 8th')
+    """
+    if place.first == place.last and not place.event:
+        return ordinal(place.first)
+    words = ordinal(place.first)
+    if place.first != place.last:
+        words = say("{first} to {last}", first=words, last=ordinal(place.last))
+    return say("{place} ({event})", place=words, event=place.event) if place.event else words
 
 
 def _of_swiss(bracket: Bracket, slot: Slot) -> bool:

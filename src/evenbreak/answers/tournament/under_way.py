@@ -35,6 +35,7 @@ from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.odds.races import Races
 from evenbreak.tournaments.odds.title import TitleOdds
+from evenbreak.words import joined, say
 
 
 def odds_under_way(
@@ -160,12 +161,15 @@ def time_under_way(
     quantities = finish_quantities(found.finishes)
     table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
     words = [ends_words(*(begun + at for at in found.bands)), savings_words(changes)]
-    parts: list[Part] = ["\n".join(filter(None, words)), quantities, table, changes]
+    parts: list[Part] = [joined(filter(None, words), "\n"), quantities, table, changes]
     parts.append(assumed_words(usual, state.plan.discipline, turnover))
     if timed := outlook.timed:
         parts.append(
-            f"Going by the matches called and played so far ({len(timed)}), tonight is "
-            f"{_pace_words(found, state.plan.discipline)}."
+            say(
+                "Going by the matches called and played so far ({n}), tonight is {pace}.",
+                n=len(timed),
+                pace=_pace_words(found, state.plan.discipline),
+            )
         )
     parts.append(finish_luck(found.finishes))
     return Answer(
@@ -176,5 +180,8 @@ def time_under_way(
 def _pace_words(found: Finish, discipline: str) -> str:
     factor = found.pace.per_game / event_pace(discipline).per_game
     if abs(factor - 1.0) < 0.005:
-        return "as fast as usual"
-    return f"{percent(abs(factor - 1.0))} {'slower' if factor > 1.0 else 'faster'} than usual"
+        return say("as fast as usual")
+    share = percent(abs(factor - 1.0))
+    if factor > 1.0:
+        return say("{share} slower than usual", share=share)
+    return say("{share} faster than usual", share=share)

@@ -10,7 +10,7 @@ import click
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.progress import Working
-from evenbreak.cli.kit.said import said
+from evenbreak.cli.kit.said import said, terminal
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
 
 FACES = ("face", "page_file", "verbose")
@@ -127,8 +127,9 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
         for line in to_csv(answer):
             click.echo(line.encode(), nl=False)
     else:
+        from evenbreak.answers.faces.in_face import answer_in_face
         from evenbreak.answers.faces.to_text import to_text
 
-        write(to_text(answer, verbose=verbose))
+        write(to_text(answer_in_face(answer, terminal()), verbose=verbose))
     for warning in answer.warnings:
         say(f"Warning: {said(warning)}")

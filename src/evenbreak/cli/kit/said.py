@@ -25,18 +25,20 @@ def _spelled(name: str) -> str:
 
 
 @cache
-def _terminal() -> Face:
+def terminal() -> Face:
+    """Return how the terminal says what the command that runs answers."""
     from evenbreak.files.catalogues import face_in
 
-    return face_in("en")
+    return replace(face_in("en"), parameter=_spelled)
 
 
-def said(text: str, spelled: Callable[[str], str] = _spelled) -> str:
+def said(text: str, spelled: Callable[[str], str] | None = None) -> str:
     """Return a text as the terminal says it; `spelled` returns the option of a parameter.
 
     >>> from evenbreak.words import Parameter, say
     >>> said(say("{scale} must be above 0", scale=Parameter("scale")), lambda name: f"--{name}")
     '--scale must be above 0'
     """
-    shown: str = in_face(text, replace(_terminal(), parameter=spelled))
+    face = terminal() if spelled is None else replace(terminal(), parameter=spelled)
+    shown: str = in_face(text, face)
     return shown

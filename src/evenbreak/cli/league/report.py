@@ -9,7 +9,6 @@ from pathlib import Path
 
 from evenbreak import answers, files, sheets
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.wording import listed
 from evenbreak.answers.league.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
@@ -17,6 +16,7 @@ from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.league.ratings import rated
 from evenbreak.files.tables.problems import quoted
 from evenbreak.questions.ratings import Report
+from evenbreak.words import listed
 
 MANY_PAIRS = 50_000
 """Pairs from which a sheet takes so long that a person wonders."""

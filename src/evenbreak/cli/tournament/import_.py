@@ -19,8 +19,7 @@ def command(asked: Import) -> Answer:
 
     from evenbreak import files
     from evenbreak.answers.kit.wording import count_of
-    from evenbreak.answers.league.prior import games_words
-    from evenbreak.answers.tournament.tournament import unrated_words
+    from evenbreak.answers.league.prior import games_words, unrated_words
     from evenbreak.files.foreign.tournament import read_saved_tournament
     from evenbreak.files.store.evening_file import is_database
     from evenbreak.files.store.tournament import is_event_list, new_tournament, read_event_list

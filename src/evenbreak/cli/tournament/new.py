@@ -48,8 +48,7 @@ def _unrated(entered: Entered, state: Evening) -> list[str]:
     """Return what is assumed of players without a rating, as a sentence if there are any."""
     import numpy as np
 
-    from evenbreak.answers.league.prior import games_words
-    from evenbreak.answers.tournament.tournament import unrated_words
+    from evenbreak.answers.league.prior import games_words, unrated_words
 
     read = entered.file.roster
     unrated = [read.players[k] for k in np.flatnonzero(np.isnan(read.rating)).tolist()]

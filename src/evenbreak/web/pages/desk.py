@@ -36,6 +36,7 @@ from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
 from evenbreak.tournaments.evening.undoing import undo as take_back
 from evenbreak.tournaments.evening.undoing import undoable
+from evenbreak.web.authors import DIRECTOR
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import Form, form_of, whole
@@ -44,7 +45,6 @@ from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.words import Sentence, say
 
-BY = "director's page"
 RACES_TO_CHANGE = {
     "race": "Race to (now {now})",
     "losers_race": "Race on the losers' side (now {now})",
@@ -90,7 +90,7 @@ async def desk(request: Request) -> Response:
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []
         if known and known.problem:
-            why = in_words(request, known.problem)
+            why = known.problem
             shown["warnings"] = [say("Odds and finish time can't be calculated: {why}", why=why)]
     return page(request, "desk.html", live=True, **shown)
 
@@ -135,7 +135,7 @@ async def _enter(
         def events(state: Evening) -> list[Event]:
             return [Event(at, what) for what in decide(state)]
 
-        return add_events(site.path, events, by=BY, form=key, check=check)
+        return add_events(site.path, events, by=DIRECTOR, form=key, check=check)
 
     try:
         before, after = await asyncio.to_thread(work)
@@ -230,7 +230,7 @@ async def result(request: Request) -> Response:
             moves.correct(state, match, score) if correct else moves.result(state, match, score)
         ]
 
-    def said(before: Evening, after: Evening) -> list[str]:
+    def said(before: Evening, after: Evening) -> Sequence[str]:
         if len(before.events) == len(after.events):
             return [say("That result has already been entered.")]
         return happened(before, after, after.events[-1])

@@ -19,6 +19,7 @@ from evenbreak.files.store.tournament import read_events
 from evenbreak.tournaments.evening.events import Undone
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.web.authors import author_words
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.match import phone_label, phone_words
@@ -81,7 +82,7 @@ async def history(request: Request) -> Response:
         raise RefusalError("No tournament is running yet.", status=404)
     found = await asyncio.to_thread(read_events, path)
     rows: list[tuple[str, int | str, str, str]] = [
-        (one.at, k, what, one.by)
+        (one.at, k, what, author_words(one.by))
         for k, (one, what) in enumerate(zip(found, history_words(found), strict=True), 1)
     ]
     undos = {k for k, one in enumerate(found, 1) if isinstance(one.what, Undone)}

@@ -12,9 +12,8 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.kit.scales import chart_doubts, league_doubts
-from evenbreak.answers.league.prior import games_words
+from evenbreak.answers.league.prior import games_words, unrated_words
 from evenbreak.answers.tournament.moves import entry_words
-from evenbreak.answers.tournament.tournament import unrated_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
@@ -33,11 +32,11 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
 from evenbreak.tournaments.evening.opening import FORMATS, opened
 from evenbreak.web.asked import asked_in, fields_named, form_fields
+from evenbreak.web.authors import DIRECTOR
 from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.forms import CHOOSE_IT, EVEN, FAIR, RACES, Form, form_of, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, page, site_of
-from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
@@ -152,7 +151,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     league = site.league if form.text("league") else None
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
-        refuse_to_read(file, scale, "the league", "put all ratings on one scale")
+        refuse_to_read(file, scale, say("the league"), say("put all ratings on one scale"))
     read = file.roster
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
     plan, rows = _plan(form, scale), _entrants(filled, league)
@@ -169,7 +168,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         doubts.append(unrated_words(new, plan.starter, plan.starter_error))
     if not known:
         doubts += filter(None, [games_words(read, filled)])
-    return Event(site.clock(), opened(plan, rows), BY), [*warnings_of(file), *doubts]
+    return Event(site.clock(), opened(plan, rows), DIRECTOR), [*warnings_of(file), *doubts]
 
 
 def _plan(form: Form, scale: Scale) -> Plan:
@@ -254,7 +253,7 @@ async def late(request: Request) -> Response:
         return [Event(site.clock(), moves.late(state, entrant))]
 
     key = form.key(request.url.path)
-    _, after = await asyncio.to_thread(add_events, site.path, decide, by=BY, form=key)
+    _, after = await asyncio.to_thread(add_events, site.path, decide, by=DIRECTOR, form=key)
     return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
 
 

@@ -32,6 +32,7 @@ from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.authors import DIRECTOR, author_words, phones_of
 from evenbreak.web.evening_view import MatchView, match_view
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import done, page, reason, site_of
@@ -179,7 +180,7 @@ async def tap(request: Request) -> Response:
             return [] if as_it_is else [Event(site.clock(), moves.score(now, name, score))]
 
         key = form.key(request.url.path)
-        add_events(site.path, decide, by=f"phone: {me or name}", form=key)
+        add_events(site.path, decide, by=phones_of([me or name]), form=key)
         return ""
 
     try:
@@ -303,7 +304,7 @@ def _propose(
         found: Result = moves.result(now, name, score)
         return [Event(site.clock(), found)]
 
-    add_events(site.path, settle, by=f"phones: {' and '.join(pair)}")
+    add_events(site.path, settle, by=phones_of(pair))
     enter(site.path, name, pair, lambda _: Entry(site.clock(), name, ENTERED))
     return say("Both of you agree. The result of {match} is in.", match=name)
 
@@ -345,7 +346,7 @@ def phone_words(entry: Entry) -> str:
 def phone_label(entry: Entry) -> str:
     """Return which phone did it, for the history; the director has none."""
     if not entry.phone:
-        return "director's page"
+        return author_words(DIRECTOR)
     label = f"{entry.phone[:4]} {entry.address}".strip()
     return say("phone {label}", label=label)
 

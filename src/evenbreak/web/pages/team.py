@@ -19,8 +19,8 @@ from evenbreak.answers.team.night import (
     night_words,
     waiting_words,
 )
+from evenbreak.web.authors import DIRECTOR, author_words
 from evenbreak.web.page import page, site_of
-from evenbreak.web.pages.desk import BY
 from evenbreak.web.sessions import captain_of, check_director, is_director
 from evenbreak.web.team_captain import captain_values
 from evenbreak.web.team_night import TeamNow, night_on
@@ -78,8 +78,9 @@ def _for_director(request: Request, now: TeamNow) -> dict[str, Any]:
     return {
         "pins": [(name, site.captain_pin(state.began, k)) for k, name in enumerate(state.teams)],
         "seen": len(now.events),
-        "by": BY,
+        "by": DIRECTOR,
         "last": state.last,
+        "last_by": author_words(state.last.by),
         "said": last_words(state),
         "number": line.number if line else 0,
         "options": {} if state.sealed else {k: plain_options(state, k) for k in state.due},
@@ -92,7 +93,7 @@ async def history(request: Request) -> Response:
     now = await night_on(request)
     words = history_words(now.events, now.state)
     rows = [
-        (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", said, one.by)
+        (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", said, author_words(one.by))
         for number, (one, said) in enumerate(zip(now.events, words, strict=True), 1)
     ]
     return page(request, "history.html", rows=rows[::-1], gone=())

@@ -15,9 +15,9 @@ from evenbreak.files.store.team_night import add_team_events
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What
 from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.web.authors import DIRECTOR, captain_of_team
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.page import done, site_of
-from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import (
     CAPTAIN,
@@ -66,7 +66,7 @@ async def put(request: Request) -> Response:
     pick = _pick(form, "pick", now.state, side)
 
     def decide(state: TeamEvening) -> list[What]:
-        if by == BY:
+        if by == DIRECTOR:
             _refuse_unseen(state, side, number)
         return moves.put_up(state, side, number, pick)
 
@@ -82,7 +82,7 @@ async def hand(request: Request) -> Response:
     picks = tuple(_pick(form, f"pick{line.number}", now.state, side) for line in now.state.sets)
 
     def decide(state: TeamEvening) -> list[What]:
-        if by == BY:
+        if by == DIRECTOR:
             _refuse_unseen(state, side, 1)
         return moves.hand_in(state, side, picks)
 
@@ -98,7 +98,9 @@ async def result(request: Request) -> Response:
     score = form.whole("a", 0, 999), form.whole("b", 0, 999)
     if form.text("by") == _DIRECTOR:
         check_director(request)
-        _, added = await _add(request, form, BY, lambda state: moves.result(state, number, score))
+        _, added = await _add(
+            request, form, DIRECTOR, lambda state: moves.result(state, number, score)
+        )
         return _taken(request, added, say("The result of set {n} is in.", n=number))
     by, side = _author(request, now.state, form)
     state, added = await _add(
@@ -137,7 +139,7 @@ async def undo(request: Request) -> Response:
             )
         return [Undone()]
 
-    await asyncio.to_thread(_write, request, decide, form, BY)
+    await asyncio.to_thread(_write, request, decide, form, DIRECTOR)
     return done(request, "/team", say("The last entry has been undone."))
 
 
@@ -145,13 +147,13 @@ def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]
     """Return who enters something, and for which team; refuse whoever may not."""
     if form.text("by") == _DIRECTOR:
         check_director(request)
-        return BY, form.whole("team", 0, 1)
+        return DIRECTOR, form.whole("team", 0, 1)
     side = captain_of(request, state.began)
     if side is None or form.text("by") != str(side):
         raise RefusalError(
             "Only that team's captain can do that. Enter the captain's PIN first.", status=403
         )
-    return f"captain of {state.teams[side]}", side
+    return captain_of_team(state.teams[side]), side
 
 
 def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:

@@ -19,9 +19,9 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, What
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import check_plan
+from evenbreak.web.authors import DIRECTOR
 from evenbreak.web.forms import RACES, form_of
 from evenbreak.web.page import asked_again, done, page, site_of
-from evenbreak.web.pages.desk import BY
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
@@ -61,7 +61,7 @@ async def begin(request: Request) -> Response:
         return moves.begin(state, plan)
 
     at, key = site.clock(), form.key("/team/new", repr(plan))
-    await asyncio.to_thread(add_team_events, site.path, decide, at=at, by=BY, form=key)
+    await asyncio.to_thread(add_team_events, site.path, decide, at=at, by=DIRECTOR, form=key)
     site.keep_secrets()
     return done(request, "/team", *warnings)
 

@@ -1,1 +1,0 @@
-"""The sentences of answers, as the pages say them."""
