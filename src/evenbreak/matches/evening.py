@@ -5,7 +5,7 @@ between two matches the table is idle for the turnover. The luck of the matches 
 turnovers are independent, and the pace of the evening stretches everything alike.
 
 With one table, or one for each match, the end on an evening of the usual pace has a distribution
-that can be calculated (`table_time`); otherwise the evening is simulated many times. The pace of
+that can be calculated (`minutes`); otherwise the evening is simulated many times. The pace of
 the evening is then averaged over by calculation.
 """
 

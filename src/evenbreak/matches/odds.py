@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak.chains.ways import Way, way_of_limit
 from evenbreak.errors import InputError
@@ -105,18 +107,58 @@ def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
     weights
         how likely each of them is; they sum to 1.
 
+    Notes
+    -----
+    The lengths are mixed, and mean, standard deviation and quantiles are those of the mixture.
+
     >>> from evenbreak.games import Race, Rack
     >>> mixed_odds(Race(2, 2, Rack([0.25, 0.75])), [0.5, 0.5]).p_hill_hill
     0.375
     """
     import numpy as np
 
-    from evenbreak.matches.mixed_odds import mixture_of_odds
+    from evenbreak.matches.length import match_length
 
     rack = rack_in(match)
     chances = [np.atleast_1d(p).tolist() for p in (rack.p1, rack.p2) if p is not None]
     each = [_by_kernel(with_rack(match, Rack(*both))) for both in zip(*chances, strict=True)]
-    return MatchOdds(**mixture_of_odds(match, each, np.asarray(weights)))
+    weights = np.asarray(weights)
+    mixed: dict[str, Any] = {
+        name: _mean([getattr(odds, name) for odds in each], weights)
+        for name in each[0]._fields
+        if name.startswith(("p_", "mean_"))
+    }
+    average = mixed["mean_games"]
+    squares = [
+        None
+        if odds.mean_games is None or odds.sd_games is None
+        else odds.mean_games**2 + odds.sd_games**2
+        for odds in each
+    ]
+    square = _mean(squares, weights)
+    sd = None
+    if average is not None and square is not None:
+        sd = math.sqrt(max(square - average**2, 0.0))
+    length = match_length(match)
+    of_mixture = replace(
+        length,
+        probability=weights @ length.probability,
+        mean=average,
+        sd=sd,
+        p_never_ends=float(weights @ length.p_never_ends),
+        tail_mass=float(weights @ length.tail_mass),
+    )
+    p50, p90 = of_mixture.quantile(0.5), of_mixture.quantile(0.9)
+    return MatchOdds(**mixed, sd_games=sd, games_p50=p50, games_p90=p90)
+
+
+def _mean(values: Sequence[float | None], weights: Floats) -> float | None:
+    """Return the weighted mean, None if a value is."""
+    if any(value is None for value in values):
+        return None
+    import numpy as np
+
+    return float(np.array(values, dtype=float) @ weights)
 
 
 def _with_form(match: Match, via: Way | None, form: float) -> MatchOdds:

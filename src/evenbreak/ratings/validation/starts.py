@@ -1,8 +1,8 @@
 """What a league's starts take back of the difference between players, and what they should.
 
-A race m:n takes back the difference at which it is even (see `stated_strength`). How large the
-difference is in fact, the games show: on average over all handicap matches, for each size of the
-start, and for a class, where the results say in which class each player is.
+A race m:n takes back the difference at which it is even (see `evenbreak.ratings.levels`). How
+large the difference is in fact, the games show: on average over all handicap matches, for each
+size of the start, and for a class, where the results say in which class each player is.
 
 How much stronger players are for each unit by which their league puts them ahead (a class, a
 rating, or the race's own difference): in match i the games are won with the log-odds k x + e,
