@@ -50,7 +50,7 @@ ASKED = {
     "odds_via": "odds --p 0.6 --race 5:4 --via eigen",
     "fair": "fair 612 521 --scale fargo --race-to 7 --top 3",
     "live": "live --p 0.6 --race 7:5 --racks abbab",
-    "live_table": "live --p 0.6 --set 4:3 --race 3:3 --score 1:1 --set-score 2:2 --table",
+    "live_table": "live --p 0.6 --set 4:3 --race 3:3 --score 1:1 --set-score 2:2 --comebacks",
     "compare": "compare --p 0.6667 9:5 '3:1 of 3:3' 'ahead 5:3'",
     "physics_speed": "physics speed --lag-time 7.0",
     "physics_throw": "physics throw --cut 30 --side -0.3",

@@ -84,7 +84,7 @@ def operator() -> str:
 
 def player() -> str:
     """Draw how often each level of a drill was made, and the one to practise."""
-    levels = json.loads(run("drill --log data/drill_log.csv --json"))["levels"]
+    levels = json.loads(run("drill --log data/drill_log.csv --json"))["drill_levels"]
     best = max(levels, key=lambda one: one["p_best"])["level"]
     parts = []
     for k, one in enumerate(levels):

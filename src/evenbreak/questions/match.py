@@ -303,8 +303,9 @@ class Live(Players, Played):
         list[int] | tuple[int, ...],
         Field(Named(winners, "abbab..."), "Who won each game since {score}."),
     ] = ()
-    table: Annotated[
-        bool, Field(Flag(), "Add the comeback table: the odds at each score to come.")
+    comebacks: Annotated[
+        bool,
+        Field(Flag(), "Add the comeback table: the odds at each score to come.", old=("table",)),
     ] = False
     form: FormOfDay = None
     plot: Annotated[PlotFile, Says(more="The match so far; needs `--racks`.")] = None

@@ -31,8 +31,8 @@ def test_where_nothing_lifts_no_level_is_advised():
 def test_json_has_the_levels_and_the_law():
     statistics = drill_statistics(Drill([0.5, 0.0, 1.0]))
     found = drill_answer(statistics, "a drill").to_dict()
-    assert [row["p_success"] for row in found["levels"]] == [0.5, 0.0, 1.0]
-    assert found["levels"][1]["gain"] is None  # the mean jumps there
+    assert [row["p_success"] for row in found["drill_levels"]] == [0.5, 0.0, 1.0]
+    assert found["drill_levels"][1]["gain"] is None  # the mean jumps there
     law = statistics.distribution
     assert (found["mean"], found["median"], found["mode"], found["sd"]) == pytest.approx(
         (law.mean, law.median, law.mode, law.sd)

@@ -31,7 +31,7 @@ def findings(analysis, **changes):
 
 def test_json_has_every_number_of_the_analysis(analysis):
     found = answer_of(analysis).to_dict()
-    assert [row["lift"] for row in found["levels"]] == [one.lift for one in analysis.levels]
+    assert [row["lift"] for row in found["drill_levels"]] == [one.lift for one in analysis.levels]
     assert found["difference"] == analysis.difference._asdict()
     assert found["model"] == analysis.model._asdict()
     assert (found["mean"], found["mean_low"]) == (analysis.implied.mean, analysis.mean_low)

@@ -75,7 +75,7 @@ def test_csv_into_a_pipe(run):
     assert list(table[0]) == COURSE
     assert [row["p_win_a"] for row in table] == ["0.250000", "0.500000", "0.000000"]
     assert table[-1]["leverage"] == ""
-    table = rows(run("live", "--p", "0.5", "--race", "2:1", "--table"))
+    table = rows(run("live", "--p", "0.5", "--race", "2:1", "--comebacks"))
     assert list(table[0]) == COMEBACKS
     assert [(row["score_a"], row["score_b"], row["p_win_a"]) for row in table] == [
         ("0", "0", "0.250000"),

@@ -340,7 +340,7 @@ def test_names_stand_where_a_and_b_would(run):
     for asked in (
         ("odds", "--race", "7:5"),
         ("fair", "--race-to", "7"),
-        ("live", "--race", "7:5", "--racks", "abb", "--table"),
+        ("live", "--race", "7:5", "--racks", "abb", "--comebacks"),
         ("compare", "7:5", "ahead 3:3"),
     ):
         command, *rest = asked

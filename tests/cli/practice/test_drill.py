@@ -19,9 +19,9 @@ LOG_COLUMNS = [
     *("level", "attempts", "successes", "p_success", "p_low", "p_high", "p_model", "visited"),
     *("expected", "long_run", "gain", "lift", "lift_low", "lift_high", "p_best"),
 ]
-MODEL_KEYS = {"levels", "mean", "median", "mode", "sd", "practise_next", "period"}
+MODEL_KEYS = {"drill_levels", "mean", "median", "mode", "sd", "practise_next", "period"}
 LOG_KEYS = {
-    *("levels", "mean", "median", "mode", "sd", "mean_low", "mean_high", "mean_so_far"),
+    *("drill_levels", "mean", "median", "mode", "sd", "mean_low", "mean_high", "mean_so_far"),
     *("practise_next", "difference", "memory", "model_test", "model", "furthest_off_model"),
     *("attempts", "sessions", "against_the_rule", "replicas", "seed"),
 }
@@ -40,7 +40,7 @@ def drill(run):
 def test_the_model_of_table_5_5(drill):
     answer = drill("--p", "0.8")
     assert set(answer) >= MODEL_KEYS
-    assert [list(row) for row in answer["levels"]] == [COLUMNS] * 9
+    assert [list(row) for row in answer["drill_levels"]] == [COLUMNS] * 9
     assert round(answer["mean"], 3) == 4.354
     assert (answer["median"], answer["mode"], round(answer["sd"], 3)) == (4, 4, 1.526)
     assert (answer["practise_next"], answer["period"]) == (4, 1)
@@ -51,26 +51,26 @@ def test_the_model_of_table_5_5(drill):
         ("gain", statistics.gain),
         ("lift", statistics.lift),
     ):
-        assert [row[name] for row in answer["levels"]] == list(values)
+        assert [row[name] for row in answer["drill_levels"]] == list(values)
 
 
 def test_the_8_ball_drill(drill):
     answer = drill("--p", "0.8", "--game", "8-ball")
     chances = [0.8**level for level in range(1, 8)]
-    assert [row["p_success"] for row in answer["levels"]] == pytest.approx(chances, rel=1e-14)
-    assert len(drill("--p", "0.8", "--game", "8-ball", "--levels", "3")["levels"]) == 3
+    assert [row["p_success"] for row in answer["drill_levels"]] == pytest.approx(chances, rel=1e-14)
+    assert len(drill("--p", "0.8", "--game", "8-ball", "--levels", "3")["drill_levels"]) == 3
     assert drill("--p", "0.8", "--game", "9-ball") == drill("--p", "0.8")
 
 
 def test_levels_and_chances_of_ones_own(drill):
-    assert len(drill("--p", "0.8", "--levels", "4")["levels"]) == 4
+    assert len(drill("--p", "0.8", "--levels", "4")["drill_levels"]) == 4
     answer = drill("--success", "0.5, .5")
-    assert [row["long_run"] for row in answer["levels"]] == [0.5, 0.5]
-    assert [row["gain"] for row in answer["levels"]] == [0.5, 0.5]
+    assert [row["long_run"] for row in answer["drill_levels"]] == [0.5, 0.5]
+    assert [row["gain"] for row in answer["drill_levels"]] == [0.5, 0.5]
 
 
 def test_a_gain_without_bound_is_null(drill, run):
-    assert drill("--success", "0.5,0,1")["levels"][1]["gain"] is None
+    assert drill("--success", "0.5,0,1")["drill_levels"][1]["gain"] is None
     row = run("drill", "--success", "0.5,0,1").stdout.splitlines()[2].split(",")
     assert (row[0], row[3]) == ("2", "")
 
@@ -96,9 +96,9 @@ def test_a_giant_gain_keeps_the_table_narrow(run):
 def test_a_log(drill):
     answer = drill("--log", str(LOG_FILE))
     assert set(answer) >= LOG_KEYS
-    assert [list(row) for row in answer["levels"]] == [LOG_COLUMNS] * 9
+    assert [list(row) for row in answer["drill_levels"]] == [LOG_COLUMNS] * 9
     assert (answer["attempts"], answer["sessions"], answer["against_the_rule"]) == (537, 12, 0)
-    assert sum(row["attempts"] for row in answer["levels"]) == 537
+    assert sum(row["attempts"] for row in answer["drill_levels"]) == 537
     assert answer["practise_next"] == answer["furthest_off_model"] == 5
     assert answer["model_test"]["p_value"] < 0.01 < 0.05 < answer["memory"]["p_value"]
     assert answer["difference"]["p_value"] > 0.05
@@ -109,13 +109,13 @@ def test_a_log(drill):
         strict=True,
     )
     made = sum(success[k] for k in range(537) if level[k] == 5)
-    assert answer["levels"][4]["p_success"] == made / level.count(5)
+    assert answer["drill_levels"][4]["p_success"] == made / level.count(5)
 
 
 def test_csv_of_a_log_into_a_pipe(run, drill):
     rows = list(csv.reader(io.StringIO(run("drill", "--log", str(LOG_FILE)).stdout)))
     assert rows[0] == LOG_COLUMNS
-    for row, wanted in zip(rows[1:], drill("--log", str(LOG_FILE))["levels"], strict=True):
+    for row, wanted in zip(rows[1:], drill("--log", str(LOG_FILE))["drill_levels"], strict=True):
         for cell, value in zip(row, wanted.values(), strict=True):
             assert float(cell) == pytest.approx(value, abs=5e-7)
 
@@ -127,14 +127,14 @@ def test_the_seed_decides(run):
 
 
 def test_the_number_of_levels_changes_the_answer(drill):
-    assert len(drill("--log", str(LOG_FILE), "--levels", "10")["levels"]) == 10
+    assert len(drill("--log", str(LOG_FILE), "--levels", "10")["drill_levels"]) == 10
 
 
 def test_levels_nobody_tried_have_no_chance(run, drill):
     log = "level,success\n1,yes\n2,no\n1,no\n1,yes\n2,no\n"
     rows = run("drill", "--log", "-", "--levels", "3", stdin=log).stdout.splitlines()
     assert rows[3].startswith("3,0,0,,0.000000,1.000000,")
-    assert drill("--log", "-", "--levels", "3", stdin=log)["levels"][2]["p_success"] is None
+    assert drill("--log", "-", "--levels", "3", stdin=log)["drill_levels"][2]["p_success"] is None
 
 
 def test_level_1_alone_has_neither_model_nor_tests(drill):
@@ -212,7 +212,7 @@ def test_any_log_has_an_answer(run, rows):
     result = run("drill", "--log", "-", "--json", stdin=text)
     assert result.exit_code == 0
     answer = json.loads(result.stdout)
-    sure = sum(row["p_best"] for row in answer["levels"])
+    sure = sum(row["p_best"] for row in answer["drill_levels"])
     assert sure == pytest.approx(0 if answer["practise_next"] is None else 1)
 
 

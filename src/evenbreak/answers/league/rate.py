@@ -243,7 +243,7 @@ def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
             for width, loss in zip(choice.tried, choice.log_loss, strict=True)
         ],
         "prior_learnt": None if choice is None else choice.learnt,
-        "levels": levels_data(ratings, choice),
+        "group_effects": levels_data(ratings, choice),
         "groups": group_rows(ratings),
         "evidence": evidence_rows(choice),
         "half_life_days": ratings.half_life,

@@ -302,7 +302,7 @@ def summary_rows(
         "chart": season.chart.name,
         "schedule": _schedule(season),
         "play": season.play,
-        "players": len(season.players),
+        "player_count": len(season.players),
         "weeks": season.weeks,
         "replicas": replicas,
         "matches_a_season": float(tally.matches.sum() / 2 / replicas),

@@ -391,7 +391,7 @@ def summary_frame(
         "first_date": first,
         "last_date": last,
         "games": int(ratings.won.sum()),
-        "players": len(ratings.players),
+        "player_count": len(ratings.players),
         "players_without_games": int(ratings.idle.sum()),
         "components": count_groups(ratings),
         "groups_of_similar_names": len(file.similar_names),

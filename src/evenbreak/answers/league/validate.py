@@ -125,7 +125,7 @@ def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
         "prior_points": found.prior_sd * scale.points_per_log_odds,
         "half_life": forecasts.half_life,
         **_choice(found),
-        "levels": levels_data(replace(found.ratings, scale=scale), found.choice),
+        "group_effects": levels_data(replace(found.ratings, scale=scale), found.choice),
         "evidence": evidence_rows(found.choice),
         **{name: getattr(found, name) for name in _AS_FOUND},
     }

@@ -49,7 +49,7 @@ def drill_answer(
     columns = columns_of("level p_success long_run_share gain lift_of_five")
     return Answer(
         description,
-        [*parts, Table("levels", columns, list(rows)), *_way(via, statistics)],
+        [*parts, Table("drill_levels", columns, list(rows)), *_way(via, statistics)],
         details=[
             Quantities([*quantities_of({"mean_level": law.mean}), *spread(law)]),
             GAIN_WORDS,
@@ -171,7 +171,7 @@ def _table(analysis: LogAnalysis) -> Table:
         "long_run gain lift lift_low lift_high p_best_level"
     )
     return Table(
-        "levels",
+        "drill_levels",
         columns,
         analysis.levels,
         "Your success rate at each level, with its 95% interval; the share of your attempts at "

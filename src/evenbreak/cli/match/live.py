@@ -24,7 +24,7 @@ def command(asked: Live) -> Answer:
             )
         players = replace(players, form=0.0)
     odds = live_odds(match, asked.racks, set_score=asked.set_score, form=players.form)
-    answer = live_answer(players, match, odds, comebacks=asked.table)
+    answer = live_answer(players, match, odds, comebacks=asked.comebacks)
     if asked.plot is not None:
         from evenbreak.plots.matches import course_figure
 
