@@ -139,7 +139,9 @@ class Scores(Question):
     new: Annotated[
         float | None,
         Field(
-            Number(-LARGEST, LARGEST, " is not a score; give a number, such as 53", "SCORE"),
+            Number(
+                -LARGEST, LARGEST, " is not a score; give a number, such as 53", metavar="SCORE"
+            ),
             "Was this one score luck?",
         ),
     ] = None

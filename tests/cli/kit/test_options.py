@@ -4,14 +4,7 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from evenbreak.cli.kit.options import (
-    PlainCommand,
-    race_limit_options,
-    refuse_both,
-    results_options,
-    scale_option,
-    seed_option,
-)
+from evenbreak.cli.kit.options import scale_option, seed_option
 
 
 def shown(command: click.Command, *words: str) -> str:
@@ -19,21 +12,16 @@ def shown(command: click.Command, *words: str) -> str:
     return result.stdout if result.exit_code == 0 else f"{result.exit_code} {result.stderr}"
 
 
-@click.command(cls=PlainCommand)
-@click.argument("ratings", nargs=-1)
-@click.option("--top")
-def rated(ratings: tuple[str, ...], top: str | None) -> None:
-    click.echo(f"{ratings} {top}")
-
-
-def test_a_negative_rating_is_an_argument() -> None:
-    assert shown(rated, "-20", "--top", "3", "1e2") == "('-20', '1e2') 3\n"
+def test_a_negative_rating_is_an_argument(run) -> None:
+    negative = run("fair", "-20", "1e1", "--race-to", "3", "--scale", "npl", "--json")
+    assert negative.exit_code == 0, negative.stderr
 
 
 @pytest.mark.parametrize("word", ["-x", "--nope", "twenty", "24,5"])
-def test_other_words_are_not_ratings(word: str) -> None:
-    assert shown(rated, "-20", word).startswith("2 ")
-    assert word in shown(rated, "-20", word)
+def test_other_words_are_not_ratings(run, word: str) -> None:
+    refused = run("fair", "-20", word, "--race-to", "3")
+    assert refused.exit_code == 2
+    assert word in refused.stderr
 
 
 @pytest.mark.parametrize(
@@ -68,44 +56,3 @@ def test_a_seed() -> None:
     assert shown(command) == "1\n"
     assert shown(command, "--seed", "4294967295") == "4294967295\n"
     assert shown(command, "--seed", "-1").startswith("2 ")
-
-
-def test_races_by_games_or_by_what_the_stronger_player_needs() -> None:
-    @click.command()
-    @race_limit_options
-    def command(games, race_to) -> None:
-        refuse_both(games, race_to)
-        click.echo(f"{games} {race_to}")
-
-    assert shown(command, "--games", "7..9") == "(7, 9) None\n"
-    assert shown(command, "--race-to", "7") == "None 7\n"
-    assert shown(command, "--games", "7..9", "--race-to", "7").startswith("2 ")
-
-
-@click.command()
-@results_options
-def reading(reading: dict[str, object]) -> None:
-    click.echo(f"{reading['columns']} {reading['dates']} {reading['aliases']}")
-
-
-@pytest.mark.parametrize(
-    ("words", "columns"),
-    [
-        ((), {}),
-        (("--columns", "player_a=Home, Player B = Away"), {"player_a": "Home", "player_b": "Away"}),
-        (("--columns", "player_a=Name, first,score=S"), {"player_a": "Name, first", "score": "S"}),
-        (("--columns", "player_a=x", "--columns", "score=y"), {"player_a": "x", "score": "y"}),
-    ],
-)
-def test_columns_by_their_titles(words: tuple[str, ...], columns: dict[str, str]) -> None:
-    assert shown(reading, *words) == f"{columns} None None\n"
-
-
-@pytest.mark.parametrize("text", ["Home", "=Home", "player_a=", "player_a=x,player_a=y", "a=x,b=X"])
-def test_what_names_no_column_is_refused(text: str) -> None:
-    assert shown(reading, "--columns", text).startswith("2 ")
-
-
-def test_the_order_of_dates() -> None:
-    assert shown(reading, "--dates", "mdy") == "{} mdy None\n"
-    assert shown(reading, "--dates", "ymd").startswith("2 ")

@@ -3,8 +3,9 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.paces import DISCIPLINES, stated_pace
+from evenbreak.cli.kit.paces import stated_pace
 from evenbreak.matches import PACES, own_pace
+from evenbreak.tournaments.evening.format import DISCIPLINES
 
 
 def test_every_pace_can_be_named():

@@ -3,17 +3,21 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.systems import chart_for, on_scale, read_system
+from evenbreak.cli.kit.systems import chart_for, on_scale
+from evenbreak.errors import InputError
+from evenbreak.fields.question import declaration
 from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.questions.systems import BySystem
 from evenbreak.ratings.scale import SCALES, scale_of
 
 NPL = system_of("npl")
 
 
 def test_a_system_by_its_name():
-    assert read_system("step 2 1").name == "step 2 1"
-    with pytest.raises(click.UsageError, match="'chess'"):
-        read_system("chess")
+    kind = declaration(BySystem, "system").kind
+    assert kind.read("step 2 1").name == "step 2 1"
+    with pytest.raises(InputError, match="'chess'"):
+        kind.read("chess")
 
 
 def test_the_rule_stays_when_the_scale_is_another():

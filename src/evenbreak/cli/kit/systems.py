@@ -4,40 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import click
-
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit import completion
-from evenbreak.cli.kit.options import Decorator
-from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.values import refuse
-from evenbreak.errors import InputError
 from evenbreak.fields.question import Question
 from evenbreak.ratings.scale import Scale
 from evenbreak.words import Parameter
-
-
-def read_system(name: str) -> handicaps.System:
-    """Return the system of this name, as a type of an option does."""
-    try:
-        return handicaps.system_of(name)
-    except InputError as error:
-        raise click.BadParameter(said(error.sentence)) from None
-
-
-def system_option(default: str | None = "npl") -> Decorator[Any]:
-    """Return the option --system; without a default, a command gets None for npl."""
-    return click.option(
-        "--system",
-        type=read_system,
-        shell_complete=completion.systems,
-        metavar="NAME",
-        default=default,
-        show_default=False,
-        help="How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].  "
-        "[default: npl]",
-    )
 
 
 def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:

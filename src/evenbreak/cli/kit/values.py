@@ -14,9 +14,6 @@ from evenbreak.cli.kit.said import said
 from evenbreak.matches.formats import BETWEEN, LONGEST
 from evenbreak.words import say
 
-MOST_BALLS = 100_000
-"""The most balls that an option can name."""
-
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A finite number, as text."""
 
@@ -63,8 +60,6 @@ class Number(click.ParamType):  # type: ignore[type-arg]
         return found
 
 
-CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1")
-
 SHARE = Number(0.0, 1.0, "; give a number from 0 to 1")
 """A number from 0 to 1 that is no probability."""
 
@@ -100,16 +95,6 @@ class TwoWhole(click.ParamType):  # type: ignore[type-arg]
         return m, n
 
 
-PAIR = TwoWhole(
-    BETWEEN,
-    1,
-    LONGEST,
-    f"give a whole number from 1 to {LONGEST}, such as 7, "
-    "or one for each player with a colon between them, such as 7:5",
-    one=True,
-)
-"""The games that each player needs: 7:5, 7-5 or 7/5; 7 alone means 7:7."""
-
 SCORE = TwoWhole(
     BETWEEN,
     0,
@@ -118,23 +103,6 @@ SCORE = TwoWhole(
 )
 """A score: 3:0, 3-0 or 3/0."""
 
-
-class _ScoreOrName(click.ParamType):  # type: ignore[type-arg]
-    """A score, or the name of a player."""
-
-    name = "score"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, int] | str:
-        """Return the score, or the name as it was written."""
-        if isinstance(value, str) and value.strip()[:1].isalpha():
-            return value
-        return SCORE.convert(value, param, ctx)
-
-
-SCORE_OR_NAME = _ScoreOrName()
-"""A score, or in a chip tournament the winner."""
 
 SPAN = TwoWhole(
     r"\.\.",
