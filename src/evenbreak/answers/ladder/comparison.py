@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.columns import columns_of
-from evenbreak.answers.kit.parts import Column, Part, Table
+from evenbreak.answers.kit.columns import columns_of, in_files
+from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.ladder.ladder import OPPONENTS
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart import chart as printed
@@ -131,7 +131,7 @@ _COLUMNS = [
         "system chart error_points sd_doublings settling_mean settling_p90 p_favourite_mean "
         "favourite_over_60 match_games inflation on_front"
     ),
-    *map(Column, ("sd_se", "settling_mean_se")),
+    *in_files(("sd_se", "settling_mean_se")),
 ]
 
 
