@@ -137,7 +137,7 @@ ASKED = {
     "--order blind --sure",
     "lineup_sealed": "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --order sealed "
     "--cap 23 --sure",
-    "round": "round data/demo_team.csv data/demo_opponents.csv --games 1 --everybody",
+    "round": "round data/demo_team.csv data/demo_opponents.csv --single-games 1 --everybody",
     "caps": "caps data/demo_team_rosters.csv --race 5 --sets 3 --cap 15",
     "season": "season data/demo_team_results.csv data/demo_team_schedule.csv --up 2 --down 1",
     "tournament_odds": "tournament odds data/demo_entrants.csv --race 7 --losers-race 5 "

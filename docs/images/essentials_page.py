@@ -106,7 +106,7 @@ PAGES = (
             ("A cap on the sum of the levels", "lineup … --cap 23"),
             (
                 "A head start to make a round even",
-                "round ours.csv theirs.csv --games 1 --everybody",
+                "round ours.csv theirs.csv --single-games 1 --everybody",
             ),
             ("How the season may end", "season results.csv schedule.csv --up 2 --down 1"),
         ),

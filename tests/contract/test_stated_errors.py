@@ -100,7 +100,7 @@ def of_intervals(answer: dict[str, Any]) -> Figures:
 CASES = {
     "season": Drawn(
         # Strengths that are hardly known, and so many seasons that their luck is the most of it.
-        "season TEAMS --round-robin 3 --seasons 20000",
+        "season TEAMS --meetings 3 --seasons 20000",
         of_season,
     ),
     "lineup": Drawn("lineup US THEM --race 2 --sets 1", table("options", "p_best", "p_best_error")),

@@ -65,7 +65,7 @@ GOOD: dict[str, Callable[[Path], str]] = {
     "drill --log {}": lambda _: first("drill_log.csv"),
     "practice {}": lambda _: first("practice_scores.csv"),
     "chain {}": lambda _: first("safety_battle.csv"),
-    "season {} --round-robin 1 --seasons 1000": lambda _: first("demo_team_results.csv", 12),
+    "season {} --meetings 1 --seasons 1000": lambda _: first("demo_team_results.csv", 12),
     "lineup {} US --race 2 --sets 2": lambda _: TEAM,
     "tournament import {} --out OUT": bracket,
     "tournament import {} --out OUT --race 5": saved(challonge, "double", 4),

@@ -30,10 +30,12 @@ SECTIONS = {
         ),
     },
     "Run teams": {
-        "lineup": Entry("team.lineup", "Whom to put up now, and what each choice is worth."),
-        "round": Entry("team.round_", "A round of two teams: who wins, and the fair head start."),
-        "caps": Entry("team.caps", "What a cap and the order of nomination do to a league."),
-        "season": Entry("team.season", "A team season: title, promotion, relegation."),
+        "lineup": Entry("team.lineup", "Who to put up now, and what each choice is worth."),
+        "round": Entry(
+            "team.league:round_", "A round of two teams: who wins, and the fair head start."
+        ),
+        "caps": Entry("team.league:caps", "What a cap and the order of nomination do to a league."),
+        "season": Entry("team.league:season", "A team season: title, promotion, relegation."),
     },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),

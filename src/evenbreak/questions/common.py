@@ -8,11 +8,13 @@ from typing import Annotated, Any, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import LONGEST, Choice, File, Named, Number, TwoWhole, Whole
+from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 
 HIGHEST_SEED = 2**32 - 1
+MOST_JOBS = 512
 
 CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1", metavar="P")
 SHARE = Number(metavar="SHARE")
@@ -73,6 +75,30 @@ EntrantsFile: TypeAlias = Annotated[
 ]
 Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
 ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
+_RACE = Whole(1, LONGEST_RACE)
+EvenRace: TypeAlias = Annotated[int | None, Field(_RACE, "Even races to N games.")]
+HandicappedRace: TypeAlias = Annotated[
+    int | None,
+    Field(
+        _RACE,
+        "Handicapped races instead: the stronger player needs N games, the weaker as many as is "
+        "fairest.",
+    ),
+]
+ChartOfRaces: TypeAlias = Annotated[
+    ChartName, Says("Races by this chart of rating differences instead.")
+]
+Sure: TypeAlias = Annotated[
+    bool, Field(Flag(), "Take the ratings as right, even if they have standard errors.")
+]
+Jobs: TypeAlias = Annotated[
+    int,
+    Field(
+        Whole(1, MOST_JOBS),
+        "How many processes work at a time; the answer is the same.",
+        metavar="J",
+    ),
+]
 FormOfDay: TypeAlias = Annotated[
     float | None,
     Field(

@@ -12,6 +12,7 @@ from evenbreak.questions.common import (
     ChartName,
     EntrantsFile,
     FormOfDay,
+    Jobs,
     Lengths,
     OutFolder,
     ScaleOf,
@@ -23,7 +24,7 @@ from evenbreak.questions.results import ON_STDIN, ROSTER
 from evenbreak.questions.systems import DAY_SD, BySystem
 from evenbreak.tournaments.evening.format import Discipline, Tables
 
-MOST_WEEKS, MOST_REPLICAS, MOST_JOBS, MOST_MATCHES = 10_000, 10_000_000, 512, 100
+MOST_WEEKS, MOST_REPLICAS, MOST_MATCHES = 10_000, 10_000_000, 100
 
 WEEKS = 30
 """The length of a season where neither an option nor a schedule says it."""
@@ -201,15 +202,7 @@ class Simulate(BySystem):
         ),
     ] = False
     seed: Annotated[Seed, Says("The same seed gives the same files.", section=_WORK)] = 1
-    jobs: Annotated[
-        int,
-        Field(
-            Whole(1, MOST_JOBS),
-            "How many processes work at a time; the answer is the same.",
-            metavar="J",
-            section=_WORK,
-        ),
-    ] = 1
+    jobs: Annotated[Jobs, Says(section=_WORK)] = 1
     dask: Annotated[
         str | None,
         Field(

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Annotated, Any
 
-from evenbreak.fields.kinds import Choice, File, Whole
-from evenbreak.fields.question import Field, Question, Says, declared
-from evenbreak.questions.common import ChartName
+from evenbreak.fields.kinds import Choice, File
+from evenbreak.fields.question import Field, Question, declared
+from evenbreak.questions.common import ChartOfRaces, EvenRace, HandicappedRace
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
-from evenbreak.tournaments.evening.format import LONGEST_RACE, Format
+from evenbreak.tournaments.evening.format import Format
 from evenbreak.tournaments.evening.opening import FORMATS, usual_seeding
 from evenbreak.words import Parameter, say
 
@@ -25,8 +25,6 @@ FORMAT_TITLES = {
     "chips": say("Chip tournament"),
     "pods": say("Pods: double elimination in small brackets, then single"),
 }
-
-_RACE = Whole(1, LONGEST_RACE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,16 +50,9 @@ class TournamentPlan(Format, Question):
             "rack, see [evenbreak chips](#evenbreak-chips).",
         ),
     ] = "double"
-    race: Annotated[int | None, Field(_RACE, "Even races to N games.")] = None
-    race_to: Annotated[
-        int | None,
-        Field(
-            _RACE,
-            "Handicapped races instead: the stronger player needs N games, the weaker as many as "
-            "is fairest.",
-        ),
-    ] = None
-    chart: Annotated[ChartName, Says("Races by this chart of rating differences instead.")] = None
+    race: EvenRace = None
+    race_to: HandicappedRace = None
+    chart: ChartOfRaces = None
     seeding: Annotated[
         str | None,
         Field(

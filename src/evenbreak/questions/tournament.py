@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, TypeAlias
 
 from evenbreak.fields.kinds import File, Flag
 from evenbreak.fields.question import Field, Says
-from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters
+from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters, Sure
 from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
 from evenbreak.questions.pace import Pace, Turnover
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
@@ -108,9 +108,7 @@ class TournamentOdds(OfEntrants):
   evenbreak tournament odds --file tonight.db
 """
     under_way = ("sure", "walkovers", "prizes")
-    sure: Annotated[
-        bool, Field(Flag(), "Take the ratings as right, even if they have standard errors.")
-    ] = False
+    sure: Sure = False
     before_draw: Annotated[
         bool,
         Field(

@@ -8,7 +8,7 @@ OURS, THEIRS = str(DATA / "demo_team.csv"), str(DATA / "demo_opponents.csv")
 
 
 def test_a_head_start_makes_a_round_more_even(ask):
-    told = ask("round", OURS, THEIRS, "--games", "1", "--everybody", "--sure")
+    told = ask("round", OURS, THEIRS, "--single-games", "1", "--everybody", "--sure")
     plain, *more = told["starts"]
     assert plain["start_1"] == 0
     assert sum(plain[key] for key in ("p_win_1", "p_tie", "p_lose_1")) == pytest.approx(1.0)
@@ -19,9 +19,9 @@ def test_a_head_start_makes_a_round_more_even(ask):
 @pytest.mark.parametrize(
     ("words", "what"),
     [
-        ([], "--games K"),
-        (["--games", "2", "--race", "5"], "--games is for single games"),
-        (["--games", "2"], "6 players"),
+        ([], "--single-games"),
+        (["--single-games", "2", "--race", "5"], "the races are given twice"),
+        (["--single-games", "2"], "6 players"),
     ],
 )
 def test_a_wrong_question_is_refused(run, words, what):

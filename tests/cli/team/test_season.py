@@ -30,8 +30,8 @@ def test_the_last_round_is_exact_if_the_strengths_are(ask, tmp_path):
 
 
 def test_a_round_robin_needs_no_schedule(ask):
-    asked = ("--seasons", "1000", "--sure", "--points", "sets")
-    told = ask("season", RESULTS, "--round-robin", "2", *asked)
+    asked = ("--seasons", "1000", "--sure", "--table-points", "sets")
+    told = ask("season", RESULTS, "--meetings", "2", *asked)
     assert sum(row["played"] for row in told["teams"]) == 72
 
 
@@ -46,7 +46,7 @@ def test_one_file_may_have_the_whole_season(ask, tmp_path):
         cells = {"home_score": score, "away_score": score, **one}
         played.append(",".join(cells.get(title, "") for title in titles))
     season.write_text("\n".join(played) + "\n")
-    asked = ("--seasons", "1000", "--sure", "--points", "sets")
+    asked = ("--seasons", "1000", "--sure", "--table-points", "sets")
     one, two = ask("season", str(season), *asked), ask("season", RESULTS, SCHEDULE, *asked)
     assert one["teams"] == two["teams"]
 
@@ -56,7 +56,7 @@ def test_a_column_is_whole_or_not_as_a_whole(run, tmp_path, win, whole):
     path = tmp_path / "season.csv"
     rows = ["1,Chalk,Rack,3,2", "1,Cues,Break,4,1", "2,Chalk,Cues,,", "2,Rack,Cues,2,3"]
     path.write_text("\n".join(["round,home,away,home_score,away_score", *rows]) + "\n")
-    asked = ("--up", "1", "--down", "1", "--seasons", "1000", "--points", f"{win},1,0")
+    asked = ("--up", "1", "--down", "1", "--seasons", "1000", "--table-points", f"{win},1,0")
     lines = run("season", str(path), *asked, "--csv").stdout.splitlines()
     rows = [line.split(",") for line in lines[1:]]
     assert sorted(row[1] for row in rows) == ["1", "1", "2", "2"]
@@ -75,10 +75,10 @@ def test_a_season_with_half_a_score_or_none_is_refused(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "what"),
     [
-        ([RESULTS], "--round-robin"),
-        ([RESULTS, "--round-robin", "1"], "have met 2 times"),
-        ([RESULTS, SCHEDULE, "--points", "1,2,3"], "no more for a loss"),
-        ([RESULTS, SCHEDULE, "--points", "2,1"], "2,1"),
+        ([RESULTS], "--meetings"),
+        ([RESULTS, "--meetings", "1"], "have met 2 times"),
+        ([RESULTS, SCHEDULE, "--table-points", "1,2,3"], "no more for a loss"),
+        ([RESULTS, SCHEDULE, "--table-points", "2,1"], "2,1"),
         ([RESULTS, SCHEDULE, "--ties", "coin"], "coin"),
         ([RESULTS, SCHEDULE, "--up", "8"], "--up"),
         ([RESULTS, SCHEDULE, "--race", "3"], "--race 3"),
@@ -93,7 +93,7 @@ def test_what_cannot_be_is_refused_in_one_line(run, words, what):
 def test_every_problem_of_a_file_is_named_at_once(run, tmp_path):
     bad = tmp_path / "bad.csv"
     bad.write_text("home,away,home_score,away_score\nA,A,3,2\nA,B,x,2\nA,,1,4\nB,A,0,0\nA,B,x,0\n")
-    result = run("season", str(bad), "--round-robin", "2")
+    result = run("season", str(bad), "--meetings", "2")
     assert result.exit_code == 3
     for line in ("bad.csv:2", "bad.csv:3", "bad.csv:4"):
         assert line in result.stderr

@@ -1,183 +1,187 @@
-"""`evenbreak lineup`: whom to put up in a team match."""
+"""`evenbreak lineup`: who to put up in a team match, at any point in it."""
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-import click
 
 from evenbreak import files, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.faces import faces
-from evenbreak.cli.kit.options import OF_LIST, scale_option, seed_option
-from evenbreak.cli.kit.starters import starter_options, with_starters
-from evenbreak.cli.kit.values import SCORE, Whole, refuse
-from evenbreak.cli.team.lists import caps_of, race_of, race_options, scale_of_teams
-from evenbreak.cli.team.points import point_of
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.starters import with_starters
+from evenbreak.cli.team.league import race_of, refuse_without_level, scale_of_teams
+from evenbreak.files.tables.names import KnownNames
+from evenbreak.handicaps.charts.race_of_pair import games_needed
+from evenbreak.questions.teams import InPlay, Lineup
+from evenbreak.teams.evening.plan import meeting_by
+from evenbreak.teams.meeting import SEALED, Meeting
+from evenbreak.teams.night import LOSER, WINNER, order_of
+from evenbreak.teams.set_laws import brought
+from evenbreak.words import Parameter
 
-if TYPE_CHECKING:
-    from evenbreak.ratings.scale import Scale
-
-MOST_SETS = 25
-
-EXAMPLES = """\b
-Examples:
-  evenbreak lineup ours.csv theirs.csv --scale fargo --race 5 --sets 5 --order ABABA
-  evenbreak lineup ours.csv theirs.csv --race 5 --cap 23 --at-most 2:6
-  evenbreak lineup ours.csv theirs.csv --race 5 --used "Ann,Xi" --score 1:0 --named Yu
-  evenbreak lineup ours.csv theirs.csv --race 5 --playing "Ann v Xi 3:2" --named Bo
-"""
+_SIDES = ("ours", "theirs")
 
 
-@click.command("lineup", epilog=EXAMPLES)
-@click.argument("ours", metavar="OURS.csv")
-@click.argument("theirs", metavar="THEIRS.csv")
-@race_options
-@click.option(
-    "--sets",
-    type=Whole(1, MOST_SETS),
-    metavar="K",
-    help="How many sets are played.  [default: as many as the smaller team has players, times K "
-    "with --times K]",
-)
-@click.option(
-    "--order",
-    default="alternate",
-    metavar="PATTERN",
-    help="Who names first in each set: A (you), B (they), = (both, unseen), W or L (who won or "
-    "lost the last set), such as ABABA. Or alternate, home, blind, winner, loser, or sealed: both "
-    "line-ups are handed in before the night.",
-)
-@click.option(
-    "--count",
-    type=click.Choice(["sets", "games", "points"]),
-    default="sets",
-    help="What decides the night: sets won, all games won, or points as in APA 8-ball (3:0 for a "
-    "shutout, 2:1 hill-hill, else 2:0).",
-)
-@click.option(
-    "--doubles", metavar="K,...", help="The sets that are doubles, by number, such as 5 or 1,5."
-)
-@click.option(
-    "--cap",
-    type=float,
-    metavar="TOTAL",
-    help="The largest sum of the skill levels (without a column level: of the ratings) of a "
-    "line-up, such as 23.",
-)
-@click.option(
-    "--at-most",
-    metavar="K:LEVEL",
-    help="At most K players of this level or above, such as 2:6.",
-)
-@click.option(
-    "--times",
-    type=Whole(1, MOST_SETS),
-    default=1,
-    metavar="K",
-    help="How often a player may be put up.",
-)
-@click.option(
-    "--used",
-    metavar="NAME,...",
-    help="Who has played already, of both teams. A name that both have: ours:Ann, theirs:Ann.",
-)
-@click.option(
-    "--score",
-    type=SCORE,
-    help="The score of the night so far, yours first: sets, games or points as they count.",
-)
-@click.option(
-    "--playing",
-    multiple=True,
-    metavar='"A v B 3:2"',
-    help="A match that is being played, yours first, with its score; may be repeated.",
-)
-@click.option("--named", metavar="NAME", help="Whom the team that names first has just named.")
-@click.option(
-    "--last",
-    type=click.Choice(["won", "lost"]),
-    help="Whether you won the last set, where its winner or loser names first.",
-)
-@click.option(
-    "--sure",
-    is_flag=True,
-    help="Take the ratings as right, even if the files state their standard errors.",
-)
-@starter_options
-@scale_option(OF_LIST, fixed=False)
-@seed_option("The seed of the ratings that are drawn, where they have standard errors.")
-@faces()
-def command(
-    ours: str,
-    theirs: str,
-    race: int | None,
-    race_to: int | None,
-    chart: str | None,
-    sets: int | None,
-    order: str,
-    count: str,
-    doubles: str | None,
-    cap: float | None,
-    at_most: str | None,
-    times: int,
-    used: str | None,
-    score: tuple[int, int] | None,
-    playing: tuple[str, ...],
-    named: str | None,
-    last: str | None,
-    sure: bool,
-    starter: float | None,
-    starter_sd: float | None,
-    scale: Scale | None,
-    seed: int,
-) -> Answer:
-    """Find whom to put up in a team match, and what each choice is worth.
-
-    Each file has the columns player and rating, and for caps a column level. Both captains are
-    taken to choose as well as they can. After each nomination, ask again with --used, --score and
-    --named.
-    """
+@command_of(Lineup, "lineup")
+def command(asked: Lineup) -> Answer:
+    """Find who to put up in a team match."""
     from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import lineup_answer
-    from evenbreak.teams.meeting import SEALED, Meeting
 
-    lists = files.read_team(ours), files.read_team(theirs)
-    points, doubts = scale_of_teams(lists, scale)
-    rosters = [with_starters(each.file.roster, points, starter, starter_sd) for each in lists]
-    if sure:
-        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
-    played = sets or min(len(each) for each in rosters) * times
-    sizes = _sizes(doubles, played)
-    squads = [
-        teams.Squad(roster.players, caps_of(each, cap, at_most), times)
-        for roster, each in zip(rosters, lists, strict=True)
+    lists = files.read_team(asked.ours), files.read_team(asked.theirs)
+    scale, warnings = scale_of_teams(lists, asked.scale)
+    rosters = [
+        with_starters(each.file.roster, scale, asked.starter, asked.starter_sd) for each in lists
     ]
-    meeting = Meeting(
-        rosters[0],
-        rosters[1],
-        (squads[0], squads[1]),
-        race_of(race, race_to, chart),
-        points,
-        sizes,
-        order.strip().lower() if order.strip().lower() == SEALED else order,
-        teams.Points() if count == "points" else count,  # type: ignore[arg-type]
+    if asked.sure:
+        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
+    for each in lists:
+        refuse_without_level(asked, each)
+    meeting = meeting_by(
+        asked,
+        (rosters[0], rosters[1]),
+        [each.weights.tolist() for each in lists],
+        race=race_of(asked),
+        scale=scale,
+        sets=asked.sets or min(len(each) for each in rosters) * asked.times,
     )
-    asked = any(value is not None and value != () for value in (used, score, playing, named, last))
-    point = point_of(meeting, used, score, playing, named, last) if asked else None
-    warnings = doubts
-    warnings += chart_doubts(meeting.race, points)
+    begun = {"used", "score", "playing", "named", "last"} & asked.given.keys()
+    point = _point(asked, meeting) if begun else None
+    warnings += chart_doubts(meeting.race, scale)
     for each, roster in zip(lists, rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
-    return lineup_answer(meeting, point, seed=seed, warnings=warnings)
+    return lineup_answer(meeting, point, seed=asked.seed, warnings=warnings)
 
 
-def _sizes(doubles: str | None, sets: int) -> tuple[int, ...]:
-    if doubles is None:
-        return (1,) * sets
-    numbers = [part.strip() for part in doubles.split(",")]
-    if not all(part.isdigit() and 1 <= int(part) <= sets for part in numbers):
-        refuse(f"--doubles {doubles!r}; give numbers of sets from 1 to {sets}, such as 1,3")
-    pairs = {int(part) for part in numbers}
-    return tuple(2 if k in pairs else 1 for k in range(1, sets + 1))
+def _point(asked: Lineup, meeting: Meeting) -> teams.Point:
+    """Return the point in the match that is described, or refuse what cannot be."""
+    if meeting.order == SEALED:
+        asked.refuse("{order} sealed is asked before the match; leave out what has happened since")
+    both: tuple[list[str], list[str]] = ([], [])
+    for text in asked.used:
+        side, name = _player(asked, meeting, text, "used")
+        both[side].append(name)
+    laws = []
+    for play in asked.playing:
+        names = _in_play(asked, meeting, play)
+        laws.append(meeting.law_in_play(*names, play[2]))
+        for side in (0, 1):
+            both[side].extend(names[side])
+    if asked.score is None and len(both[0]) > len(laws):
+        asked.refuse("{used} names players whose sets are over; give the score so far with {score}")
+    letters = order_of(meeting.order, len(meeting.sizes))
+    if asked.last is not None and not set(letters) & {WINNER, LOSER}:
+        asked.refuse(
+            "{last} is for an order in which the winner or loser of the last set names first"
+        )
+    if asked.score is not None:
+        _check_score(asked, meeting, asked.score, _sets_over(meeting, len(both[0]), len(laws)))
+    lead = 0 if asked.score is None else asked.score[0] - asked.score[1]
+    return teams.Point(
+        tuple(both[0]),
+        tuple(both[1]),
+        lead,
+        None if asked.last is None else asked.last == "won",
+        tuple(_player(asked, meeting, text, "named", any_side=True)[1] for text in asked.named),
+        tuple(laws),
+    )
+
+
+def _sets_over(meeting: Meeting, used: int, playing: int) -> int:
+    """Return how many sets are over, if so many of our players are used up or playing."""
+    begun = next((k for k in range(len(meeting.sizes) + 1) if sum(meeting.sizes[:k]) >= used), 0)
+    return max(0, begun - playing)
+
+
+def _player(
+    asked: Lineup, meeting: Meeting, text: str, option: str, *, any_side: bool = False
+) -> tuple[int, str]:
+    """Return the side of a player, and the name as the file spells it."""
+    players = meeting.ours.players, meeting.theirs.players
+    part = Parameter(option)
+    head, colon, name = text.partition(":")
+    side = head.strip().lower() if colon else ""
+    sides = [_SIDES.index(side)] if side in _SIDES else [0, 1]
+    wanted = name.strip() if len(sides) == 1 else text
+    named = [
+        (side, players[side][place])
+        for side in sides
+        if (place := KnownNames(players[side]).place(wanted)) is not None
+    ] or _by_beginning([(side, name) for side in sides for name in players[side]], wanted)
+    if not named:
+        if (
+            option == "playing"
+            and len(sides) == 1
+            and KnownNames(players[1 - sides[0]]).place(wanted) is not None
+        ):
+            asked.refuse(
+                "{part}: {name!r} is in the other team; write your player, then theirs",
+                part=part,
+                name=wanted,
+            )
+        hint = KnownNames([*players[0], *players[1]]).hint(wanted)
+        asked.refuse("{part}: {name!r} is in neither team{hint}", part=part, name=wanted, hint=hint)
+    if len(named) > 1 and not any_side:
+        asked.refuse(
+            "{part}: both teams have a {name!r}; write ours:{name} or theirs:{name}",
+            part=part,
+            name=wanted,
+        )
+    return named[0]
+
+
+def _by_beginning(players: list[tuple[int, str]], wanted: str) -> list[tuple[int, str]]:
+    """Return the one player whose first or last name begins like this; none if there are more."""
+    begin = f" {wanted.casefold()}"
+    such = [(side, name) for side, name in players if wanted and begin in f" {name.casefold()}"]
+    return such if len(such) == 1 else []
+
+
+def _in_play(asked: Lineup, meeting: Meeting, play: InPlay) -> tuple[list[str], list[str]]:
+    """Return our players in a set that is being played, and theirs."""
+    ours, theirs = (
+        [_player(asked, meeting, f"{side}:{name}", "playing")[1] for name in names]
+        for side, names in zip(_SIDES, play[:2], strict=True)
+    )
+    return ours, theirs
+
+
+# Whether a score can be.
+
+
+def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: int) -> None:
+    """Refuse a score that so many sets cannot bring, or that contradicts who won the last one."""
+    each = _of_a_set(meeting)
+    possible = {(0, 0)}
+    for _ in range(over):
+        possible = {(a + x, b + y) for a, b in possible for x, y in each}
+    if score not in possible:
+        asked.refuse(
+            "{score} {a}:{b} cannot be: by the players used {sets}, and {counted} count"
+            + (
+                "; name those who have played with {used}"
+                if asked.count == "sets" and not over
+                else ""
+            ),
+            a=score[0],
+            b=score[1],
+            sets="1 set is over" if over == 1 else f"{over} sets are over",
+            counted=asked.count,
+        )
+    if asked.last is not None and not over:
+        asked.refuse("{last} {how}: by the players used no set is over", how=asked.last)
+    if asked.last is not None and asked.count == "sets" and not score[asked.last == "lost"]:
+        asked.refuse(
+            "{last} {how} contradicts {score} {a}:{b}", how=asked.last, a=score[0], b=score[1]
+        )
+
+
+def _of_a_set(meeting: Meeting) -> set[tuple[int, int]]:
+    """Return what a set can bring to both teams, whoever plays it."""
+    if meeting.count == "sets":
+        return {(1, 0), (0, 1)}
+    points = meeting.ours.rating[:, None] - meeting.theirs.rating
+    first, second = games_needed(points, meeting.race, meeting.scale)
+    scores: set[tuple[int, int]] = set()
+    for m, n in set(zip(first.ravel().tolist(), second.ravel().tolist(), strict=True)):
+        ends = [(m, lost) for lost in range(n)] + [(won, n) for won in range(m)]
+        scores |= {brought((m, n), end, meeting.count) for end in ends}
+    return scores

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Annotated
+from typing import Annotated, Protocol
 
 from evenbreak.checks import Between, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.ratings.roster import Roster
-from evenbreak.ratings.scale import scale_of
+from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import order_of
 from evenbreak.teams.sealed import sealed
@@ -113,28 +114,83 @@ def meeting_of(plan: NightPlan) -> Meeting:
     >>> meeting_of(plan).sizes, meeting_of(plan).order
     ((1, 1), 'AB')
     """
-    whole(plan.sets, "sets", at_least=1)
-    one_of(plan.count, "count", COUNTS)
-    wrong = [k for k in plan.doubles if not 1 <= k <= plan.sets]
+    first, second = (team.roster for team in plan.teams)
+    return meeting_by(
+        plan,
+        (first, second),
+        [team.weights for team in plan.teams],
+        race=_race(plan),
+        scale=scale_of(plan.scale),
+        sets=plan.sets,
+    )
+
+
+class Rules(Protocol):
+    """The rules of a team night, as a plan and a question state them; see `NightPlan`."""
+
+    @property
+    def order(self) -> str: ...  # noqa: D102
+    @property
+    def count(self) -> str: ...  # noqa: D102
+    @property
+    def doubles(self) -> tuple[int, ...]: ...  # noqa: D102
+    @property
+    def cap(self) -> float | None: ...  # noqa: D102
+    @property
+    def at_most(self) -> tuple[int, float] | None: ...  # noqa: D102
+    @property
+    def times(self) -> int: ...  # noqa: D102
+
+
+def meeting_by(
+    rules: Rules,
+    sides: tuple[Roster, Roster],
+    weights: Sequence[Sequence[float]],
+    *,
+    race: Race,
+    scale: Scale,
+    sets: int,
+) -> Meeting:
+    """Return the meeting of two rosters by the rules of a night.
+
+    Parameters
+    ----------
+    rules
+        the rules.
+    sides
+        team A and team B.
+    weights
+        what each player counts for under a cap, by team.
+    race, scale
+        what is played in each set, and the scale of the ratings.
+    sets
+        how many are played.
+
+    Raises
+    ------
+    InputError
+        if the rules make no sense.
+    """
+    whole(sets, "sets", at_least=1)
+    one_of(rules.count, "count", COUNTS)
+    wrong = [k for k in rules.doubles if not 1 <= k <= sets]
     if wrong:
         raise InputError(
-            "set {n} can't be doubles: the sets are 1 to {sets}", n=wrong[0], sets=plan.sets
+            "set {n} can't be doubles: the sets are 1 to {sets}", n=wrong[0], sets=sets
         )
-    sides = [team.roster for team in plan.teams]
-    squads = [
-        Squad(team.players, caps_of(team.weights, plan.cap, plan.at_most), plan.times)
-        for team in plan.teams
-    ]
-    count: Count = Points() if plan.count == "points" else plan.count  # type: ignore[assignment]
-    order = plan.order.strip().lower()
+    first, second = (
+        Squad(side.players, caps_of(counted, rules.cap, rules.at_most), rules.times)
+        for side, counted in zip(sides, weights, strict=True)
+    )
+    count: Count = Points() if rules.count == "points" else rules.count  # type: ignore[assignment]
+    order = rules.order.strip().lower()
     return Meeting(
-        sides[0],
-        sides[1],
-        (squads[0], squads[1]),
-        _race(plan),
-        scale_of(plan.scale),
-        tuple(2 if k in plan.doubles else 1 for k in range(1, plan.sets + 1)),
-        order if order == SEALED else order_of(plan.order, plan.sets),
+        *sides,
+        (first, second),
+        race,
+        scale,
+        tuple(2 if k in rules.doubles else 1 for k in range(1, sets + 1)),
+        order if order == SEALED else order_of(rules.order, sets),
         count,
     )
 

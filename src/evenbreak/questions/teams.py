@@ -1,0 +1,412 @@
+"""Questions about teams: whom to put up, who wins a round, what a cap does, how a season ends."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Flag, Named, Number, Text, Whole
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.questions.common import (
+    SCORE,
+    ChartOfRaces,
+    EvenRace,
+    HandicappedRace,
+    Jobs,
+    ScaleOf,
+    Seed,
+    Starters,
+    Sure,
+)
+from evenbreak.teams.evening.plan import COUNTS
+from evenbreak.words import say
+
+MOST_SETS = 25
+
+_RULES, _SO_FAR = "Rules", "The match so far"
+
+ORDERS = {
+    "alternate": say("Taking turns"),
+    "home": say("Always the first team"),
+    "loser": say("The loser of the last set"),
+    "winner": say("The winner of the last set"),
+    "blind": say("Both at once, blind"),
+    "sealed": say("Sealed: both line-ups before the match starts"),
+}
+"""Who names first, by a name of the order, with its words."""
+
+
+def sets_in(text: str) -> tuple[int, ...]:
+    """Return the numbers of sets in a text, each once.
+
+    >>> sets_in("5, 1")
+    (1, 5)
+    """
+    if not re.fullmatch(r"\s*\d{1,3}\s*(,\s*\d{1,3}\s*)*", text, re.ASCII):
+        raise InputError(
+            "{value!r} does not name any sets; list their numbers, such as 1,5.", value=text
+        )
+    return tuple(sorted({int(part) for part in text.split(",")}))
+
+
+def strong_in(text: str) -> tuple[int, float]:
+    """Return how many players of which level a text allows.
+
+    >>> strong_in("2:6"), strong_in("1 of 5.5+")
+    ((2, 6.0), (1, 5.5))
+    """
+    match = re.fullmatch(
+        r"\s*(\d{1,3})\s*(?::|x|of)\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", text, re.ASCII
+    )
+    if match is None:
+        raise InputError(
+            "{value!r}: write how many players of which level, such as 2:6.", value=text
+        )
+    return int(match[1]), float(match[2])
+
+
+def _points_of_match(text: str) -> tuple[float, ...]:
+    """Return the points of a win, a draw, a loss and each set won."""
+    if text.strip().lower() == "sets":
+        return 0.0, 0.0, 0.0, 1.0
+    try:
+        win, draw, loss = (Number(0.0, 100.0).read(part) for part in text.split(","))
+    except (InputError, ValueError):
+        wanted = "give the points of a win, a draw and a loss, such as 2,1,0, or sets"
+        raise InputError(f"{text!r}; {wanted}") from None
+    return win, draw, loss, 0.0
+
+
+def _spelled(points: tuple[float, ...]) -> str:
+    return "sets" if points[3] else ",".join(f"{part:g}" for part in points[:3])
+
+
+def _names_in(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
+def _pair_in(text: str) -> tuple[str, ...]:
+    """Return the player in a text, or the two of a pair."""
+    return tuple(part.strip() for part in re.split(r",|&|\band\b", text) if part.strip())
+
+
+def set_in_play(text: str) -> InPlay:
+    """Return who plays whom at what score.
+
+    >>> set_in_play("Ann and Bo v Xi and Yu 3:2")
+    (('Ann', 'Bo'), ('Xi', 'Yu'), (3, 2))
+    """
+    match = re.fullmatch(
+        r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", text, re.ASCII
+    )
+    if match is None:
+        wanted = 'write your player, theirs and the score, such as "Ann v Xi 3:2"'
+        raise InputError(f"{text!r}; {wanted}")
+    return _pair_in(match[1]), _pair_in(match[2]), (int(match[3]), int(match[4]))
+
+
+InPlay: TypeAlias = tuple[tuple[str, ...], tuple[str, ...], tuple[int, int]]
+Sets: TypeAlias = Annotated[
+    int | None, Field(Whole(1, MOST_SETS), "How many sets are played.", metavar="K")
+]
+Order: TypeAlias = Annotated[
+    str,
+    Field(
+        Text("PATTERN"),
+        "Who names first in each set: A (you), B (they), = (both, unseen), W or L (who won or lost "
+        "the last set), such as ABABA. Or alternate, home, blind, winner, loser or sealed.",
+        titles=ORDERS,
+        more="A shorter pattern is repeated. `sealed`: both line-ups are handed in before the "
+        "match.",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfTeams(Starters):
+    """A question about the matches between teams: their ratings, and what is raced to."""
+
+    lengths: ClassVar[tuple[str, ...]] = ("race", "race_to", "chart")
+    """The fields of which one says how long a match is."""
+
+    race: EvenRace = None
+    race_to: HandicappedRace = None
+    chart: ChartOfRaces = None
+    scale: ScaleOf = None
+
+    def check(self) -> None:
+        """Refuse races that are missing, or given twice."""
+        stated = [name for name in self.lengths if getattr(self, name) is not None]
+        if len(stated) != 1:
+            template = (
+                "the races are given twice; give only one of {every}"
+                if stated
+                else "the races are missing; give one of {every}"
+            )
+            *first, last = (f"{{{name}}}" for name in self.lengths)
+            self.refuse(template.replace("{every}", f"{', '.join(first)} and {last}"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capped(Question):
+    """Who names first, and what limits a line-up."""
+
+    order: Order = "alternate"
+    cap: Annotated[
+        float | None,
+        Field(
+            Number(0.001, 1e6, "; give a number above 0, such as 23", metavar="TOTAL"),
+            "The largest sum of the skill levels of a line-up, such as 23.",
+            more="Without a column `level`, of the ratings.",
+        ),
+    ] = None
+    at_most: Annotated[
+        tuple[int, float] | None,
+        Field(
+            Named(strong_in, "K:LEVEL", spelled=lambda limit: f"{limit[0]}:{limit[1]:g}"),
+            "At most K players of this level or above, such as 2:6.",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lineup(OfTeams, Capped):
+    """Find who to put up in a team match, and what each choice is worth.
+
+    Each file has the columns player and rating, and for caps a column level. Both captains are
+    taken to choose as well as they can. After each nomination, ask again with {used}, {score} and
+    {named}.
+    """
+
+    examples = """\
+  evenbreak lineup ours.csv theirs.csv --scale fargo --race 5 --sets 5 --order ABABA
+  evenbreak lineup ours.csv theirs.csv --race 5 --cap 23 --at-most 2:6
+  evenbreak lineup ours.csv theirs.csv --race 5 --used "Ann,Xi" --score 1:0 --named Yu
+  evenbreak lineup ours.csv theirs.csv --race 5 --playing "Ann v Xi 3:2" --named Bo
+"""
+    ours: Annotated[str, Field(File("OURS.csv"), argument=True)]
+    theirs: Annotated[str, Field(File("THEIRS.csv"), argument=True)]
+    sets: Annotated[
+        Sets,
+        Says(usual="as many as the smaller team can fill"),
+    ] = None
+    used: Annotated[
+        tuple[str, ...],
+        Field(
+            Named(_names_in, "NAME,..."),
+            "Who has played already, of both teams.",
+            more="Where both teams have a player of that name, write `ours:Ann` or `theirs:Ann`.",
+        ),
+    ] = ()
+    score: Annotated[
+        tuple[int, int] | None,
+        Field(
+            SCORE,
+            "The score of the match so far, yours first: sets, games or points as they count.",
+            metavar="A:B",
+        ),
+    ] = None
+    named: Annotated[
+        tuple[str, ...],
+        Field(Named(_pair_in, "NAME"), "Who the team that names first has just named."),
+    ] = ()
+    playing: Annotated[
+        tuple[InPlay, ...],
+        Field(
+            Named(set_in_play, '"A v B 3:2"'),
+            "A set that is being played, your player first, with its score.",
+            many=True,
+            section=_SO_FAR,
+        ),
+    ] = ()
+    count: Annotated[
+        str,
+        Field(
+            Choice(COUNTS),
+            "What decides the match: sets won, all games won, or points as in APA 8-ball (3:0 for "
+            "a shutout, 2:1 hill-hill, else 2:0).",
+            titles={
+                "sets": say("Sets won"),
+                "games": say("All games won"),
+                "points": say("Points: 3-0 for a shutout, 2-1 hill-hill, else 2-0"),
+            },
+            section=_RULES,
+        ),
+    ] = "sets"
+    last: Annotated[
+        str | None,
+        Field(
+            Choice(("won", "lost")),
+            "Whether you won the last set, where its winner or loser names first.",
+            section=_SO_FAR,
+        ),
+    ] = None
+    doubles: Annotated[
+        tuple[int, ...],
+        Field(
+            Named(sets_in, "K,...", spelled=lambda sets: ",".join(map(str, sets))),
+            "The sets that are doubles, by number, such as 5 or 1,5.",
+            section=_RULES,
+        ),
+    ] = ()
+    times: Annotated[
+        int,
+        Field(
+            Whole(1, MOST_SETS),
+            "How often a player may be put up.",
+            metavar="K",
+            section=_RULES,
+        ),
+    ] = 1
+    sure: Annotated[Sure, Says(section="Ratings")] = False
+    seed: Annotated[
+        Seed,
+        Says(
+            "The seed of the ratings that are drawn, where they have standard errors.",
+            section="Ratings",
+        ),
+    ] = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Round(OfTeams):
+    """Find who wins a round between two teams, and the head start that makes it even.
+
+    All games of all matches are added up. The files have the columns player and rating; the first
+    player of one meets the first of the other, and so on.
+    """
+
+    examples = """\
+  evenbreak round ours.csv theirs.csv --single-games 2
+  evenbreak round ours.csv theirs.csv --single-games 1 --everybody --scale fargo
+  evenbreak round ours.csv theirs.csv --race 5
+"""
+    lengths = ("single_games", *OfTeams.lengths)
+    ours: Annotated[str, Field(File("OURS.csv"), argument=True)]
+    theirs: Annotated[str, Field(File("THEIRS.csv"), argument=True)]
+    single_games: Annotated[
+        int | None,
+        Field(Whole(1, 100), "Each match is K single games.", metavar="K", old=("games",)),
+    ] = None
+    everybody: Annotated[
+        bool, Field(Flag(), "Every player meets every player of the other team.")
+    ] = False
+    sure: Sure = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Caps(OfTeams, Capped):
+    """Find what a cap and the order of nomination do to a team league.
+
+    TEAMS.csv has the columns team, player and rating, and for caps a column level. Every team meets
+    every other; each match is solved exactly, with both captains at their best.
+    """
+
+    examples = """\
+  evenbreak caps teams.csv --race 5 --cap 23
+  evenbreak caps teams.csv --race 5 --cap 23 --at-most 2:6 --order ABABA
+  evenbreak caps teams.csv --race-to 7 --sets 4
+"""
+    roster: Annotated[str, Field(File("TEAMS.csv"), argument=True)]
+    order: Annotated[
+        Order, Says("The order of nomination of your league, as for evenbreak lineup.", more="")
+    ] = "alternate"
+    sets: Annotated[
+        Sets, Says(kind=Whole(1, 9), usual="5, or as many as the smallest team has players")
+    ] = None
+
+
+_TEAMS, _SETS = Whole(1, 100), Whole(1, 100)
+_TABLE, _WORK = "The table", "How it is worked out"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Season(Question):
+    """Find each team's chances of title, promotion and relegation, and what is at stake next.
+
+    RESULTS.csv has the columns home, away, home_score and away_score (sets), SCHEDULE.csv home and
+    away, and a round if you like. Without a schedule, the matches of RESULTS.csv without a score,
+    or at 0:0, are to come. How strong the teams are comes from the sets they have won.
+    """
+
+    examples = """\
+  evenbreak season results.csv schedule.csv --up 2 --down 1
+  evenbreak season results.csv --meetings 2 --table-points sets
+  evenbreak season results.csv schedule.csv --table-points 3,1,0 --ties head-to-head,difference
+"""
+    results: Annotated[str, Field(File("RESULTS.csv"), argument=True)]
+    schedule: Annotated[
+        str | None, Field(File("SCHEDULE.csv"), metavar="[SCHEDULE.csv]", argument=True)
+    ] = None
+    meetings: Annotated[
+        int | None,
+        Field(
+            Whole(1, 10),
+            "Instead of a schedule: every two teams meet K times, and what is not played is to "
+            "come.",
+            metavar="K",
+            old=("round-robin",),
+        ),
+    ] = None
+    up: Annotated[int | None, Field(_TEAMS, "How many teams go up.", metavar="K")] = None
+    down: Annotated[int | None, Field(_TEAMS, "How many teams go down.", metavar="K")] = None
+    sets: Annotated[
+        int | None,
+        Field(
+            _SETS, "A match has N sets, all of them played.", usual="as in the results", rare=True
+        ),
+    ] = None
+    race: Annotated[
+        int | None, Field(_SETS, "A match goes to the first to win N sets.", rare=True)
+    ] = None
+    teams: Annotated[
+        str | None,
+        Field(
+            File("TEAMS.csv"),
+            "All teams, with points they have besides.",
+            section=_TABLE,
+            more="The columns are `team` and, for deductions and bonuses, `points`.",
+        ),
+    ] = None
+    table_points: Annotated[
+        tuple[float, ...],
+        Field(
+            Named(_points_of_match, "W,D,L|sets", spelled=_spelled),
+            "The points of a win, a draw and a loss, or a point for each set won.",
+            section=_TABLE,
+            old=("points",),
+        ),
+    ] = (2.0, 1.0, 0.0, 0.0)
+    ties: Annotated[
+        tuple[str, ...],
+        Field(
+            Named(_names_in, "RULE,...", spelled=",".join),
+            "What separates teams with equal points, in this order: difference and scored (sets), "
+            "wins, head-to-head; then lots.",
+            section=_TABLE,
+        ),
+    ] = ("difference", "scored")
+    sure: Annotated[
+        Sure,
+        Says("Take the strengths as right, instead of averaging over them.", section=_WORK),
+    ] = False
+    seasons: Annotated[
+        int,
+        Field(
+            Whole(1000, 10_000_000),
+            "How many seasons to simulate.",
+            section=_WORK,
+            more="With `--sure` and few endings the chances are exact instead.",
+        ),
+    ] = 100_000
+    jobs: Annotated[Jobs, Says(section=_WORK)] = 1
+    seed: Annotated[Seed, Says(section=_WORK)] = 1
+
+    def check(self) -> None:
+        """Refuse two lists of matches to come, and two lengths of a match."""
+        if self.schedule is not None and self.meetings is not None:
+            self.refuse("a schedule and {meetings} cannot be combined; leave one out")
+        if self.sets is not None and self.race is not None:
+            self.refuse("{sets} and {race} cannot be combined; leave one out")
