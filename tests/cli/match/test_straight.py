@@ -122,7 +122,7 @@ def test_plot(run, tmp_path, line, name):
         ("9 x --points 5", "'x'"),
         ("--averages 9:-4 --points 5", "'-4'"),
         ("--averages 24,5:19 --points 5", "24.5"),
-        ("9 1e9 --points 5", "from 0 to 100000"),
+        ("9 1e9 --points 5", "from 0 to 100,000"),
         ("--averages 9:4 --points 0", "from 1 to 1000"),
         ("--averages 9:4 --points 5:", "such as 7:5"),
         ("--averages 9:4 --points 2000:5", "from 1 to 1000"),
