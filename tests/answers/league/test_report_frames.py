@@ -41,7 +41,7 @@ def test_the_summary_says_what_was_read_and_left_out(season, file):
         "first_date": "2024-09-03",
         "last_date": "2024-09-10",
         "games": 33,
-        "players": 5,
+        "player_count": 5,
         "players_without_games": 2,
         "components": 1,
         "groups_of_similar_names": 1,
