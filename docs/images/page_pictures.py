@@ -144,7 +144,7 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
         desk.fill(f"[name={name}]", value)
     desk.select_option("[name=seeding]", label="Seeded by rating")
     kept(shot(desk, first="h1", last="label:has([name=losers_race])"), folder / "begin.png")
-    press(desk, desk.get_by_role("button", name="Begin", exact=True))
+    press(desk, desk.get_by_role("button", name="Start", exact=True))
     clock.at = "19:00"
     press(desk, desk.get_by_role("button", name="Make the draw"))
     settled(desk, site, "/desk")

@@ -158,7 +158,7 @@ def test_a_form_shows_and_sends_what_its_format_has(browser: Any, tmp_path: Path
         page.check("[name=third_place]")
         page.select_option("[name=races]", "fargo_r6_hot")
         assert not page.is_visible("[name=race]")
-        page.click("text=Begin >> nth=-1")
+        page.click('button:text-is("Start") >> nth=-1')
         page.wait_for_url("**/desk")
         plan = read_tournament(site.path).plan
         assert (plan.form, plan.losers_race, plan.third_place) == ("single", None, True)

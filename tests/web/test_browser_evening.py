@@ -66,7 +66,7 @@ class Director:
         self.page.goto(self.site.address)
         self.page.get_by_role("link", name="New tournament").click()
         self.page.select_option("[name=seeding]", "rating")
-        self.does("Begin", entrants=PLAYERS, race="2", losers_race="1", tables="4")
+        self.does("Start", entrants=PLAYERS, race="2", losers_race="1", tables="4")
         self.does("Make the draw", "draw")
         self.page.get_by_text("Late entry").click()
         self.does("Add player", "late 'Late Larry' --rating 555", name="Late Larry", rating="555")

@@ -61,7 +61,7 @@ def test_a_captains_page_follows_but_leaves_a_choice_alone(browser: Any, tmp_pat
         page.wait_for_timeout(1500)
         assert page.get_by_label("Vic").is_checked()
         page.get_by_role("button", name="Put up").press("Enter")
-        page.wait_for_selector("text=Vic is put up in set 1")
+        page.wait_for_selector("text=Vic plays set 1")
         assert night.state.sets[0].picks == (("Ann",), ("Vic",))
         night.direct("result", number=1, a=4, b=3)
         page.wait_for_selector("text=4:3")

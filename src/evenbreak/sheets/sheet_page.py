@@ -35,6 +35,7 @@ from evenbreak.sheets.race_blocks import (
     race_blocks,
     race_cards,
 )
+from evenbreak.words import Parameter, say
 
 MOST_LISTED = 500
 """Players in the list of ratings; the CSV files hold all."""
@@ -164,8 +165,13 @@ def _check(tonight: Round, players: int) -> None:
         )
     if not tonight.listed and players > MOST_ACROSS:
         raise InputError(
-            f"{players:,} players are too many for a page, which holds all pairs of {MOST_ACROSS} "
-            "at most; name those who meet with --pairs PAIRS.csv"
+            say(
+                "{players:,} players are too many for a page, which holds all pairs of "
+                "{most_across} at most; name those who meet with {pairs} PAIRS.csv",
+                players=players,
+                most_across=MOST_ACROSS,
+                pairs=Parameter("pairs"),
+            )
         )
 
 

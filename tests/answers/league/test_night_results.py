@@ -39,7 +39,7 @@ def test_a_good_night_changes_the_ratings(apply):
 def test_all_reasons_are_given_with_their_lines(apply):
     told = problems(apply, "\nAnn,Bo,5,3\nAnn,Boo,5,2\nAnn, cy ,5,2\nBo,Ann,5,3\n")
     assert [text.partition(" ")[0] for text in told] == [":3:", ":4:", ":5:"]
-    assert "(2 such matches; --chart NAME" in told[0]
+    assert "(2 such matches; chart NAME" in told[0]
     assert "'Boo'" in told[1]
     assert "'Cy'" in told[2]
 

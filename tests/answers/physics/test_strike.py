@@ -59,7 +59,7 @@ def test_a_miscue_gives_no_spin():
     assert (
         found["spin_speed_ratio"] is found["ball_speed_ratio"] is found["ball_speed_in_s"] is None
     )
-    assert "--tip-mu 0.643" in found["sentences"][0]
+    assert "tip_mu 0.643" in found["sentences"][0]
     held = struck(0.45, 0.3, tip=0.8)
     assert held["miscue"] is False
     assert held["spin_speed_ratio"] == pytest.approx(1.125)

@@ -3,6 +3,7 @@
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text
 from evenbreak.answers.kit.wording import chance, games, yes_or_no
+from evenbreak.words import Parameter, say
 
 PRACTICE = registry(
     number("p_success", "success", chance),
@@ -86,7 +87,9 @@ PHYSICS = registry(
     number("offset_to_aim", "aim to the right of the middle of the pocket, {units}", 2, "offset"),
     number("rule_offset", "the same by the rule of thumb, {units}", 2),
     number("object_cut_deg", "angle at which the object ball leaves, degrees", 2),
-    number("no_throw_side", "english that cancels the throw, --side", 3),
+    number(
+        "no_throw_side", say("english that cancels the throw, {side}", side=Parameter("side")), 3
+    ),
     detail("throw_factor", "share of the friction that acts sideways, -1 to 1", 3),
     detail(
         "throw_sensitivity", "sensitivity: change of that share per unit of spin", 2, "sensitivity"
@@ -98,7 +101,9 @@ PHYSICS = registry(
     ),
     detail("object_side", "sidespin J that the object ball takes on", 3),
     number("energy_share", "share of the stroke's energy that reaches the cue ball", 3),
-    number("stick_energy_share", "the same with your cue (--stick)", 3),
+    number(
+        "stick_energy_share", say("the same with your cue ({stick})", stick=Parameter("stick")), 3
+    ),
     number("stick_speed_share", "speed of the break with your cue / with the best", 3),
     number("optimal_cue", "best cue, {units}", 1),
     number("table_speed", "table speed", 1),
@@ -137,12 +142,22 @@ PHYSICS = registry(
     number("roll_side_spin_speed_ratio", "sidespin J once the ball rolls", 3),
     number("ball_speed_ratio", "speed of the ball / speed of the cue", 3),
     detail("roll_speed_ratio", "the same once the ball rolls", 3),
-    number("later_spin_speed_ratio", "topspin J at --distance", 3),
-    number("later_side_spin_speed_ratio", "sidespin J at --distance", 3),
+    number(
+        "later_spin_speed_ratio", say("topspin J at {distance}", distance=Parameter("distance")), 3
+    ),
+    number(
+        "later_side_spin_speed_ratio",
+        say("sidespin J at {distance}", distance=Parameter("distance")),
+        3,
+    ),
     detail("later_offset", "offset that gives that topspin at once", 3),
     number(
         "stun_offset",
-        "--offset for a stun shot at --distance, at the same speed of the ball",
+        say(
+            "{offset} for a stun shot at {distance}, at the same speed of the ball",
+            offset=Parameter("offset"),
+            distance=Parameter("distance"),
+        ),
         3,
     ),
     detail("off_centre", "distance from the centre, in radii", 3),

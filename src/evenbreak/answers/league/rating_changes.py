@@ -30,6 +30,7 @@ from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.results import Problem, Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.validation.walk_forward import even_races
+from evenbreak.words import Parameter, say
 
 MOST_NAMES = 6
 """How many players who gained, and who lost, the first sentence names."""
@@ -62,8 +63,12 @@ def rating_changes_answer(
     if found_chart and chart is not None:
         parts.insert(
             1,
-            f"The races come from {chart.name}, the system's only chart that fits all scores; use "
-            "--chart for another one.",
+            say(
+                "The races come from {chart}, the system's only chart that fits all scores; "
+                "use {chart_option} for another one.",
+                chart=chart.name,
+                chart_option=Parameter("chart"),
+            ),
         )
     return Answer(
         _heading(moves, last, tonight),
@@ -373,9 +378,12 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
     many = count_of(int((race_a != results.races[0]).sum()), "match", "matches")
     if many.startswith("0 "):
         return season, []
-    warning = (
-        f"{season.source}: the race of {many} is not stated, so each is read as an even race to "
-        "the winner's games; if a chart set the races, name it with --chart"
+    warning = say(
+        "{source}: the race of {many} is not stated, so each is read as an even race to the "
+        "winner's games; if a chart set the races, name it with {chart}",
+        source=season.source,
+        many=many,
+        chart=Parameter("chart"),
     )
     return replace(season, results=replace(results, race_a=race_a, race_b=race_b)), [warning]
 
@@ -446,7 +454,11 @@ def rating_changes_of_files(
         if problem.row in open_rows[1:]:
             continue
         if problem.row in open_rows and len(open_rows) > 1:
-            message += f" ({len(open_rows):,} such matches; --chart NAME settles them all)"
+            message += say(
+                " ({n_open_rows:,} such matches; {chart} NAME settles them all)",
+                n_open_rows=len(open_rows),
+                chart=Parameter("chart"),
+            )
         side = {"player_a": results.player_a, "player_b": results.player_b}.get(problem.column)
         if side is not None:
             message += _suggestion(alike.get(results.players[side[problem.row]], ()))
@@ -475,4 +487,12 @@ def _alike(strangers: set[str], known: Iterable[str]) -> dict[str, list[str]]:
 
 def _suggestion(names: Iterable[str]) -> str:
     named = " or ".join(map(quoted, names))
-    return f"; if {named} is meant, write that name, or add it to --aliases" if named else ""
+    return (
+        say(
+            "; if {named} is meant, write that name, or add it to {aliases}",
+            named=named,
+            aliases=Parameter("aliases"),
+        )
+        if named
+        else ""
+    )

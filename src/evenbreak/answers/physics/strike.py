@@ -22,6 +22,7 @@ from evenbreak.physics.offset import (
 from evenbreak.physics.rolling import TABLE_SPEEDS, lag_speed, table_speed
 from evenbreak.physics.slide import drag_distance, roll_speed, stun_distance
 from evenbreak.physics.strike import Strike, best_stick_ratio, break_energy_share
+from evenbreak.words import Parameter, say
 
 MOST_TIP_FRICTION = 1.0
 """No tip has a higher coefficient of friction."""
@@ -97,14 +98,19 @@ def tip_words(strike: Strike) -> str:
 def _miscue_words(strike: Strike) -> str:
     needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
     limit = miscue_offset(strike.cue.tip_friction)
-    better_tip = (
-        f", or use a tip whose friction is {needed:g} or more (--tip-mu {needed:g})"
-        if needed <= MOST_TIP_FRICTION
-        else ""
-    )
-    return (
+    if needed > MOST_TIP_FRICTION:
+        return say(
+            "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
+            "{limit:.3f} of the radius.",
+            limit=limit,
+        )
+    return say(
         "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
-        f"{limit:.3f} of the radius{better_tip}."
+        "{limit:.3f} of the radius, or use a tip whose friction is {needed:g} or more ({option} "
+        "{needed:g}).",
+        limit=limit,
+        needed=needed,
+        option=Parameter("tip_mu"),
     )
 
 

@@ -6,6 +6,7 @@ from evenbreak.answers.kit.columns import quantity_of
 from evenbreak.answers.kit.parts import Quantity
 from evenbreak.answers.kit.wording import decimals
 from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
+from evenbreak.words import Parameter, say
 
 
 class Unit(NamedTuple):
@@ -90,9 +91,9 @@ def unit_doubts(units: Units, **typed: float | None) -> list[str]:
     >>> unit_doubts(IMPERIAL, stick=19.0, ball=None, stick_speed=60.0)
     []
     >>> unit_doubts(IMPERIAL, ball=170.0)
-    ['--ball 170 ounces is unusual (3 to 10 is typical); for grams add --metric']
+    ['ball 170 ounces is unusual (3 to 10 is typical); for grams add metric']
     """
-    doubts = []
+    doubts: list[str] = []
     metric = units is METRIC
     for name, value in typed.items():
         low, high = _TYPICAL[name][metric]
@@ -100,9 +101,19 @@ def unit_doubts(units: Units, **typed: float | None) -> list[str]:
             continue
         kind = "speed" if name.endswith("speed") else "mass"
         other = getattr(IMPERIAL if metric else METRIC, kind).words
-        remedy = f"for {other} {'leave out' if metric else 'add'} --metric"
+        option = Parameter("metric")
+        remedy = say("for {other} add {option}", other=other, option=option)
+        if metric:
+            remedy = say("for {other} leave out {option}", other=other, option=option)
         doubts.append(
-            f"--{name.replace('_', '-')} {value:g} {getattr(units, kind).words} is unusual "
-            f"({low:g} to {high:g} is typical); {remedy}"
+            say(
+                "{name} {value:g} {unit} is unusual ({low:g} to {high:g} is typical); {remedy}",
+                name=Parameter(name),
+                value=value,
+                unit=getattr(units, kind).words,
+                low=low,
+                high=high,
+                remedy=remedy,
+            )
         )
     return doubts
