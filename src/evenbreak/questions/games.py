@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
-from evenbreak.chains.matrices import Rows
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, File, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.questions.common import CHANCE, RACE, SHARE, ByWay, OutFolder, PlotFile
 from evenbreak.words import Parameter
+
+if TYPE_CHECKING:
+    from evenbreak.chains.matrices import Rows
+else:  # which loads scipy
+    Rows = str
 
 MOST_BALLS = 100_000
 """The most balls that an option can name."""

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from evenbreak.fields.kinds import Named, Number
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.handicaps.systems.catalogue import system_of
-from evenbreak.handicaps.systems.system import System
 from evenbreak.questions.common import ChartName
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.system import System
+else:  # systems take a quarter of a second to load, which most questions do without
+    System = Any
+
+
+def _system(text: str) -> System:
+    from evenbreak.handicaps.systems.catalogue import system_of
+
+    system: System = system_of(text)
+    return system
+
 
 SystemOf: TypeAlias = Annotated[
     System | None,
     Field(
-        Named(system_of, "NAME", offers="systems", spelled=lambda system: str(system.name)),
+        Named(_system, "NAME", offers="systems", spelled=lambda system: str(system.name)),
         "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].",
         usual="npl",
         more="Put a name with a blank in quotes, or write a hyphen: `step-2`. See "
