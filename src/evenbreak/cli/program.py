@@ -25,9 +25,7 @@ SECTIONS = {
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
         "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
-        "serve": Entry(
-            "evenbreak.web.command", "Tonight's tournament as a page: phones, screen, director."
-        ),
+        "serve": Entry("serve", "Tonight's tournament as a page: phones, screen, director."),
     },
     "Run teams": {
         "lineup": Entry("team.lineup", "Who to put up now, and what each choice is worth."),

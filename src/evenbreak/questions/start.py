@@ -1,11 +1,11 @@
-"""What the commands ask that write a demo and the source text."""
+"""What the commands ask that write a demo, open the page and write the source text."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Annotated
 
-from evenbreak.fields.kinds import Named
+from evenbreak.fields.kinds import File, Flag, Named, Whole
 from evenbreak.fields.question import Field, Question
 from evenbreak.questions.common import OutFolder, folder
 
@@ -23,6 +23,49 @@ class Demo(Question):
   evenbreak demo data
 """
     folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "evenbreak-demo"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Serve(Question):
+    """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
+
+    FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
+    night; tonight.db unless given. If it is not there, the page begins one. The commands of
+    evenbreak tournament can be used on it at the same time.
+    """
+
+    examples = """\
+  evenbreak serve
+  evenbreak serve saturday.db --lan
+  evenbreak serve --demo
+"""
+    file: Annotated[str | None, Field(File("FILE.db"), metavar="[FILE.db]", argument=True)] = None
+    demo: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Open a made-up tournament that is half played.",
+            more="It has 16 players, results, matches on tables and one to call. Its file, which "
+            "is printed, is in a temporary folder of its own.",
+        ),
+    ] = False
+    lan: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Let phones in the same network open the page; prints its address and a QR code.",
+        ),
+    ] = False
+    port: Annotated[int, Field(Whole(1024, 65535), "Where the page is found on this computer.")] = (
+        8000
+    )
+
+    def check(self) -> None:
+        """Refuse a file for the demo, which makes its own."""
+        if self.demo and self.file is not None:
+            self.refuse(
+                "{demo} makes a file of its own; leave out {name} or {demo}", name=self.file
+            )
 
 
 @dataclass(frozen=True, kw_only=True)

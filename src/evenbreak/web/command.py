@@ -9,50 +9,22 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 import click
+import segno
 
-EXAMPLES = """\b
-Examples:
-  evenbreak serve
-  evenbreak serve saturday.db --lan
-  evenbreak serve --demo
-"""
+from evenbreak.errors import EvenbreakError
+from evenbreak.files.demo import write_demo_evening
+from evenbreak.files.store.desk import back_up
+from evenbreak.files.store.evening_file import TOURNAMENT, holds
+from evenbreak.files.store.team_night import read_team_events
+from evenbreak.files.store.tournament import read_tournament
+from evenbreak.questions.start import Serve
+from evenbreak.web.server import server_of
+from evenbreak.web.site import Site
 
 
-@click.command("serve", epilog=EXAMPLES)
-@click.argument("file", metavar="[FILE.db]", required=False)
-@click.option("--demo", is_flag=True, help="Open a made-up evening that is half played.")
-@click.option(
-    "--lan",
-    is_flag=True,
-    help="Let phones in the same network open the page; prints its address and a QR code.",
-)
-@click.option(
-    "--port",
-    type=click.IntRange(1024, 65535),
-    metavar="N",
-    default=8000,
-    help="Where the page is found on this computer.",
-)
-def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
-    """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
-
-    FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
-    night; tonight.db unless given. If it is not there, the page begins one. The commands of
-    evenbreak tournament can be used on it at the same time.
-    """
-    import segno
-
-    from evenbreak.errors import EvenbreakError
-    from evenbreak.files.store.desk import back_up
-    from evenbreak.files.store.evening_file import TOURNAMENT, holds
-    from evenbreak.files.store.team_night import read_team_events
-    from evenbreak.files.store.tournament import read_tournament
-    from evenbreak.web.server import server_of
-    from evenbreak.web.site import Site
-
-    if demo and file is not None:
-        raise click.UsageError(f"--demo makes a file of its own; leave out {file} or --demo")
-    path = _demo() if demo else Path(file or "tonight.db")
+def serve(asked: Serve) -> None:
+    """Serve the page until Ctrl+C."""
+    path = _demo() if asked.demo else Path(asked.file or "tonight.db")
     if path.exists():
         if holds(path, TOURNAMENT) or not read_team_events(path):
             read_tournament(path)
@@ -61,30 +33,35 @@ def command(*, file: str | None, demo: bool, lan: bool, port: int) -> None:
         except (EvenbreakError, OSError) as error:  # it can be shown all the same
             click.echo(f"Warning: no copy of {path} could be made: {error}", err=True)
     elif not path.parent.is_dir():
-        raise click.UsageError(
-            f"{path}: there is no folder {path.parent}; make it, or name another"
+        asked.refuse(
+            "{path}: there is no folder {folder}; make it, or name another",
+            path=path,
+            folder=path.parent,
         )
-    own = _own_address() if lan else "127.0.0.1"
+    own = _own_address() if asked.lan else "127.0.0.1"
+    host = "0.0.0.0" if asked.lan else "127.0.0.1"  # noqa: S104
     hosts = {"127.0.0.1", "localhost", "::1", own}
-    if lan:
+    if asked.lan:
         hosts |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
-    address = f"http://{own}:{port}"
+    address = f"http://{own}:{asked.port}"
     site = Site(path, frozenset(hosts), address)
-    refused = _taken("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
-    if refused:
-        raise click.UsageError(f"--port {port}: {refused}; give another one, such as {port + 1}")
+    if why := _taken(host, asked.port):
+        asked.refuse(
+            "{port} {n}: {why}; give another one, such as {free}",
+            n=asked.port,
+            why=why,
+            free=asked.port + 1,
+        )
     click.echo(f"The page: {address}", err=True)
     click.echo(f"The director's PIN: {site.pin}", err=True)
-    if lan:
+    if asked.lan:
         segno.make(address, error="l").terminal(sys.stderr, compact=True)
     click.echo("Ctrl+C ends it; nothing is lost.", err=True)
-    server_of(site, host="0.0.0.0" if lan else "127.0.0.1", port=port).run()  # noqa: S104
+    server_of(site, host=host, port=asked.port).run()
 
 
 def _demo() -> Path:
     """Write the demo's evening to a folder of its own, and return its file."""
-    from evenbreak.files.demo import write_demo_evening
-
     path = Path(mkdtemp(prefix="evenbreak-demo-"), "evening.db")
     write_demo_evening(path, datetime.now())
     click.echo(f"The demo: {path}, which you may delete", err=True)

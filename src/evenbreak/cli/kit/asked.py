@@ -216,9 +216,11 @@ class AskedCommand(click.Command):
             else:
                 names = (option for name, _ in rows for option in name.split()[:1])
                 folded.append((section, ", ".join(names)))
-        if not all_asked:
+        if forms := ", ".join(_faces(self.params)):
+            folded.append((_ANSWER, forms))
+        if folded and not all_asked:
             with formatter.section(f"More, explained by {ALL_HELP}"):
-                formatter.write_dl([*folded, (_ANSWER, ", ".join(_faces(self.params)))])
+                formatter.write_dl(folded)
 
 
 _FEW = 8
@@ -245,8 +247,8 @@ def _show_all(ctx: click.Context, param: click.Parameter, value: bool) -> None: 
 
 
 def command_of(
-    question: type[Asked], name: str | None = None, **options: Any
-) -> Callable[[Callable[..., Answer]], click.Command]:
+    question: type[Asked], name: str | None = None, *, answers: bool = True, **options: Any
+) -> Callable[[Callable[..., Answer | None]], click.Command]:
     """Return a decorator that makes a command of the function that answers a question.
 
     Parameters
@@ -255,11 +257,13 @@ def command_of(
         what is asked; its docstring is the help of the command, and its `examples` end it.
     name
         the name of the command.
+    answers
+        whether there is an answer to print; False of a command that does something instead.
     options
         as for `faces`.
     """
 
-    def decorate(answer: Callable[..., Answer]) -> click.Command:
+    def decorate(answer: Callable[..., Answer | None]) -> click.Command:
         def run(**values: Any) -> Any:
             asks = {name: values.pop(name) for name in ("face", "page_file") if name in values}
             ctx = click.get_current_context()
@@ -270,7 +274,7 @@ def command_of(
                 raise click.UsageError(message, ctx=ctx) from None
 
         lines = getattr(question, "examples", "")
-        shown: Any = faces(**options)(run)
+        shown: Any = faces(**options)(run) if answers else run
         own = getattr(shown, "__click_params__", [])
         return AskedCommand(
             name,

@@ -19,8 +19,8 @@ class Entry(NamedTuple):
     Parameters
     ----------
     module
-        the module of `evenbreak.cli` whose `command` it is, or one elsewhere by its whole name; a
-        colon separates the name of the command where it is another (`chart:show`).
+        the module of `evenbreak.cli` whose `command` it is; a colon separates the name of the
+        command where it is another (`chart:show`).
     help
         the line: what the command gives its user.
     section
@@ -54,9 +54,7 @@ class LazyGroup(click.Group):
         if cmd_name not in self._table:
             return None
         place, _, name = self._table[cmd_name].module.partition(":")
-        module = importlib.import_module(
-            place if place.startswith("evenbreak.") else f"evenbreak.cli.{place}"
-        )
+        module = importlib.import_module(f"evenbreak.cli.{place}")
         command: click.Command = getattr(module, name or "command")
         if ctx.resilient_parsing:  # a shell asks what may come next
             from evenbreak.cli.kit.completion import complete_files
