@@ -4,8 +4,7 @@ import math
 from dataclasses import replace
 
 from evenbreak.answers.match.odds import TwoPlayers
-from evenbreak.cli.kit.options import SAY_WHICH
-from evenbreak.cli.kit.values import number_of, refuse
+from evenbreak.cli.kit.values import SAY_WHICH, number_of, refuse
 from evenbreak.games.rack import Rack
 from evenbreak.questions.match import Players
 from evenbreak.ratings.scale import Scale, unstated_scale

@@ -1,35 +1,10 @@
-"""The options that say how strong a new player is: --starter and --starter-sd."""
+"""New players filled in, as --starter and --starter-sd say."""
 
 from __future__ import annotations
 
-import click
-
-from evenbreak.cli.kit.options import Command, with_options
-from evenbreak.cli.kit.values import Number, refuse
+from evenbreak.cli.kit.values import refuse
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, Scale
-
-POINTS = Number(-1e6, 1e6, " is not a number of rating points; give one such as 80")
-SPREAD = Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30")
-
-
-def starter_options(command: Command) -> Command:
-    """Add --starter and --starter-sd."""
-    return with_options(
-        command,
-        click.option(
-            "--starter-sd",
-            metavar="POINTS",
-            type=SPREAD,
-            help="How far off that may be (standard deviation).  [default: what doubles the odds]",
-        ),
-        click.option(
-            "--starter",
-            metavar="RATING",
-            type=POINTS,
-            help="The rating of a new player.  [default: the middle of the scale]",
-        ),
-    )
 
 
 def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.options import SAY_WHICH
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.values import SAY_WHICH, refuse
 from evenbreak.cli.tournament.evening import moment, night_of
 from evenbreak.questions.evening import Import
 

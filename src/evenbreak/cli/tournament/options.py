@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak import files, ratings, tournaments
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.options import SAY_WHICH
 from evenbreak.cli.kit.starters import with_starters
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.values import SAY_WHICH, refuse
 from evenbreak.files.charts import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.questions.plan import TournamentPlan
