@@ -114,7 +114,7 @@ def chip_odds_answer(
         names, chips = list(left), list(left.values())
         unknown = [name for name in names if name not in field.names]
         if unknown:
-            raise InputError(f"{unknown[0]!r} is not {field.source}")
+            raise InputError("{unknown!r} is not {source}", unknown=unknown[0], source=field.source)
         ratings = np.array([field.ratings[list(field.names).index(name)] for name in names])
     racks = rack_chances(ratings, scale=field.scale)
     exact = left is not None and len(names) <= _EXACT

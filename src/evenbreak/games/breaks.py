@@ -64,7 +64,9 @@ def checked_format(breaks: Any) -> BreakFormat:
     evenbreak.errors.InputError: breaks(1, 1), the next breaker, is 0; give 1 or 2
     """
     if not callable(breaks):
-        raise InputError(f"breaks is {breaks!r}; give a break format such as winner_breaks")
+        raise InputError(
+            "breaks is {breaks!r}; give a break format such as winner_breaks", breaks=breaks
+        )
     for breaker in (1, 2):
         for winner in (1, 2):
             after = breaks(breaker, winner)

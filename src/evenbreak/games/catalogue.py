@@ -78,13 +78,20 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
         close = get_close_matches("".join(words), joined, n=3)
         near = matching or [joined[text] for text in close] or list(CATALOGUE)
         which = "names several games" if matching else "is not a game of the catalogue"
-        raise InputError(f"{name!r} {which}; give one of: {'; '.join(near)}")
+        raise InputError(
+            "{name!r} {which}; give one of: {near}", name=name, which=which, near="; ".join(near)
+        )
     game = CATALOGUE[matching[0]]
     try:
         return matching[0], _with_chances(game, chances) if chances else game
     except TypeError:
         wanted = "one chance" if isinstance(game, Drill) else "two chances, p1 and p2"
-        raise InputError(f"{matching[0]} takes {wanted}, not {len(chances)}") from None
+        raise InputError(
+            "{matching} takes {wanted}, not {n_chances}",
+            matching=matching[0],
+            wanted=wanted,
+            n_chances=len(chances),
+        ) from None
 
 
 def _words(name: str) -> list[str]:

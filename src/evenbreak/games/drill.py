@@ -76,7 +76,9 @@ class Drill:
         most = whole(levels, "levels", at_least=1)
         if most > EIGHT_BALL_LEVELS:
             raise InputError(
-                f"levels is {most}, but with {EIGHT_BALL_LEVELS} all 15 balls are on the table"
+                "levels is {most}, but with {eight_ball_levels} all 15 balls are on the table",
+                most=most,
+                eight_ball_levels=EIGHT_BALL_LEVELS,
             )
         return cls([base**i for i in range(1, most + 1)])
 

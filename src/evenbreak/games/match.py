@@ -82,15 +82,17 @@ class Match(ABC, Generic[ChanceT]):
             a, b = self.score
         except (TypeError, ValueError):
             raise InputError(
-                f"score is {self.score!r}; give the games that each player has, such as (2, 1)"
+                "score is {score!r}; give the games that each player has, such as (2, 1)",
+                score=self.score,
             ) from None
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
 
     def _check_own_game(self, game: Game) -> None:
         if not isinstance(game, Game) or isinstance(game, type):
             raise InputError(
-                f"rack is {game!r}; give a Rack(p), a Rack(p1, p2), a match, or a game with start, "
-                "moves and winner"
+                "rack is {game!r}; give a Rack(p), a Rack(p1, p2), a match, or a game with "
+                "start, moves and winner",
+                game=game,
             )
         if self.breaks is not None or self.first_breaker != 1:
             raise InputError(
@@ -110,8 +112,12 @@ class Match(ABC, Generic[ChanceT]):
             before = [x for x in before if x == only and (x == (0, 0) or self._played_from(*x))]
         if not before and (a, b) != (0, 0):
             raise InputError(
-                f"score is {a}:{b}, which cannot be reached: {type(self).__name__} "
-                f"{self.m}:{self.n} is over before it"
+                "score is {a}:{b}, which cannot be reached: {name} {m}:{n} is over before it",
+                a=a,
+                b=b,
+                name=type(self).__name__,
+                m=self.m,
+                n=self.n,
             )
 
     def _played_from(self, a: int, b: int) -> list[Score]:
@@ -201,8 +207,10 @@ class Match(ABC, Generic[ChanceT]):
                 target: Any = (a, b, *opener, after)
             elif winner not in (1, 2):
                 raise GameError(
-                    f"the rack's winner is {winner!r} in {after!r}; give a game that player 1 or "
-                    "player 2 wins"
+                    "the rack's winner is {winner!r} in {after!r}; give a game that player 1 "
+                    "or player 2 wins",
+                    winner=winner,
+                    after=after,
                 )
             else:
                 score = (a + 1, b) if winner == 1 else (a, b + 1)

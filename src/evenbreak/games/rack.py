@@ -94,7 +94,9 @@ class Rack(Generic[ChanceT]):
             off = abs(p + q - 1.0)
             many = not isinstance(off, float | ManyAsOne)
             if (off.max(initial=0.0) if many else off) > _ROUNDING:
-                raise InputError(f"p{player} and q{player} do not add up to 1; correct one of them")
+                raise InputError(
+                    "p{player} and q{player} do not add up to 1; correct one of them", player=player
+                )
         for name, chance in (("p", p), ("q", q)):
             own = copy(chance)  # so that a later change to the caller's array changes nothing here
             if not isinstance(own, float | ManyAsOne):
@@ -161,7 +163,9 @@ class Rack(Generic[ChanceT]):
         """
         for name, value in (("p1", self.p1), ("p2", self.p2)):
             if value is not None and not isinstance(value, float | ManyAsOne):
-                raise InputError(f"{name} is an array; give one number, or loop over them")
+                raise InputError(
+                    "{name} is an array; give one number, or loop over them", name=name
+                )
         return cast("Rack[float]", self)
 
 

@@ -49,7 +49,7 @@ class Series:
 
     def __post_init__(self) -> None:
         if not isinstance(self.rack, Rack):
-            raise InputError(f"rack is {self.rack!r}; give a Rack(p) or a Rack(p1, p2)")
+            raise InputError("rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)", rack=self.rack)
         self.rack.of_numbers()
         checked_format(self.breaks)
         first = one_of(self.first_breaker, "first_breaker", (1, 2))

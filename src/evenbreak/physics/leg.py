@@ -252,7 +252,9 @@ def place_of(value: Sequence[float], name: str) -> Floats:
     """Return a position on the table as an array, if it is one x and one y."""
     place = numbers(value, name)
     if place.shape != (2,):
-        raise InputError(f"{name} has shape {place.shape}; give x and y")
+        raise InputError(
+            "{name} has shape {place_shape}; give x and y", name=name, place_shape=place.shape
+        )
     return place
 
 
@@ -262,8 +264,14 @@ def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> No
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK
     if not (inside and radius - _SLACK <= y <= table.width - radius + _SLACK):
         raise InputError(
-            f"{name} is at ({x:.4g}, {y:.4g}) m; give a place on the table, {radius:.4g} m or more "
-            f"inside its {table.length:.4g} by {table.width:.4g} m"
+            "{name} is at ({x:.4g}, {y:.4g}) m; give a place on the table, {radius:.4g} m or "
+            "more inside its {length:.4g} by {width:.4g} m",
+            name=name,
+            x=x,
+            y=y,
+            radius=radius,
+            length=table.length,
+            width=table.width,
         )
 
 

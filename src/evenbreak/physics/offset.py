@@ -257,7 +257,8 @@ def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> Fl
     if np.any(lost > 1.0):
         raise InputError(
             "distance is more than a ball of this speed slides; give a higher speed, or less "
-            f"than {float(np.min(speed)) ** 2 / (2.0 * slowing):.4g} m"
+            "than {speed:.4g} m",
+            speed=float(np.min(speed)) ** 2 / (2.0 * slowing),
         )
     # 1 - sqrt(1 - lost), written so that small offsets keep their digits.
     return plain(-lost / (1.0 + np.sqrt(1.0 - lost)))

@@ -209,7 +209,7 @@ def shot(
     mu = one_friction(mu)
     cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
-        raise InputError(f"cut is {cut:.6g}; give an angle between -pi/2 and pi/2")
+        raise InputError("cut is {cut:.6g}; give an angle between -pi/2 and pi/2", cut=cut)
     ball = strike.ball
     travel = travel_for(cut, number(distance, "distance"), ball.diameter)
     if cue_ball is None:
@@ -243,12 +243,13 @@ def shot(
 def sound_strike(strike: Strike) -> None:
     """Raise an error if there is more than one strike, or it is a miscue."""
     if np.ndim(kind_of(strike, "strike", Strike).speed):
-        raise InputError(f"strike is {np.size(strike.speed)} strikes; give one")
+        raise InputError("strike is {speed} strikes; give one", speed=np.size(strike.speed))
     if strike.miscue:
         raise InputError(
-            f"offset is {strike.off_centre:.4g} of the radius in all, a miscue: this tip slips "
-            f"beyond {miscue_offset(strike.cue.tip_friction):.4g}; give less, or a tip with more "
-            "friction"
+            "offset is {off_centre:.4g} of the radius in all, a miscue: this tip slips "
+            "beyond {tip_friction:.4g}; give less, or a tip with more friction",
+            off_centre=strike.off_centre,
+            tip_friction=miscue_offset(strike.cue.tip_friction),
         )
 
 
@@ -267,8 +268,10 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            f"distance is {distance:.4g} m between the centres; give {diameter:.4g} m "
-            "(where the balls touch) or more"
+            "distance is {distance:.4g} m between the centres; give {diameter:.4g} m (where "
+            "the balls touch) or more",
+            distance=distance,
+            diameter=diameter,
         )
     distance = max(distance, diameter)
     sideways = diameter * math.sin(cut)

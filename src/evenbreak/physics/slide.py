@@ -292,7 +292,12 @@ def _vectors(value: Any, name: str, size: int) -> Floats:
     """Return vectors as a float array, if they have `size` components along the last axis."""
     array = numbers(value, name)
     if array.ndim == 0 or array.shape[-1] != size:
-        raise InputError(f"{name} has shape {array.shape}; give (..., {size})")
+        raise InputError(
+            "{name} has shape {array_shape}; give (..., {size})",
+            name=name,
+            array_shape=array.shape,
+            size=size,
+        )
     return array
 
 
@@ -300,7 +305,9 @@ def _forward(spin: Any, name: str = "spin") -> Floats:
     """Return the velocity of natural roll for a spin, per metre of the radius."""
     spin = numbers(spin, name)
     if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
-        raise InputError(f"{name} has shape {spin.shape}; give (..., 3)")
+        raise InputError(
+            "{name} has shape {spin_shape}; give (..., 3)", name=name, spin_shape=spin.shape
+        )
     return np.stack([spin[..., 1], -spin[..., 0]], axis=-1)
 
 

@@ -240,7 +240,7 @@ def compare_break_formats(
     player 2   0.5000 -0.5000
     """
     if not isinstance(rack, Rack):
-        raise InputError(f"rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)")
+        raise InputError("rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)", rack=rack)
     rack.of_numbers()
     way = way_of_limit(via)
     wanted = "the points of a rack, 0 or more"

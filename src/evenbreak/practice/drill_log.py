@@ -69,9 +69,17 @@ class DrillLog:
         highest = int(level.max())
         levels = highest if self.levels is None else whole(self.levels, "levels", at_least=1)
         if levels > MOST_LEVELS:
-            raise InputError(f"the drill has {levels} levels; give {MOST_LEVELS} at most")
+            raise InputError(
+                "the drill has {levels} levels; give {most_levels} at most",
+                levels=levels,
+                most_levels=MOST_LEVELS,
+            )
         if highest > levels:
-            raise InputError(f"levels is {levels}, but the log has level {highest}; give more")
+            raise InputError(
+                "levels is {levels}, but the log has level {highest}; give more",
+                levels=levels,
+                highest=highest,
+            )
         object.__setattr__(self, "level", level.astype(np.int64))
         object.__setattr__(self, "success", success.astype(bool))
         object.__setattr__(self, "session", session)

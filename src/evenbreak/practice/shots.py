@@ -303,7 +303,7 @@ def compare_shots(
     shots = tuple(shots)
     for shot in shots:
         if not isinstance(shot, ShotChoice):
-            raise InputError(f"a shot is {shot!r}; give ShotChoice(name, p1, p2)")
+            raise InputError("a shot is {shot!r}; give ShotChoice(name, p1, p2)", shot=shot)
     by_win = [(shot, shot.win(look_ahead, via=via)) for shot in shots]
     by_win.sort(key=lambda by_score: -round(by_score[1], 12))
     ranked = [shot for shot, _ in by_win]

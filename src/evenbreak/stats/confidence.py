@@ -227,10 +227,14 @@ def checked_scores(scores: Any, name: str) -> Floats:
     wanted = f"a list of finite numbers, {LARGEST:g} at most"
     array = floats(scores, name, low=-LARGEST, high=LARGEST, wanted=wanted)
     if array.ndim != 1:
-        raise InputError(f"{name} has {array.ndim} dimensions; give one list of numbers")
+        raise InputError(
+            "{name} has {ndim} dimensions; give one list of numbers", name=name, ndim=array.ndim
+        )
     if array.size < 2:
         count = "1 score" if array.size else "no scores"
-        raise InputError(f"{name} holds {count}; give two or more, to show a spread")
+        raise InputError(
+            "{name} holds {count}; give two or more, to show a spread", name=name, count=count
+        )
     return array
 
 
@@ -264,7 +268,8 @@ def _differing(scores: Any) -> Floats:
     array = checked_scores(scores, "scores")
     if sd_of(array) == 0.0:
         raise InputError(
-            f"scores are all {float(array[0]):g}; give scores that differ, to show a spread"
+            "scores are all {array:g}; give scores that differ, to show a spread",
+            array=float(array[0]),
         )
     return array
 

@@ -198,7 +198,7 @@ def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
     except (TypeError, ValueError, OverflowError):
         balls = Fraction(-1)
     if balls < 0:
-        raise InputError(f"mean is {mean!r}; give a number of balls, 0 or more")
+        raise InputError("mean is {mean!r}; give a number of balls, 0 or more", mean=mean)
     return balls / (balls + alpha)
 
 
@@ -212,12 +212,15 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
     """
     chance, alpha = exact(p, "p"), exact(safety, "safety")
     if chance == 1:
-        raise InputError(f"p is {p}, and such a run never ends; give a number below 1")
+        raise InputError("p is {p}, and such a run never ends; give a number below 1", p=p)
     mean = innings * alpha * chance / (1 - chance)
     if mean > _MOST:
         raise InputError(
-            f"p is {p}, which makes the mean {float(mean):,.0f} balls; the most allowed is "
-            f"{_MOST:,}, so give a smaller p or fewer innings"
+            "p is {p}, which makes the mean {mean:,.0f} balls; the most allowed is {most:,}, "
+            "so give a smaller p or fewer innings",
+            p=p,
+            mean=float(mean),
+            most=_MOST,
         )
     return chance, alpha
 

@@ -188,7 +188,9 @@ class Distribution:
         0.6
         """
         if math.isnan(low) or math.isnan(high):
-            raise InputError(f"the ends are {low!r} and {high!r}; give two numbers")
+            raise InputError(
+                "the ends are {low!r} and {high!r}; give two numbers", low=low, high=high
+            )
         pairs = zip(self.values, self.probability, strict=True)
         inside = [probability for value, probability in pairs if low <= value <= high]
         return float(sum(inside)) if self.exact else math.fsum(inside)
@@ -271,13 +273,18 @@ def _numbers(
     Probabilities and weights, for `many` values, are from 0 to `high`.
     """
     if not hasattr(values, "__iter__") or isinstance(values, str):
-        raise InputError(f"{name} is {values!r}; give a list of numbers")
+        raise InputError("{name} is {values!r}; give a list of numbers", name=name, values=values)
     low = -math.inf if many is None else 0.0
     listed = tuple(_plain(value, f"{name}[{i}]", low, high) for i, value in enumerate(values))
     if not listed:
-        raise InputError(f"{name} is empty; give one number or more")
+        raise InputError("{name} is empty; give one number or more", name=name)
     if many not in (None, len(listed)):
-        raise InputError(f"{name} has {len(listed)} entries for {many} values; give one each")
+        raise InputError(
+            "{name} has {n_listed} entries for {many} values; give one each",
+            name=name,
+            n_listed=len(listed),
+            many=many,
+        )
     return listed
 
 
@@ -305,7 +312,9 @@ def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
     listed = _numbers(probability, "probability", many=many, high=1.0)
     rational = all(isinstance(p, int | Fraction) for p in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
-        raise InputError(f"probability sums to {math.fsum(listed)!r}; make it sum to 1")
+        raise InputError(
+            "probability sums to {listed!r}; make it sum to 1", listed=math.fsum(listed)
+        )
     if rational:
         return tuple(Fraction(p) for p in listed)
     return tuple(float(p) for p in listed)

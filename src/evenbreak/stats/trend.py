@@ -83,13 +83,24 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     share = open_share(confidence)
     when, points = checked_scores(times, "times"), checked_scores(scores, "scores")
     if points.size < 3:
-        raise InputError(f"scores holds {points.size} scores; give three or more for a trend")
+        raise InputError(
+            "scores holds {points_size} scores; give three or more for a trend",
+            points_size=points.size,
+        )
     if when.size != points.size:
-        raise InputError(f"times holds {when.size} numbers, but scores {points.size}; give as many")
+        raise InputError(
+            "times holds {when_size} numbers, but scores {points_size}; give as many",
+            when_size=when.size,
+            points_size=points.size,
+        )
     if sd_of(when) == 0.0:
-        raise InputError(f"times are all {float(when[0]):g}; give two or more for a trend")
+        raise InputError(
+            "times are all {when:g}; give two or more for a trend", when=float(when[0])
+        )
     if sd_of(points) == 0.0:
-        raise InputError(f"scores are all {float(points[0]):g}; give scores that differ")
+        raise InputError(
+            "scores are all {point:g}; give scores that differ", point=float(points[0])
+        )
     line = linregress(when, points)
     half = -float(stdtrit(points.size - 2, (1.0 - share) / 2.0)) * float(line.stderr)
     slope = float(line.slope)

@@ -109,7 +109,9 @@ def _read(content: bytes, name: str) -> TeamList:
     try:
         return read_upload(content, read_team)
     except DataError as error:
-        raise DataError([f"{name}: {problem}" for problem in error.problems]) from None
+        raise DataError(
+            [say("{name}: {problem}", name=name, problem=problem) for problem in error.problems]
+        ) from None
 
 
 def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:

@@ -53,7 +53,9 @@ class OfferedRaces:
     def __post_init__(self) -> None:
         if (self.games is None) == (self.race_to is None):
             raise InputError(
-                f"games is {self.games!r} and race_to is {self.race_to!r}; give exactly one of them"
+                "games is {games!r} and race_to is {race_to!r}; give exactly one of them",
+                games=self.games,
+                race_to=self.race_to,
             )
 
     def fairest(self, gap: Gap) -> tuple[Ints, Ints]:

@@ -89,9 +89,10 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     most = most_dumped(ladder, question.start)
     if not most:
         raise InputError(
-            f"with the system {ladder.system.name} one match lost takes the rating more than "
-            f"{ladder.widest} points below the skill; use smaller steps, or a higher rating at "
-            "the start"
+            "with the system {name} one match lost takes the rating more than {widest} "
+            "points below the skill; use smaller steps, or a higher rating at the start",
+            name=ladder.system.name,
+            widest=ladder.widest,
         )
     pays = sandbagging(ladder, **{**asked, "dumped": min(question.dumped, most)})
     # The best number may lie beyond the table.

@@ -212,7 +212,7 @@ class LeagueRules:
             try:
                 line_ups(squad, (1,) * self.sets)
             except InputError as error:
-                raise InputError(f"{team}: {error}") from None
+                raise InputError("{team}: {error}", team=team, error=error) from None
 
 
 def team_rules_answer(

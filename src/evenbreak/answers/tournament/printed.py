@@ -119,7 +119,9 @@ def score_cards(state: Evening, match: str | None = None) -> list[Card]:
     if found is not None and found not in state.standing.to_play:
         from evenbreak.errors import InputError
 
-        raise InputError(f"match {found} cannot be played now; its card can be printed when it can")
+        raise InputError(
+            "match {found} cannot be played now; its card can be printed when it can", found=found
+        )
     names = [found] if found is not None else list(state.standing.to_play)
     return [_card(state, name) for name in names]
 
