@@ -15,9 +15,12 @@ from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament.printed import tournament_matches_answer
-from evenbreak.matches.formats import LONGEST
-from evenbreak.ratings.scale import DEFAULT_SCALE, NAMES, SCALES
+from evenbreak.fields.question import declaration
+from evenbreak.questions.common import USUAL_RACE
+from evenbreak.questions.ratings import Report
+from evenbreak.ratings.scale import NAMES, SCALES
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.asked import value_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.league import League
@@ -32,6 +35,8 @@ if TYPE_CHECKING:
     from evenbreak.answers.league.sheet import Sheet
 
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
+_SCALE, _RACE = declaration(Report, "scale"), declaration(Report, "race_to")
+"""What the report of a league asks too."""
 _MOST_LISTED = 1000
 _MOST_MATCHES = 60
 _TYPES = {
@@ -74,7 +79,8 @@ async def league(request: Request) -> Response:
         league=found,
         rows=rows[:_MOST_LISTED],
         scales=NAMES,
-        default_scale=DEFAULT_SCALE,
+        default_scale=_SCALE.usual,
+        usual_race=USUAL_RACE,
         quick=found.progress is not None,
     )
 
@@ -88,7 +94,7 @@ async def give(request: Request) -> Response:
         raise RefusalError("Nothing was sent. Choose a file or paste the results.")
     found = _league(request)
     scale = form.one_of("scale", tuple(SCALES))
-    race = form.whole("race", 1, LONGEST, default=7)
+    race: int = USUAL_RACE if not form.text("race") else value_of(_RACE, form, "race")
     await asyncio.to_thread(found.keep, content, scale, race)
     found.begin()
     return done(request, "/league", say("Results saved; calculating ratings…"))
