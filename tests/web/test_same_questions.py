@@ -22,6 +22,7 @@ from evenbreak.fields.question import declaration
 from evenbreak.files.store.tournament import read_tournament
 from evenbreak.questions.match import Fair
 from evenbreak.questions.ratings import Report
+from evenbreak.questions.teams import Lineup
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.format import LONGEST_RACE
@@ -138,6 +139,27 @@ def test_a_league_and_a_team_night_have_the_same_scale_on_the_page(director: Pho
     assert usual(report, "scale") == DEFAULT_SCALE
     assert Fields(director.open("/team/new").text).usual["scale"] == usual(lineup, "scale") == ""
     assert Fields(director.open("/fair").text).usual["scale"] == ""
+
+
+@each_of("name", ("sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"))
+def test_a_team_night_has_the_same_defaults_on_the_page(director: Phone, name: str) -> None:
+    assert Fields(director.open("/team/new").text).usual[name] == usual(lineup, name)
+
+
+def test_a_team_night_has_the_same_choices_on_the_page(director: Phone) -> None:
+    kind = declaration(Lineup, "count").kind
+    assert isinstance(kind, Choice)
+    assert Fields(director.open("/team/new").text).choices["count"] == list(kind.of)
+
+
+@pytest.mark.parametrize("name", ["sets", "times", "race"])
+def test_a_team_night_has_the_same_limits_on_the_page(director: Phone, name: str) -> None:
+    kind = declaration(Lineup, name).kind
+    assert isinstance(kind, Whole)
+    asked = {"team_a": "Racks", "players_a": "Ann,600", "team_b": "Cues", "players_b": "Cy,500"}
+    asked |= {"races": "even", "race": "5", "order": "home", "scale": "fargo"}
+    refused = director.send("/team/new", **asked | {name: 10**6}).words
+    assert f"from {kind.low} to {kind.high}" in refused
 
 
 LISTS = {

@@ -74,8 +74,8 @@ def _points_of_match(text: str) -> tuple[float, ...]:
     try:
         win, draw, loss = (Number(0.0, 100.0).read(part) for part in text.split(","))
     except (InputError, ValueError):
-        wanted = "give the points of a win, a draw and a loss, such as 2,1,0, or sets"
-        raise InputError(f"{text!r}; {wanted}") from None
+        message = f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0, or sets"
+        raise InputError(message) from None
     return win, draw, loss, 0.0
 
 
@@ -102,8 +102,8 @@ def set_in_play(text: str) -> InPlay:
         r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", text, re.ASCII
     )
     if match is None:
-        wanted = 'write your player, theirs and the score, such as "Ann v Xi 3:2"'
-        raise InputError(f"{text!r}; {wanted}")
+        message = f'{text!r}; write your player, theirs and the score, such as "Ann v Xi 3:2"'
+        raise InputError(message)
     return _pair_in(match[1]), _pair_in(match[2]), (int(match[3]), int(match[4]))
 
 
@@ -159,6 +159,7 @@ class Capped(Question):
         Field(
             Number(0.001, 1e6, "; give a number above 0, such as 23", metavar="TOTAL"),
             "The largest sum of the skill levels of a line-up, such as 23.",
+            label=say("Cap: the largest sum of skill levels, such as 23 (blank: none)"),
             more="Without a column `level`, of the ratings.",
         ),
     ] = None
@@ -167,6 +168,10 @@ class Capped(Question):
         Field(
             Named(strong_in, "K:LEVEL", spelled=lambda limit: f"{limit[0]}:{limit[1]:g}"),
             "At most K players of this level or above, such as 2:6.",
+            label=say(
+                "Limit on strong players: how many at which level or above, such as 2:6 (blank: "
+                "none)"
+            ),
         ),
     ] = None
 
@@ -190,7 +195,10 @@ class Lineup(OfTeams, Capped):
     theirs: Annotated[str, Field(File("THEIRS.csv"), argument=True)]
     sets: Annotated[
         Sets,
-        Says(usual="as many as the smaller team can fill"),
+        Says(
+            usual="as many as the smaller team can fill",
+            label=say("Sets (blank: one per player of the smaller team)"),
+        ),
     ] = None
     used: Annotated[
         tuple[str, ...],
@@ -227,6 +235,7 @@ class Lineup(OfTeams, Capped):
             Choice(COUNTS),
             "What decides the match: sets won, all games won, or points as in APA 8-ball (3:0 for "
             "a shutout, 2:1 hill-hill, else 2:0).",
+            label=say("What decides the night"),
             titles={
                 "sets": say("Sets won"),
                 "games": say("All games won"),
@@ -248,6 +257,7 @@ class Lineup(OfTeams, Capped):
         Field(
             Named(sets_in, "K,...", spelled=lambda sets: ",".join(map(str, sets))),
             "The sets that are doubles, by number, such as 5 or 1,5.",
+            label=say("Sets that are doubles, such as 5 or 1,5"),
             section=_RULES,
         ),
     ] = ()
@@ -256,11 +266,18 @@ class Lineup(OfTeams, Capped):
         Field(
             Whole(1, MOST_SETS),
             "How often a player may be put up.",
+            label=say("How often a player may be put up"),
             metavar="K",
             section=_RULES,
         ),
     ] = 1
-    sure: Annotated[Sure, Says(section="Ratings")] = False
+    sure: Annotated[
+        Sure,
+        Says(
+            section="Ratings",
+            label=say("Treat the ratings as exact, even if the lists give their errors"),
+        ),
+    ] = False
     seed: Annotated[
         Seed,
         Says(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from evenbreak.fields.kinds import Choice, Flag, Whole
+from evenbreak.fields.kinds import Choice, Flag, Number, Whole
 from evenbreak.fields.question import Declared, declared
 from evenbreak.web.forms import Form
 
@@ -22,7 +22,7 @@ class FormField(NamedTuple):
     label
         what it asks for.
     shape
-        flag, choice, whole or text.
+        flag, choice, whole, number or text.
     usual
         what it is unless it is changed.
     choices
@@ -57,7 +57,7 @@ def _form_field(one: Declared) -> FormField:
     choices = {word: titles.get(word, word) for word in kind.of} if isinstance(kind, Choice) else {}
     if choices and one.default is None:
         choices = {"": titles.get("", ""), **choices}
-    shapes = {Flag: "flag", Choice: "choice", Whole: "whole"}
+    shapes = {Flag: "flag", Choice: "choice", Whole: "whole", Number: "number"}
     has_none = one.required or one.default is None or isinstance(kind, Flag)
     return FormField(
         name=name_of(one),
@@ -100,6 +100,8 @@ def value_of(one: Declared, form: Form, name: str = "") -> Any:
         return one.default
     if isinstance(one.kind, Whole):
         return form.whole(name, one.kind.low, one.kind.high)
+    if isinstance(one.kind, Number) and one.kind.low > 0.0:
+        return form.above_0(name, one.kind.high)
     if isinstance(one.kind, Choice):
         return one.kind.read(form.one_of(name, tuple(one.kind.of)))
     return one.kind.read(form.text(name))

@@ -9,6 +9,7 @@ from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
+from evenbreak.fields.kinds import NUMBER
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.web.guard import MOST_BYTES
 from evenbreak.web.refusals import RefusalError
@@ -73,6 +74,24 @@ class Form:
         """Return a whole number between two others."""
         text = self.text(name)
         return default if not text and default is not None else whole(name, text, low, high)
+
+    def above_0(self, name: str, high: float = 1e6) -> float | None:
+        """Return a number above 0, with a point or a comma; None if the field was left empty.
+
+        >>> Form(Fields([("cap", "22,5")])).above_0("cap")
+        22.5
+        """
+        text = self.text(name).replace(",", ".")
+        if not text:
+            return None
+        number = float(text) if NUMBER.fullmatch(text) else 0.0
+        if not 0.0 < number <= high:
+            raise RefusalError(
+                "{field} must be a number above 0; you entered {value!r}.",
+                field=Parameter(name),
+                value=text,
+            )
+        return number
 
     def key(self, *more: str) -> str:
         """Return what a form is known by if it comes in again; refuse one without a number.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -12,46 +13,26 @@ from evenbreak.answers.kit.scales import league_doubts
 from evenbreak.answers.kit.wording import some_of
 from evenbreak.answers.league.prior import starters_words
 from evenbreak.errors import DataError
+from evenbreak.fields.question import declaration
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
-from evenbreak.teams.evening.plan import COUNTS, NightPlan, TeamSheet
-from evenbreak.tournaments.evening.format import LONGEST_RACE
+from evenbreak.teams.evening.plan import NightPlan, TeamSheet
+from evenbreak.web.asked import fields_named, value_of
 from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in
 from evenbreak.web.league import League
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.uploads import list_of, read_upload, warnings_of
-from evenbreak.words import Parameter, say
+from evenbreak.words import say
 
-ORDERS = {
-    "alternate": say("Taking turns"),
-    "home": say("Always the first team"),
-    "loser": say("The loser of the last set"),
-    "winner": say("The winner of the last set"),
-    "blind": say("Both at once, blind"),
-    "sealed": say("Sealed: both line-ups before the match starts"),
-}
-"""Who puts up first, with its words."""
-
-COUNT_WORDS = dict(
-    zip(
-        COUNTS,
-        (
-            say("Sets won"),
-            say("All games won"),
-            say("Points: 3-0 for a shutout, 2-1 hill-hill, else 2-0"),
-        ),
-        strict=True,
-    )
+FIELDS = fields_named(
+    Lineup, "sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"
 )
-"""What decides the night, with its words."""
-
-MOST_SETS = 25
-_NUMBERS = re.compile(r"\s*\d+\s*(,\s*\d+\s*)*", re.ASCII)
-_AT_MOST = re.compile(r"\s*(\d{1,3})\s*[:x]\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", re.ASCII)
+"""What the form asks as `evenbreak lineup` does."""
 
 
 def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
@@ -73,22 +54,23 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         lists.append(_read(content, name))
     scale = _scale(form, lists, league)
     lists = [_with_league(one, scale, league) for one in lists]
-    sheets = [_sheet(name, one, scale, form) for name, one in zip(names, lists, strict=True)]
-    times = form.whole("times", 1, MOST_SETS, default=1)
-    fewest = min(len(sheet.players) for sheet in sheets) * times
+    rules = {one.name: value_of(one, form) for one in FIELDS if one.name != "order"}
+    sheets = [_sheet(name, one, scale, rules) for name, one in zip(names, lists, strict=True)]
+    fewest = min(len(sheet.players) for sheet in sheets) * rules["times"]
     races = form.one_of("races", (*RACES, *CHARTS))
+    race: Any = declaration(Lineup, "race").kind
     plan = NightPlan(
         (sheets[0], sheets[1]),
-        form.whole("sets", 1, MOST_SETS, default=min(fewest, MOST_SETS)),
-        race=0 if races in CHARTS else form.whole("race", 1, LONGEST_RACE),
+        rules["sets"] or min(fewest, MOST_SETS),
+        race=0 if races in CHARTS else form.whole("race", race.low, race.high),
         handicapped=races == FAIR,
         chart=races if races in CHARTS else "",
         order=form.text("pattern", longest=MOST_SETS) or form.one_of("order", tuple(ORDERS)),
-        count=form.one_of("count", COUNTS),
-        doubles=_numbers(form),
-        cap=_number(form, "cap"),
-        at_most=_at_most(form),
-        times=times,
+        count=rules["count"],
+        doubles=rules["doubles"],
+        cap=rules["cap"],
+        at_most=rules["at_most"],
+        times=rules["times"],
         scale=scale.text,
     )
     warnings = [
@@ -128,7 +110,7 @@ def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
 
 def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     """Return the scale of the ratings: as the form, the lists or the league states it."""
-    if points := _number(form, "doubling"):
+    if points := form.above_0("doubling"):
         return scale_of(points)
     if any(one.file.levels for one in lists):
         raise RefusalError(
@@ -150,15 +132,15 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     return scale_in(form) or unstated_scale(ratings, players, CHOOSE_IT)
 
 
-def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
+def _sheet(name: str, read: TeamList, scale: Scale, rules: Mapping[str, Any]) -> TeamSheet:
     """Return a team; new players get the rating in the middle, and are very uncertain."""
-    if read.without_weight and any(form.text(field) for field in ("cap", "at_most")):
+    if read.without_weight and (rules["cap"] or rules["at_most"]):
         raise RefusalError(
             "{name} has no skill level, and a cap needs one for every player.",
             name=read.without_weight,
         )
     roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
-    errors = np.zeros(len(roster)) if form.text("sure") else np.nan_to_num(roster.standard_error)
+    errors = np.zeros(len(roster)) if rules["sure"] else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
     return TeamSheet(
         name,
@@ -167,44 +149,3 @@ def _sheet(name: str, read: TeamList, scale: Scale, form: Form) -> TeamSheet:
         tuple(errors.tolist()),
         tuple(weights.tolist()),
     )
-
-
-def _number(form: Form, name: str) -> float | None:
-    """Return a number above 0; None if the field was left empty."""
-    text = form.text(name, longest=12).replace(",", ".")
-    if not text:
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < 1e6:
-        raise RefusalError(
-            "{field} must be a number above 0; you entered {value!r}.",
-            field=Parameter(name),
-            value=text,
-        )
-    return value
-
-
-def _numbers(form: Form) -> tuple[int, ...]:
-    text = form.text("doubles", longest=80)
-    if not text:
-        return ()
-    if not _NUMBERS.fullmatch(text):
-        raise RefusalError(
-            "{value!r} does not name any sets; list their numbers, such as 1,5.", value=text
-        )
-    return tuple(sorted({int(part) for part in text.split(",")}))
-
-
-def _at_most(form: Form) -> tuple[int, float] | None:
-    text = form.text("at_most", longest=12)
-    if not text:
-        return None
-    found = _AT_MOST.fullmatch(text)
-    if found is None:
-        raise RefusalError(
-            "{value!r}: write how many players of which level, such as 2:6.", value=text
-        )
-    return int(found[1]), float(found[2])

@@ -14,18 +14,20 @@ from starlette.routing import Route
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.team_night import add_team_events
 from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.questions.teams import ORDERS
 from evenbreak.ratings.scale import NAMES
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, What
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.plan import check_plan
+from evenbreak.web.asked import form_fields
 from evenbreak.web.authors import DIRECTOR
 from evenbreak.web.forms import RACES, form_of
 from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
-from evenbreak.web.team_form import COUNT_WORDS, ORDERS, plan_of
+from evenbreak.web.team_form import FIELDS, plan_of
 
 
 async def ask(request: Request) -> Response:
@@ -38,10 +40,10 @@ async def _choices(site: Site) -> dict[str, Any]:
     """Return what there is to choose from, and what the page warns of."""
     return {
         "on": await site.teams.now(),
+        "fields": {one.name: one for one in form_fields(FIELDS)},
         "orders": ORDERS,
         "races": RACES,
         "charts": CHARTS,
-        "counts": COUNT_WORDS,
         "scales": NAMES,
     }
 
