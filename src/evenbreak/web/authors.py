@@ -26,6 +26,8 @@ def author_words(kept: str) -> str:
 
     >>> author_words("phone: Tom and Jerry"), author_words("captain of the Shark")
     ('phone: Tom and Jerry', 'captain of the Shark')
+    >>> author_words("phones: Tom and Jerry and Bo")
+    'phones: Tom and Jerry and Bo'
     """
     if not kept:
         return say("a terminal")
@@ -34,7 +36,10 @@ def author_words(kept: str) -> str:
     if kept.startswith("phone: "):
         return say("phone: {player}", player=kept.removeprefix("phone: "))
     if kept.startswith(_PHONES):
-        return say("phones: {players}", players=listed(kept.removeprefix(_PHONES).split(_BETWEEN)))
+        both = kept.removeprefix(_PHONES)
+        names = both.split(_BETWEEN)
+        # Where a name itself has an "and" in it, nobody can say where the other one starts.
+        return say("phones: {players}", players=listed(names) if len(names) == 2 else both)
     if kept.startswith(_CAPTAIN):
         return say("captain of {team}", team=kept.removeprefix(_CAPTAIN))
     return kept
