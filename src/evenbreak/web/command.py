@@ -33,8 +33,10 @@ def serve(asked: Serve) -> None:
         except (EvenbreakError, OSError) as error:  # it can be shown all the same
             click.echo(f"Warning: no copy of {path} could be made: {error}", err=True)
     elif not path.parent.is_dir():
-        raise click.UsageError(
-            f"{path}: there is no folder {path.parent}; make it, or name another"
+        asked.refuse(
+            "{path}: there is no folder {folder}; make it, or name another",
+            path=path,
+            folder=path.parent,
         )
     own = _own_address() if asked.lan else "127.0.0.1"
     host = "0.0.0.0" if asked.lan else "127.0.0.1"  # noqa: S104
@@ -44,8 +46,11 @@ def serve(asked: Serve) -> None:
     address = f"http://{own}:{asked.port}"
     site = Site(path, frozenset(hosts), address)
     if why := _taken(host, asked.port):
-        raise click.UsageError(
-            f"--port {asked.port}: {why}; give another one, such as {asked.port + 1}"
+        asked.refuse(
+            "{port} {n}: {why}; give another one, such as {free}",
+            n=asked.port,
+            why=why,
+            free=asked.port + 1,
         )
     click.echo(f"The page: {address}", err=True)
     click.echo(f"The director's PIN: {site.pin}", err=True)
