@@ -14,7 +14,7 @@ from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name
 from evenbreak.answers.kit.scales import form_used_words, game_chance, scale_words
 from evenbreak.answers.kit.wording import clock, count_of, percent, race
-from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, NOT_FAIR, NOT_LINKED, OfferedRaces
+from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, OfferedRaces, unfair
 from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.matches.pace import Pace
@@ -221,15 +221,14 @@ def time_words(pace: Pace, turnover: float | None = None) -> str:
 
 def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
     """Yield which pairs have no race, or none that is fair."""
-    apart = _pairs(frame[frame["note"].str.startswith(NOT_LINKED)])
+    apart = _pairs(frame[frame["p_game_a"].isna()])
     if apart:
         yield Remark(
             f"{count_of(len(apart), 'pair')} without a race",
             "no chain of opponents links the two players, so their ratings cannot be compared",
             apart,
         )
-    uneven = _pairs(frame[frame["note"].str.startswith(NOT_FAIR)])
-    if uneven:
+    if "p_win_a" in frame and (uneven := _pairs(frame[unfair(frame["p_win_a"])])):
         yield Remark(
             f"{count_of(len(uneven), 'pair')} without a fair race",
             f"even the fairest race allowed leaves one player below {percent(0.5 - FAIR_WITHIN)}",

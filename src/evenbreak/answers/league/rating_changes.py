@@ -375,14 +375,14 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
     made = even_races(results.select(unknown))[:2]
     race_a, race_b = (race.copy() for race in results.races)
     race_a[unknown], race_b[unknown] = made
-    many = count_of(int((race_a != results.races[0]).sum()), "match", "matches")
-    if many.startswith("0 "):
+    changed = int((race_a != results.races[0]).sum())
+    if not changed:
         return season, []
     warning = say(
         "{source}: the race of {many} is not stated, so each is read as an even race to the "
         "winner's games; if a chart set the races, name it with {chart}",
         source=season.source,
-        many=many,
+        many=count_of(changed, "match", "matches"),
         chart=Parameter("chart"),
     )
     return replace(season, results=replace(results, race_a=race_a, race_b=race_b)), [warning]

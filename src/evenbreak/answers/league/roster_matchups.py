@@ -80,8 +80,14 @@ FAIR_WITHIN = 0.1
 NOT_LINKED = "no race: no chain of opponents links the two"
 """The note on a pair whose ratings cannot be compared."""
 
-NOT_FAIR = "no race allowed is fair"
-"""How the note begins on a pair whose fairest race is not within `FAIR_WITHIN`."""
+
+def unfair(chances: Any) -> Any:
+    """Return for each of some chances to win whether it is further from 1/2 than `FAIR_WITHIN`.
+
+    >>> unfair(np.array([0.35, 0.55]))
+    array([ True, False])
+    """
+    return np.abs(chances - 0.5) > FAIR_WITHIN
 
 
 def all_pairs(roster: Roster) -> Ints:
@@ -345,8 +351,8 @@ def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races |
     if best is not None:
         chances = np.full(len(pairs), 0.5)
         chances[linked] = best.p_win
-        for row in np.flatnonzero(np.abs(chances - 0.5) > FAIR_WITHIN).tolist():
-            notes[row].append(f"{NOT_FAIR}: the nearest gives A {chances[row]:.2f}")
+        for row in np.flatnonzero(unfair(chances)).tolist():
+            notes[row].append(f"no race allowed is fair: the nearest gives A {chances[row]:.2f}")
     new = roster.games == 0
     for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
         a, b = new[pairs[row]]

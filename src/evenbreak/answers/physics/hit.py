@@ -248,7 +248,7 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
         the hit, and the unit of the offset.
     """
     amount = length.text(abs(offset), 2)
-    if amount.startswith("0.00 "):
+    if length.is_nothing(offset, 2):
         return f"Aim at the middle of the pocket: throw is less than 0.01 {length.words} there."
     side = "right" if offset > 0.0 else "left"
     thinness = "a thinner cut" if side == hit.towards else "a fuller cut"

@@ -284,7 +284,7 @@ def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
         )
     right = math.copysign(1.0, aimed.unaided.cut) * aimed.offset
     amount = length.text(abs(right), 2)
-    if amount.startswith("0.00 "):
+    if length.is_nothing(right, 2):
         return [*sentences, f"Aim at {goal}: there is hardly any throw."]
     side = "right" if right > 0.0 else "left"
     aim = f"Aim {amount} to the {side} of {goal}"

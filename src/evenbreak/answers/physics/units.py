@@ -34,6 +34,14 @@ class Unit(NamedTuple):
         """
         return f"{decimals(places)(value / self.size)} {self.words}"
 
+    def is_nothing(self, value: float, places: int) -> bool:
+        """Return whether a value, given in SI units, is 0 in this unit with so many decimals.
+
+        >>> IMPERIAL.length.is_nothing(0.0001, 2), IMPERIAL.length.is_nothing(-0.001, 2)
+        (True, False)
+        """
+        return round(value / self.size, places) == 0.0
+
     def typed(self, value: float) -> str:
         """Return a value, given in SI units, as it was typed in this unit.
 

@@ -18,25 +18,22 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import played_matches
 
 
-def printed_answer(state: Evening, what: str, place: str) -> Answer:
+def printed_answer(state: Evening, written: str) -> Answer:
     """Return what has been written, with the list of the draw: who plays first where.
 
     Parameters
     ----------
     state
         the tournament.
-    what
-        what has been written, such as '4 score cards' or 'The bracket'.
-    place
-        the file.
+    written
+        what has been written to which file, as a sentence.
     """
     columns = columns_of("seed name first_match between table")
     rows = [
         [one.seed, one.name, one.match, " - ".join(one.pair), one.table]
         for one in first_matches(state)
     ]
-    verb = "are" if what[0].isdigit() and not what.startswith("1 ") else "is"
-    return Answer("The draw", [f"{what} {verb} in {place}.", Table("draw", columns, rows)])
+    return Answer("The draw", [written, Table("draw", columns, rows)])
 
 
 class First(NamedTuple):

@@ -13,6 +13,7 @@ from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.evening import answer_of, moment
 from evenbreak.cli.tournament.prizes import paid_places
 from evenbreak.questions.evening import Export, Next, Print, Show
+from evenbreak.words import FilePath, say, say_count
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
@@ -85,7 +86,6 @@ def export(asked: Export) -> Answer:
 @command_of(Print, "print", always_text=True)
 def print_paper(asked: Print) -> Answer:
     """Write score cards, the bracket or the draw as a PDF."""
-    from evenbreak.answers.kit.wording import count_of
     from evenbreak.answers.tournament.printed import printed_answer, score_cards
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.sheets.paper_pages import score_cards_pdf
@@ -98,15 +98,23 @@ def print_paper(asked: Print) -> Answer:
         asked.refuse("{out} {name!r}; name a file that ends in .pdf", name=place)
     if asked.what == "draw":
         write_file(place, _draw_list(state, name))
-        return printed_answer(state, "The list of the draw", place)
+        return printed_answer(
+            state, say("The list of the draw is in {file}.", file=FilePath(place))
+        )
     if asked.what == "bracket":
         write_file(place, _drawing(state, name, ".pdf"))
-        return printed_answer(state, "The bracket", place)
+        return printed_answer(state, say("The bracket is in {file}.", file=FilePath(place)))
     cards = score_cards(state, asked.match)
     if not cards:
         refuse("no match is waiting to be played, so there is no card to print")
     write_file(place, score_cards_pdf(cards, name, per_page=asked.per_page))
-    return printed_answer(state, count_of(len(cards), "score card"), place)
+    written = say_count(
+        "{n} score card is in {file}.",
+        "{n} score cards are in {file}.",
+        len(cards),
+        file=FilePath(place),
+    )
+    return printed_answer(state, written)
 
 
 def _drawing(state: Evening, name: str, kind: str) -> bytes:

@@ -57,7 +57,7 @@ def _money(asked: PayOut) -> PrizeMoney:
     try:
         return PrizeMoney(asked.fee, asked.added, asked.house, text)
     except InputError as error:
-        refuse(f"--{error}")
+        asked.refuse("{payout}: {why}", why=error.sentence)
 
 
 def _bids(asked: PayOut, players: tuple[str, ...]) -> dict[str, float]:

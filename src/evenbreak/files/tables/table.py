@@ -1,7 +1,7 @@
 """A table in a file as columns of text, each row with the line it begins in.
 
 Every table comes in through here: format, names of columns and shape of the rows are settled.
-What the cells mean is for `evenbreak.files.tables.cells` and the reader of each kind of file.
+What the cells mean is for `evenbreak.files.tables.schema` and the reader of each kind of file.
 """
 
 from __future__ import annotations
