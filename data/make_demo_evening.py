@@ -16,7 +16,7 @@ from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan, Scored, What
 from evenbreak.tournaments.evening.fold import Evening, evening
-from evenbreak.tournaments.evening.opening import opened
+from evenbreak.tournaments.evening.plan import opened
 
 HERE = Path(__file__).parent
 START = datetime(2025, 3, 1, 18)

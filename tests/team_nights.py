@@ -1,8 +1,7 @@
 """Team nights to test with."""
 
-from evenbreak.teams.evening.events import Begun, Event, What
+from evenbreak.teams.evening.events import Begun, Event, NightPlan, TeamSheet, What
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
-from evenbreak.teams.evening.plan import NightPlan, TeamSheet
 
 AT = "2025-03-01T19:30:00"
 

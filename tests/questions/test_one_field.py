@@ -17,8 +17,7 @@ from evenbreak.fields.question import Field, declared, schema_of
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import Format
-from evenbreak.web.asked import asked_in, form_fields
-from evenbreak.web.forms import Form
+from evenbreak.web.forms import Form, asked_in, form_fields
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.ratings import Roster
 from evenbreak.teams import Cap, Squad, TeamNight, league_nights, set_laws, solved
-from evenbreak.teams.league_rules import against_all, first_edges
+from evenbreak.teams.solve import against_all, first_edges
 
 ROSTERS = [
     Roster(["Ann", "Bo", "Cy"], [640, 560, 450]),

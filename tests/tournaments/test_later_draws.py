@@ -12,7 +12,6 @@ from evenbreak.answers.tournament.moves import happened
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.bracket_of_plan import pairings, swiss_of
 from evenbreak.tournaments.evening.events import (
     Drawn,
     Entrant,
@@ -28,6 +27,7 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.evening.settling import break_ties, tied_groups
 
 AT = "2025-03-01T19:00:00"

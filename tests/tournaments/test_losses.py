@@ -11,9 +11,8 @@ from evenbreak.tournaments import CHIP_CHARTS
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Scored, Undone
 from evenbreak.tournaments.evening.fold import Evening, evening
-from evenbreak.tournaments.evening.losses import losses, matches_of
 from evenbreak.tournaments.evening.outlook import Outlook
-from evenbreak.tournaments.evening.undoing import undo, undoable
+from evenbreak.tournaments.evening.undoing import losses, matches_of, undo, undoable
 from tries import tries
 
 AT = "2025-03-01T20:00:00"

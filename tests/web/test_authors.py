@@ -2,8 +2,8 @@
 
 import pytest
 
-from evenbreak.web.authors import author_words, phones_of
-from evenbreak.web.faces import page_face
+from evenbreak.web.page import page_face
+from evenbreak.web.sessions import author_words, phones_of
 from evenbreak.words import in_face
 
 

@@ -13,8 +13,7 @@ import pytest
 
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import read_events, read_tournament
-from evenbreak.web.app import make_app
-from evenbreak.web.once import OF_THE_SESSION
+from evenbreak.web.app import OF_THE_SESSION, make_app
 from evenbreak.web.site import Site
 from places import SRC
 from web.conftest import Hall, begun
@@ -96,7 +95,7 @@ def test_the_routes_that_are_taken_twice_are_those_of_the_session(tmp_path: Path
     posts = {one.path: one for one in app.routes if "POST" in (getattr(one, "methods", 0) or ())}
     for path, route in posts.items():
         own = path in OF_THE_SESSION or path.startswith("/team/")
-        assert (route.endpoint.__module__ == "evenbreak.web.once") != own, path
+        assert (route.endpoint.__module__ == "evenbreak.web.app") != own, path
     assert len(posts) >= 20
 
 

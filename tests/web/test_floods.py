@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import pytest
 
-from evenbreak.web.door import KEPT, Door, in_few_lines
+from evenbreak.web.server import KEPT, Door, in_few_lines
 from tries import tries
 from web.phones import free_port
 from web.test_kills import begun
@@ -123,7 +123,7 @@ def test_a_room_full_of_phones_is_served_at_a_low_limit(server: Served) -> None:
 
 
 def test_more_descriptors_are_asked_for() -> None:
-    ask = "from evenbreak.web.door import descriptors; print(descriptors())"
+    ask = "from evenbreak.web.server import descriptors; print(descriptors())"
     words = ["sh", "-c", f"ulimit -Sn 128; exec {sys.executable} -c '{ask}'"]
     _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     assert int(subprocess.check_output(words)) == min(hard, 4096)

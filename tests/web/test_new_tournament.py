@@ -8,7 +8,7 @@ import pytest
 
 from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
-from evenbreak.tournaments.evening.opening import FORMATS
+from evenbreak.tournaments.evening.plan import FORMATS
 from rows import each_of
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running

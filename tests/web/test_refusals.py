@@ -15,7 +15,7 @@ from evenbreak.files.store.tournament import new_tournament
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web import guard, server
 from evenbreak.web.app import cookie_name, make_app
-from evenbreak.web.refusals import RefusalError
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.sessions import check_tries
 from evenbreak.web.site import Site
 from files.tables.test_hostile_workbooks import Make, cut, huge_row, repeated_columns, wide_cell

@@ -15,9 +15,8 @@ import pytest
 from evenbreak.files.store.desk import phone_entries
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import read_events
-from evenbreak.web.app import make_app
+from evenbreak.web.app import OF_THE_SESSION, make_app
 from evenbreak.web.night import Night
-from evenbreak.web.once import OF_THE_SESSION
 from evenbreak.web.site import Site
 from tries import tries
 from web.asked import Browser, Got, Room

@@ -25,7 +25,6 @@ from evenbreak.tournaments.chips.play import play_chips, rack_chances
 from evenbreak.tournaments.odds.fairness import upper_half
 
 _FIELD = 16  # players of a made-up field
-_SHOWN = 3  # places that everybody sees
 _EXACT = 4  # players at most whose chances are exact
 
 

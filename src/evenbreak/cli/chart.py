@@ -8,10 +8,9 @@ from evenbreak import handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of, spelled
 from evenbreak.cli.kit.groups import Entry, LazyGroup
-from evenbreak.cli.kit.plot import write_plot
-from evenbreak.cli.kit.said import said
+from evenbreak.cli.kit.said import refuse, said
 from evenbreak.cli.kit.systems import chart_by_difference
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.errors import InputError
 from evenbreak.questions.charts import ChartAudit, ChartDesign, ChartList, ChartShow, ChartTeam
 from evenbreak.ratings.scale import Scale

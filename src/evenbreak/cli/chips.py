@@ -9,9 +9,8 @@ import click
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.groups import Entry, LazyGroup
-from evenbreak.cli.kit.starters import with_starters
-from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import SAY_WHICH, refuse
+from evenbreak.cli.kit.said import SAY_WHICH, refuse
+from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, with_starters
 from evenbreak.questions import chips as questions
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 

@@ -8,7 +8,7 @@ from evenbreak import files, games, practice, stats
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.errors import DataError
 from evenbreak.questions.practice import EIGHT_BALL_LEVELS, DrillPlayed, Runs, Scores
 

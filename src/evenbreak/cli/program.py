@@ -12,20 +12,22 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
     "Start here": {
-        "demo": Entry("demo", "Made-up files, and three commands to try on them."),
+        "demo": Entry("start:demo", "Made-up files, and three commands to try on them."),
     },
     "Run a match": {
         "odds": Entry("match.odds", "The odds and the length of one match."),
-        "live": Entry("match.live", "The odds of a match under way, game by game."),
-        "fair": Entry("match.fair", "The fairest race for two players."),
+        "live": Entry("match.odds:live", "The odds of a match under way, game by game."),
+        "fair": Entry("match.odds:fair", "The fairest race for two players."),
         "compare": Entry("match.compare", "Match formats side by side: which is better for whom."),
-        "breaks": Entry("match.breaks", "What each break format is worth, and fair stakes."),
-        "straight": Entry("match.straight", "Straight pool: who wins, and which spot is fair."),
+        "breaks": Entry("match.games:breaks", "What each break format is worth, and fair stakes."),
+        "straight": Entry(
+            "match.games:straight", "Straight pool: who wins, and which spot is fair."
+        ),
     },
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
         "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
-        "serve": Entry("serve", "Tonight's tournament as a page: phones, screen, director."),
+        "serve": Entry("start:serve", "Tonight's tournament as a page: phones, screen, director."),
     },
     "Run teams": {
         "lineup": Entry("team.lineup", "Who to put up now, and what each choice is worth."),
@@ -54,15 +56,17 @@ SECTIONS = {
         "practice": Entry("practice:scores", "Practice scores: are you getting better?"),
         "drill": Entry("practice:drill", "A progressive drill: your level, and what to work on."),
         "runs": Entry("practice:runs", "How long runs get, and the score of several innings."),
-        "oneball": Entry("match.oneball", "The one-ball game: who wins, and which shot to play."),
+        "oneball": Entry(
+            "match.games:oneball", "The one-ball game: who wins, and which shot to play."
+        ),
     },
     "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
         "graph": Entry("match.graph", "A game as graph, matrix, eigenvalues and limit, in files."),
-        "chain": Entry("match.chain", "Any Markov chain: where it ends, from a file."),
-        "reproduce": Entry("reproduce", "Every table, figure and number of the source text."),
+        "chain": Entry("match.graph:chain", "Any Markov chain: where it ends, from a file."),
+        "reproduce": Entry("start:reproduce", "Every table, figure and number of the source text."),
     },
 }
 """The commands by who needs them, each with its module and its line of help."""
@@ -104,7 +108,7 @@ class Program(LazyGroup):
                 sys.stdout.flush()
         except (Exception, KeyboardInterrupt) as error:
             stop_listening()
-            from evenbreak.cli.kit.failures import report_error
+            from evenbreak.cli.kit.said import report_error
 
             code = report_error(error)
         sys.exit(code or 0)

@@ -8,7 +8,7 @@ from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.groups import Entry, LazyGroup
-from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.kit.systems import (
     chart_for,
     on_scale,
@@ -16,7 +16,7 @@ from evenbreak.cli.kit.systems import (
     refuse_other_scale,
     refuse_too_varying,
 )
-from evenbreak.cli.kit.values import SAY_WHICH, refuse
+from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale

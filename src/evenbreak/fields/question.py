@@ -28,7 +28,7 @@ explains those without a section and names the others; `rare` ones without a sec
 `--help-all` only. `check` refuses what does not go together: in `refuse` and in helps, a name in
 braces that has no value is a parameter, which a face writes as its option or its label. The
 terminal makes a command of it with `@command_of(Fair)` (`evenbreak.cli.kit.asked`), a page reads
-it from a form with `asked_in` (`evenbreak.web.asked`), and the reference has a table of it
+it from a form with `asked_in` (`evenbreak.web.forms`), and the reference has a table of it
 between the marks `<!-- options: fair -->` (`docs/option_tables.py`).
 """
 

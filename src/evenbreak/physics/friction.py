@@ -12,10 +12,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from evenbreak.arrays import FloatOrArray, Floats
 from evenbreak.checks import number, plain, together
@@ -296,10 +295,6 @@ class SlipFriction:
         slip = numbers(slip, "slip", low=0.0, high=np.inf)
         with np.errstate(over="ignore"):
             return plain(self.fast + self.more * np.exp(-self.decay * slip))
-
-
-BallFriction: TypeAlias = ArrayLike | SlipFriction
-"""A coefficient of friction between balls, several, or one that depends on the slip."""
 
 
 def checked_friction(mu: Any, speed: Any) -> tuple[Floats | SlipFriction, Floats]:

@@ -25,9 +25,6 @@ from evenbreak.physics.rolling import Energy, kinetic_energy
 from evenbreak.physics.slide import Slide
 from evenbreak.physics.units import INCH, numbers
 
-ENDINGS = ("rest", "hit", "cushion", "pocket")
-"""How a leg can end."""
-
 _SLACK = 1e-9
 """A nanometre: how far rounding may push a ball into a cushion along which it rolls."""
 

@@ -41,9 +41,6 @@ SCALE = Named(
     scale_of, "npl|fargo|elo|POINTS", offers="scales", spelled=lambda scale: str(scale.text)
 )
 
-SCALE_OF_LIST = "the one that the file states, else the only one that the ratings can be on"
-"""What applies without a scale to a list of ratings."""
-
 _SCALE = Field(
     SCALE,
     "The scale of the ratings: POINTS double the odds of winning a game.",

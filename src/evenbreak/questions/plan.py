@@ -10,7 +10,7 @@ from evenbreak.fields.question import Field, Question, declared
 from evenbreak.questions.common import ChartOfRaces, EvenRace, HandicappedRace
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
 from evenbreak.tournaments.evening.format import Format
-from evenbreak.tournaments.evening.opening import FORMATS, usual_seeding
+from evenbreak.tournaments.evening.plan import FORMATS, usual_seeding
 from evenbreak.words import Parameter, say
 
 SEEDINGS = ("listed", "rating", "blind", "drawn")

@@ -20,7 +20,7 @@ from evenbreak.questions.common import (
     Starters,
     Sure,
 )
-from evenbreak.teams.evening.plan import COUNTS
+from evenbreak.teams.evening.events import COUNTS
 from evenbreak.words import say
 
 MOST_SETS = 25

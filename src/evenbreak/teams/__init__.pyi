@@ -3,9 +3,6 @@ from .advice import Option as Option
 from .advice import Point as Point
 from .advice import advice as advice
 from .advice import best_by_skills as best_by_skills
-from .league_rules import against_all as against_all
-from .league_rules import first_edges as first_edges
-from .league_rules import league_nights as league_nights
 from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
@@ -30,6 +27,9 @@ from .set_laws import Points as Points
 from .set_laws import law_in_play as law_in_play
 from .set_laws import set_laws as set_laws
 from .solve import SolvedNight as SolvedNight
+from .solve import against_all as against_all
+from .solve import first_edges as first_edges
+from .solve import league_nights as league_nights
 from .solve import solved as solved
 from .squad import Cap as Cap
 from .squad import Squad as Squad

@@ -1,22 +1,39 @@
-"""The fields of a form, checked as they come in."""
+"""The fields of a form and the files that come with it, checked as they come in."""
 
 from __future__ import annotations
 
 import hashlib
-from typing import TypeAlias
+import io
+import tempfile
+import zipfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
-from evenbreak.fields.kinds import NUMBER
+from evenbreak.answers.kit.scales import far_doubts
+from evenbreak.errors import DataError
+from evenbreak.fields.kinds import NUMBER, Choice, Flag, Number, Whole
+from evenbreak.fields.question import Declared, declared
+from evenbreak.files.lists.roster import LARGEST, RosterFile
+from evenbreak.files.tables.names import clean_name, is_name
+from evenbreak.files.tables.problems import of_list
 from evenbreak.ratings.scale import SCALES, Scale
-from evenbreak.web.guard import MOST_BYTES
-from evenbreak.web.refusals import RefusalError
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.sessions import check_form
 from evenbreak.words import Parameter, say
 
+Asked = TypeVar("Asked")
+Read = TypeVar("Read")
+
 _MOST_FIELDS, _MOST_FILES = 1000, 2
+_WORKBOOK = b"PK\x03\x04"
+_MOST_UNPACKED = 50 << 20
+_LONGEST_LIST = 200_000
 LONGEST = 200
 """Characters of a field, if nothing else is said."""
 
@@ -27,10 +44,8 @@ RACES = {
 }
 """The races that are not those of a chart, with their words."""
 
-
 Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
 """The fields of a form by name: a text, or what is in a file."""
-
 
 CHOOSE_IT = say("choose the rating scale")
 """What to do about ratings that do not show their scale."""
@@ -179,4 +194,194 @@ async def _read(request: Request) -> Form:
                     for name, value in sent.multi_items()
                 ]
             )
+        )
+
+
+class FormField(NamedTuple):
+    """A field of a form; its words are sentences, which the page says in the reader's language.
+
+    Parameters
+    ----------
+    name
+        what the form calls it.
+    label
+        what it asks for.
+    shape
+        flag, choice, whole, number or text.
+    usual
+        what it is unless it is changed.
+    choices
+        each word that may be chosen, with its title.
+    formats
+        the tournament formats that have it; none if all have.
+    longest
+        the most letters that may be typed.
+    """
+
+    name: str
+    label: str
+    shape: str
+    usual: str
+    choices: dict[str, str]
+    formats: tuple[str, ...]
+    longest: int
+
+
+def form_fields(fields: Sequence[Declared]) -> list[FormField]:
+    """Return fields of a question as those of a form.
+
+    >>> from evenbreak.tournaments.evening.format import Format
+    >>> form_fields(declared(Format))[0].choices
+    {'true': 'The unbeaten player must lose twice', 'single': 'One match decides'}
+    """
+    return [_form_field(one) for one in fields]
+
+
+def _form_field(one: Declared) -> FormField:
+    kind, titles = one.kind, one.field.titles
+    choices = {word: titles.get(word, word) for word in kind.of} if isinstance(kind, Choice) else {}
+    if choices and one.default is None:
+        choices = {"": titles.get("", ""), **choices}
+    shapes = {Flag: "flag", Choice: "choice", Whole: "whole", Number: "number"}
+    has_none = one.required or one.default is None or isinstance(kind, Flag)
+    return FormField(
+        name=name_of(one),
+        label=one.field.label or one.field.help,
+        shape=shapes.get(type(kind), "text"),
+        usual="" if has_none else kind.words(one.default),
+        choices=choices,
+        formats=one.field.formats,
+        longest=len(str(kind.high)) if isinstance(kind, Whole) else 200,
+    )
+
+
+def name_of(one: Declared) -> str:
+    """Return what a form calls a field of a question: as the terminal calls it."""
+    return one.name if one.field.argument else one.option.removeprefix("--").replace("-", "_")
+
+
+def asked_in(question: type[Asked], form: Form, fields: Sequence[Declared], **values: Any) -> Asked:
+    """Return what a form asks; what is left empty has its default.
+
+    Parameters
+    ----------
+    question
+        what is asked.
+    form
+        the form.
+    fields
+        the fields of the question that the form has.
+    values
+        fields of the question that are not read from a field of their own.
+    """
+    read = {one.name: value_of(one, form) for one in fields if form.text(name_of(one))}
+    return question(**read, **values)
+
+
+def value_of(one: Declared, form: Form, name: str = "") -> Any:
+    """Return the value of a field, its default if it is left empty; `name` is that of the form."""
+    name = name or name_of(one)
+    if not form.text(name) and not one.required:
+        return one.default
+    if isinstance(one.kind, Whole):
+        return form.whole(name, one.kind.low, one.kind.high)
+    if isinstance(one.kind, Number) and one.kind.low > 0.0:
+        return form.above_0(name, one.kind.high)
+    if isinstance(one.kind, Choice):
+        return one.kind.read(form.one_of(name, tuple(one.kind.of)))
+    return one.kind.read(form.text(name))
+
+
+def fields_named(question: type, *names: str) -> list[Declared]:
+    """Return the fields of a question with these names."""
+    by_name = {one.name: one for one in declared(question)}
+    return [by_name[name] for name in names]
+
+
+def entered_name(form: Form) -> str:
+    """Return the name in a form, as it is read from a list; '': the field was left empty."""
+    name = clean_name(form.text("name", longest=80))
+    if name and not is_name(name):
+        raise RefusalError("The name {value!r} can't be printed. Type it again.", value=name)
+    return name
+
+
+def entered_rating(form: Form) -> float | None:
+    """Return the rating in a form; None: the field was left empty."""
+    stated = form.text("rating", longest=12).replace(",", ".")
+    if not stated:
+        return None
+    try:
+        rating = float(stated)
+    except ValueError:
+        raise RefusalError(
+            "{value!r} is not a rating. Enter a number, such as 520.", value=stated
+        ) from None
+    if not abs(rating) <= LARGEST:
+        raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=stated)
+    return rating
+
+
+def rating_doubts(state: Evening) -> list[str]:
+    """Return whose ratings are far from those of all others."""
+    entrants = state.entrants.values()
+    ratings = [one.rating for one in entrants]
+    return far_doubts(state.scale, ratings, [one.name for one in entrants])
+
+
+def list_of(form: Form, text: str, file: str, *, longest: int = _LONGEST_LIST) -> bytes:
+    """Return the file that came in a field of a form, or else the text of another field."""
+    return form.content(file) or form.text(text, longest=longest).encode()
+
+
+def ending_of(content: bytes) -> str:
+    """Return what a file of this content is called at its end.
+
+    >>> ending_of(b"player,rating")
+    'csv'
+    """
+    return "xlsx" if content.startswith(_WORKBOOK) else "csv"
+
+
+def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
+    """Return what a reader of files makes of a content; its problems name the line alone.
+
+    The file is read from a temporary place whose name is ours.
+
+    >>> read_upload(b"a,b", lambda path: path.read_text())
+    'a,b'
+    """
+    if ending_of(content) == "xlsx":
+        _check_size(content)
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder, f"list.{ending_of(content)}")
+        place.write_bytes(content)
+        try:
+            return read(place)
+        except DataError as error:
+            problems = [_nameless(of_list(problem), place) for problem in error.problems]
+            raise DataError(problems) from None
+
+
+def warnings_of(file: RosterFile, name: str = "") -> list[str]:
+    """Return the warnings about a list that came in, with its name in place of the file's."""
+    return [_nameless(of_list(text, name), file.source, name) for text in file.warnings]
+
+
+def _nameless(text: str, place: object, name: str = "") -> str:
+    """Return a text that may still name the file that it was read from, with the list's name."""
+    source = str(place)
+    return text.replace(source, name or say("the list")) if source in text else text
+
+
+def _check_size(content: bytes) -> None:
+    """Refuse a workbook that unpacks to far more than was sent."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            size = sum(one.file_size for one in packed.infolist())
+    except zipfile.BadZipFile:
+        raise RefusalError("This workbook can't be read. Save it again, or as CSV.") from None
+    if size > _MOST_UNPACKED:
+        raise RefusalError(
+            "This workbook is too large. Save the sheet with the results as CSV.", status=413
         )

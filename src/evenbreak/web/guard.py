@@ -1,4 +1,7 @@
-"""What every request passes: its Host, the size and the time of its body; headers of every page."""
+"""What every request passes: its Host, the size and the time of its body; headers of every page.
+
+What is refused, here or by a page, is a `RefusalError`: one line in the reader's language.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,8 @@ from typing import Any
 from h11 import LocalProtocolError
 from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from evenbreak.errors import EvenbreakError
 
 MOST_BYTES = 2 << 20
 """The largest body: a season of results, pasted or uploaded."""
@@ -139,3 +144,25 @@ async def _refuse(send: Send, status: int, words: str) -> None:
     plain: Any = [(b"content-type", b"text/plain; charset=utf-8"), (b"connection", b"close")]
     await send({"type": "http.response.start", "status": status, "headers": plain})
     await send({"type": "http.response.body", "body": words.encode() + b"\n"})
+
+
+class RefusalError(EvenbreakError):
+    """A request that is refused.
+
+    Parameters
+    ----------
+    template
+        what the reader is told, as `evenbreak.words.say` takes it.
+    status
+        of HTTP.
+    values
+        what fills it in.
+    """
+
+    def __init__(self, template: str, /, *, status: int = 400, **values: Any) -> None:
+        super().__init__(template, **values)
+        self.status = status
+
+
+class MovedOnError(RefusalError):
+    """A tap on a page that shows an older score than there is."""

@@ -22,8 +22,8 @@ from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.store.folder import write_files
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 from evenbreak.web.beside import Beside
+from evenbreak.web.forms import ending_of, read_upload
 from evenbreak.web.night import problem_of
-from evenbreak.web.uploads import ending_of, read_upload
 from evenbreak.words import Sentence, say
 
 if TYPE_CHECKING:

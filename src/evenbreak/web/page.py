@@ -1,4 +1,8 @@
-"""A page: a template filled in, in the reader's language."""
+"""A page: a template filled in, in the reader's language.
+
+Where a sentence names a parameter, the page says its field; for a command, its form; and files have
+no folder.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +12,11 @@ import json
 import os
 import secrets
 import urllib.parse
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
+from pathlib import PurePath
 from typing import Any
 
 import jinja2
@@ -23,16 +30,45 @@ from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
-from evenbreak.files.catalogues import language_of, languages
-from evenbreak.web.faces import page_face
+from evenbreak.files.catalogues import face_in, language_of, languages
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
-from evenbreak.words import Figure, capital_in_face, in_face, say, say_as, say_count
+from evenbreak.words import Face, Figure, capital_in_face, in_face, say, say_as, say_count
 
 _LANGUAGE = "language"
 _SAID = "said"
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
+
+FIELDS = {
+    "race": say("the race"),
+    "losers_race": say("the race on the losers' side"),
+    "final_race": say("the race in the final"),
+    "groups": say("the number of groups"),
+    "qualifiers": say("the number of players advancing"),
+    "rounds": say("the number of rounds"),
+    "tables": say("the number of tables"),
+    "fee": say("the entry fee"),
+    "added": say("the added money"),
+    "a": say("the first score"),
+    "b": say("the second score"),
+    "sets": say("the number of sets"),
+    "times": say("how often each may play"),
+    "table": say("the table"),
+    "payout": say("the payout"),
+    "cap": say("the cap"),
+    "doubling": say("the points that double the odds"),
+}
+"""What the pages call a parameter."""
+
+FORMS = {
+    "tournament correct": say("Correct a result"),
+    "tournament draw": say("Make the draw"),
+    "tournament result": say("Enter result"),
+    "tournament tiebreak": say("Break the ties"),
+    "tournament undo": say("Undo"),
+}
+"""What is on the pages in place of a command."""
 
 
 @cache
@@ -250,3 +286,23 @@ def done(request: Request, to: str, *said: str) -> Response:
     if kept:
         request.session[_SAID] = kept
     return RedirectResponse(to, status_code=303)
+
+
+def page_face(language: str) -> Face:
+    """Return how the pages say a sentence in a language.
+
+    >>> from evenbreak.words import Parameter
+    >>> say("{field} is blank", field=Parameter("tables")).said(page_face("en"))
+    'the number of tables is blank'
+    """
+    plain = face_in(language)
+
+    def parameter(name: str) -> str:
+        return str(in_face(FIELDS.get(name, name), plain))
+
+    def command(name: str, _: Sequence[str]) -> str:
+        return say("“{form}”", form=FORMS.get(name, name)).said(plain)
+
+    return replace(
+        plain, parameter=parameter, command=command, file=lambda path: PurePath(path).name
+    )

@@ -1,19 +1,37 @@
-"""The server that the application runs in: its limits, and the ends of its connections."""
+"""The server that the application runs in: its limits, and the ends of its connections.
+
+A phone that opens connection after connection must not keep others out: each address may hold half
+of all, the last few are kept for this computer, and where there is no more room the connection that
+has been idle longest ends.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import logging
 import socket
+import sys
+import time
+from collections.abc import Callable, Collection
 from typing import Any
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from evenbreak.web.app import make_app
-from evenbreak.web.door import Door, behind, descriptors, in_few_lines, room
 from evenbreak.web.guard import MOST_HEAD
 from evenbreak.web.site import Site
 
+_LOG = logging.getLogger(__name__)
+
+KEPT = 16
+"""Connections that only this computer may have."""
+
+_MOST = 1000
+_WANTED = 4096  # descriptors
+_FILES = 48  # descriptors that the database, uploads and the program itself may need at once
+_TURNS = 5  # of the event loop, until a refused connection is closed
+_SECONDS = 60.0
 _QUEUE = 1024  # connections that wait to be let in
 _IDLE = 200  # tenths of a second
 
@@ -90,3 +108,125 @@ class _Server(uvicorn.Server):
             if one in self._idle and self._idle[one] is cycle:
                 one.transport.close()
         self._idle = idle
+
+
+def descriptors() -> int:
+    """Return how many files and connections this process may have, after asking for more."""
+    if sys.platform == "win32":
+        return _WANTED
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = _WANTED if hard == resource.RLIM_INFINITY else min(hard, _WANTED)
+    if soft == resource.RLIM_INFINITY or soft >= wanted:
+        return _WANTED if soft == resource.RLIM_INFINITY else soft
+    resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+    return wanted
+
+
+def room(limit: int) -> tuple[int, int]:
+    """Return how many connections fit into a limit of descriptors, and are let in at a turn.
+
+    >>> room(4096), room(1024), room(256)
+    ((1000, 128), (656, 64), (128, 16))
+    """
+    at_a_turn = max(8, min(limit // 16, 128))
+    return max(2 * KEPT, min(_MOST, limit - _TURNS * at_a_turn - _FILES)), at_a_turn
+
+
+class Door:
+    """The connections there are, by address.
+
+    Parameters
+    ----------
+    most
+        how many there may be.
+    own
+        the addresses of this computer.
+    """
+
+    def __init__(self, most: int, own: Collection[str]) -> None:
+        self.most = most
+        self.own = own
+        self.lines: dict[str, dict[Any, None]] = {}  # of each address, the longest idle first
+
+    def lets_in(self, line: Any) -> bool:
+        """Take a new connection, in the place of an idle one if need be; False: no room."""
+        address = _address(line)
+        its = self.lines.get(address, {})
+        count, own = sum(map(len, self.lines.values())), address in self.own
+        if not own and len(its) >= self.most // 2:
+            taken = its
+        elif count >= self.most - (0 if own else KEPT):
+            guests = [one for at, one in self.lines.items() if at not in self.own]
+            taken = max(guests, key=len, default=its)
+        else:
+            taken = {}
+        if taken:
+            idle = next((one for one in taken if _is_idle(one)), None)
+            if idle is None:
+                return False
+            self.forgets(idle)
+            idle.transport.abort()
+        self.lines.setdefault(address, {})[line] = None
+        return True
+
+    def answered(self, line: Any) -> None:
+        """Count from now on how long a connection is idle."""
+        its = self.lines.get(_address(line), {})
+        if line in its:
+            its[line] = its.pop(line)
+
+    def forgets(self, line: Any) -> None:
+        """Forget a connection that has ended."""
+        its = self.lines.get(_address(line), {})
+        its.pop(line, None)
+        if not its:
+            self.lines.pop(_address(line), None)
+
+
+def behind(door: Door) -> type[H11Protocol]:
+    """Return the protocol of connections that pass a door."""
+
+    class Line(H11Protocol):
+        def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+            super().connection_made(transport)
+            if not door.lets_in(self):
+                transport.abort()
+
+        def connection_lost(self, exc: Exception | None) -> None:
+            door.forgets(self)
+            super().connection_lost(exc)
+
+        def on_response_complete(self) -> None:
+            door.answered(self)
+            super().on_response_complete()
+
+    return Line
+
+
+def in_few_lines(clock: Callable[[], float] = time.monotonic) -> Callable[..., None]:
+    """Return a handler of an event loop's errors that says once a minute that no more can connect.
+
+    Where the descriptors run out, each connection that waits is such an error, at each try.
+    """
+    said = -_SECONDS
+
+    def handle(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        nonlocal said
+        if not str(context.get("message", "")).startswith("socket.accept()"):
+            loop.default_exception_handler(context)
+        elif clock() - said >= _SECONDS:
+            said = clock()
+            _LOG.error("no more connections can be opened now: %s", context.get("exception"))
+
+    return handle
+
+
+def _address(line: Any) -> str:
+    return str(line.client[0]) if line.client else ""
+
+
+def _is_idle(line: Any) -> bool:
+    """Return whether a connection has not asked for anything that is not answered."""
+    return line.cycle is None or bool(line.cycle.response_complete)

@@ -21,12 +21,21 @@ from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
-from evenbreak.teams.evening.plan import NightPlan, TeamSheet
-from evenbreak.web.asked import fields_named, value_of
-from evenbreak.web.forms import CHOOSE_IT, FAIR, RACES, Form, scale_in
+from evenbreak.teams.evening.events import NightPlan, TeamSheet
+from evenbreak.web.forms import (
+    CHOOSE_IT,
+    FAIR,
+    RACES,
+    Form,
+    fields_named,
+    list_of,
+    read_upload,
+    scale_in,
+    value_of,
+    warnings_of,
+)
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
-from evenbreak.web.refusals import RefusalError
-from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.words import say
 
 FIELDS = fields_named(

@@ -21,8 +21,8 @@ from evenbreak.teams.evening.outlook import Side, chance, point_of, side_of
 from evenbreak.teams.sealed import SealedNight
 from evenbreak.teams.solve import SolvedNight
 from evenbreak.web.beside import Beside
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import mark_of
-from evenbreak.web.refusals import RefusalError
 
 _WAIT = 0.7  # seconds that a page waits for what is being worked out
 _KEPT = 12  # answers, and solved nights

@@ -5,7 +5,7 @@ import errno
 import click
 import pytest
 
-from evenbreak.cli.kit.failures import PROBLEMS_SHOWN, report_error
+from evenbreak.cli.kit.said import PROBLEMS_SHOWN, report_error
 from evenbreak.errors import AccuracyError, ChainError, DataError, InputError
 
 

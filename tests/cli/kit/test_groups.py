@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 TABLE = {
-    "first": Entry("reproduce", "Does one thing.", "Early"),
+    "first": Entry("start:reproduce", "Does one thing.", "Early"),
     "second": Entry("no.such.module", "Does another.", "Late"),
     "third": Entry("neither.is.this", "Does a third.", "Late"),
 }
@@ -34,10 +34,10 @@ def test_the_help_lists_the_commands_by_section(group: LazyGroup) -> None:
 
 
 def test_only_the_command_that_is_asked_for_is_imported(group: LazyGroup) -> None:
-    sys.modules.pop("evenbreak.cli.reproduce", None)
+    sys.modules.pop("evenbreak.cli.start", None)
     context = click.Context(group)
     assert group.get_command(context, "fourth") is None
-    assert "evenbreak.cli.reproduce" not in sys.modules
+    assert "evenbreak.cli.start" not in sys.modules
     command = group.get_command(context, "first")
     assert isinstance(command, click.Command)
     with pytest.raises(ModuleNotFoundError):

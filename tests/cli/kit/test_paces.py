@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.paces import stated_pace
+from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.matches import PACES, own_pace
 from evenbreak.tournaments.evening.format import DISCIPLINES
 

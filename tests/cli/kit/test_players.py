@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.players import players_of
+from evenbreak.cli.match.odds import players_of
 from evenbreak.errors import InputError
 from evenbreak.fields.question import AskedError
 from evenbreak.games import Rack, loser_breaks, player_2_breaks

@@ -4,7 +4,7 @@ import click
 import numpy as np
 import pytest
 
-from evenbreak.cli.kit.starters import with_starters
+from evenbreak.cli.kit.systems import with_starters
 from evenbreak.ratings import SCALES, Roster, scale_of
 
 CLUB = Roster(["Ann", "Bo"], [600.0, np.nan], games=[100, 0])

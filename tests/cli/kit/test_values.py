@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from evenbreak.cli.kit.values import number_of, refuse
+from evenbreak.cli.kit.said import number_of, refuse
 from evenbreak.errors import InputError
 from evenbreak.questions.common import CHANCE
 

@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.answers.match.odds import TwoPlayers
-from evenbreak.cli.match.what_is_played import match_of
+from evenbreak.cli.match.odds import match_of
 from evenbreak.fields.question import AskedError
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 from evenbreak.questions.match import Odds

@@ -4,9 +4,8 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.teams.evening import moves
-from evenbreak.teams.evening.choices import choices
-from evenbreak.teams.evening.events import HandedIn, Proposed, PutUp, Result
-from evenbreak.teams.evening.plan import check_plan
+from evenbreak.teams.evening.events import HandedIn, Proposed, PutUp, Result, check_plan
+from evenbreak.teams.evening.moves import choices
 from rows import each_of
 from team_nights import after, plan
 

@@ -21,9 +21,6 @@ _WORDS: dict[Way, str] = {
     "was read off its eigenvectors of eigenvalue 1.",
 }
 
-ROUNDING = 1e-14
-"""Differences up to this are rounding; their digits vary from computer to computer."""
-
 DEFECTIVE = (
     "The matrix of a race is defective: it has fewer independent eigenvectors than states. But "
     "all those of eigenvalue 1 exist, and the limit needs no others."

@@ -7,14 +7,12 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Quantity
-from evenbreak.answers.kit.wording import count_of, decimals, how_often, luck_words, percent
+from evenbreak.answers.kit.wording import count_of, how_often, luck_words, percent
 from evenbreak.arrays import Floats
 from evenbreak.files.practice import ScoresFile
 from evenbreak.stats.compare import Comparison
 from evenbreak.stats.confidence import Luck, MeanInterval, mean_interval, sd_of, was_it_luck
 from evenbreak.stats.trend import Trend, TrendLine, trend, trend_line
-
-TWO = decimals(2)
 
 FEW = 10
 """With fewer scores than this, a single one can change the answer."""

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import count_of, decimals, percent
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.errors import InputError
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.league.dump_cycle import DumpCycle, best_cycle
@@ -21,8 +21,6 @@ from evenbreak.league.sandbag_pay import (
 
 CYCLE = 10
 """The matches of the cycles of dumping and playing in earnest that are looked at."""
-
-NUMBER = decimals(2)
 
 
 class PayQuestion(NamedTuple):

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.team.lineup import TIE, names_words, race_words
-from evenbreak.teams.evening.choices import choices
 from evenbreak.teams.evening.events import (
     Begun,
     Event,
     HandedIn,
+    NightPlan,
     Proposed,
     PutUp,
     Result,
@@ -18,7 +18,7 @@ from evenbreak.teams.evening.events import (
     What,
 )
 from evenbreak.teams.evening.fold import TeamEvening
-from evenbreak.teams.evening.plan import NightPlan
+from evenbreak.teams.evening.moves import choices
 from evenbreak.teams.night import WINNER
 from evenbreak.words import Sentence, joined, listed, say, say_count
 
@@ -174,7 +174,7 @@ def _open(state: TeamEvening) -> set[int]:
 def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
     """Return what happened; of picks only those in the sets `shown`.
 
-    >>> from evenbreak.teams.evening.plan import TeamSheet
+    >>> from evenbreak.teams.evening.events import TeamSheet
     >>> us, them = (TeamSheet(name, (), (), (), ()) for name in ("Racks", "Cues"))
     >>> plan = NightPlan((us, them), 2, race=5)
     >>> one = Event("2025-03-01T19:30:00", PutUp(0, 1, ("Ann",)))

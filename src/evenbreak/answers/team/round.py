@@ -21,10 +21,10 @@ from evenbreak.handicaps.charts.race_of_pair import Race
 from evenbreak.handicaps.systems.team_handicap import team_handicap
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.teams.league_rules import against_all, first_edges, league_nights
 from evenbreak.teams.night import BOTH, NAMED, order_of
 from evenbreak.teams.round_law import Outcome, RoundLaw, known_starts
 from evenbreak.teams.set_laws import set_laws
+from evenbreak.teams.solve import against_all, first_edges, league_nights
 from evenbreak.teams.squad import Squad, line_ups
 
 

@@ -15,7 +15,6 @@ from evenbreak.answers.tournament.tournament import (
 )
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.evening.bracket_of_plan import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
@@ -34,8 +33,9 @@ from evenbreak.tournaments.evening.events import (
     score_words,
 )
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.losses import losses
+from evenbreak.tournaments.evening.plan import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.settling import TieBreak
+from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Sentence, joined, say
 
 

@@ -26,13 +26,13 @@ from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
-from evenbreak.tournaments.evening.bracket_of_plan import pairings, swiss_of
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, as_dict, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.moves import free_tables
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.evening.settling import tied_groups
 from evenbreak.words import Command, Sentence, joined, listed, say, say_count
 

@@ -20,7 +20,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot
 from evenbreak.tournaments.brackets.standing import Standing
-from evenbreak.tournaments.evening.bracket_of_plan import TO_DRAW
+from evenbreak.tournaments.evening.plan import TO_DRAW
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 from evenbreak.words import Sentence, joined, ordinal, say
 

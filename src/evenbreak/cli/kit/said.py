@@ -1,12 +1,29 @@
-"""How the terminal says a sentence: parameters are options, and files have their whole path."""
+"""How the terminal says a sentence, refuses wrong usage, and reports an error.
 
-from collections.abc import Callable
+Parameters are options, and files have their whole path. An error is one line on stderr for each
+problem, and an exit code: 0 done, 1 failed, 2 wrong usage, 3 bad data, 130 interrupted.
+"""
+
+import errno
+import os
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any, NoReturn
 
 import click
 
-from evenbreak.words import Face, in_face
+from evenbreak.cli.interrupts import INTERRUPTED
+from evenbreak.errors import DataError, EvenbreakError, InputError
+from evenbreak.words import Face, in_face, say
+
+SAY_WHICH = "say which with --scale npl, --scale fargo or --scale elo"
+"""What to do about ratings that do not show their scale."""
+
+PROBLEMS_SHOWN = 20
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+FAILED, USAGE, BAD_DATA = 1, 2, 3
 
 _running: list[click.Command] = []
 
@@ -42,3 +59,98 @@ def said(text: str, spelled: Callable[[str], str] | None = None) -> str:
     face = terminal() if spelled is None else replace(terminal(), parameter=spelled)
     shown: str = in_face(text, face)
     return shown
+
+
+def number_of(text: str) -> float:
+    """Return the number that a text means; -0 is 0.
+
+    >>> number_of("1.5"), number_of("-0")
+    (1.5, 0.0)
+    """
+    return float(text) + 0.0
+
+
+def refuse(template: str, /, **values: Any) -> NoReturn:
+    """End the command with exit code 2; the message says how to correct it, as errors do."""
+    message = said(say(template, **values) if values else template)
+    raise click.UsageError(message, ctx=click.get_current_context(silent=True))
+
+
+def report_error(error: BaseException) -> int:
+    """Print what went wrong on stderr, one line for each problem, and return the exit code.
+
+    An error that is a bug in this program is raised again.
+    """
+    match error:
+        case click.ClickException():
+            error.show()
+            return error.exit_code
+        case _ if any(isinstance(one, click.Abort | KeyboardInterrupt) for one in _chain(error)):
+            # An import turns an interrupt into an error of its own, which has it as its cause.
+            click.echo("Interrupted.", err=True)
+            return INTERRUPTED
+        case OSError(errno=errno.EPIPE):
+            # The reader of the pipe is gone; what is still buffered must not fail at exit.
+            if sys.stdout is not None:
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return FAILED
+        case EvenbreakError() | OSError() | MemoryError() | OverflowError():
+            pass
+        case UnicodeDecodeError() if _in_matplotlib(error):
+            error = InputError(
+                f"matplotlib cannot read its settings ({error}); mend or remove the file "
+                "matplotlibrc in this folder"
+            )
+        case _:
+            raise error
+    for line in _lines(error):
+        click.echo(f"Error: {line}", err=True)
+    match error:
+        case DataError():
+            return BAD_DATA
+        case InputError():
+            return USAGE
+    return FAILED
+
+
+def _in_matplotlib(error: BaseException) -> bool:
+    """Return whether an error comes from matplotlib as it loads, where it reads its settings."""
+    place = error.__traceback__
+    names = set()
+    while place is not None:
+        names.add(place.tb_frame.f_globals.get("__name__"))
+        place = place.tb_next
+    return "matplotlib" in names
+
+
+def _chain(error: BaseException | None) -> Iterator[BaseException]:
+    """Yield an error, its cause, the cause of that, and so on."""
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        seen.add(id(error))
+        yield error
+        error = error.__cause__ or error.__context__
+
+
+def _lines(error: BaseException) -> Iterator[str]:
+    match error:
+        case DataError():
+            yield from map(said, error.problems[:PROBLEMS_SHOWN])
+            hidden = len(error.problems) - PROBLEMS_SHOWN
+            if hidden > 0:
+                yield f"and {hidden:,} more problem{'s' if hidden > 1 else ''}"
+        case OSError(filename=None, errno=code) if code in NO_ROOM:
+            # An error about a file names it; this one is about stdout.
+            yield f"standard output: {error.strerror}"
+        case OSError(filename=None):
+            yield str(error.strerror or error)
+        case OSError():
+            yield f"{error.filename}: {error.strerror}"
+        case MemoryError():
+            yield "there is not enough memory to answer this; ask for less"
+        case OverflowError():
+            yield "the answer is larger than the largest number a computer can hold"
+        case EvenbreakError():
+            yield " ".join(said(error.sentence).split())
+        case _:
+            yield " ".join(str(error).split())

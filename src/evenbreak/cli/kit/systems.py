@@ -1,15 +1,23 @@
-"""The handicap system of a command, its scale, and its chart: --system, --scale, --chart."""
+"""What commands share about ratings and play, as their options say it.
+
+The handicap system, its scale and its chart (--system, --scale, --chart); new players (--starter);
+how fast matches are played.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.fields.question import Question
-from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.words import Parameter
+
+if TYPE_CHECKING:
+    from evenbreak.matches.pace import Pace
 
 
 def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
@@ -124,3 +132,31 @@ def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Cha
             "of rating differences, such as npl_10"
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]
+
+
+def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:
+    """Return the roster with new players filled in."""
+    import numpy as np
+
+    from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS
+
+    unrated = np.isnan(roster.rating)
+    if unrated.any() and starter is None and scale.name not in SCALES:
+        name = roster.players[int(unrated.argmax())]
+        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
+    spread = scale.points_per_doubling if sd is None else sd
+    most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
+    if spread > most:
+        refuse(
+            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
+        )
+    return roster.with_starters(scale.centre if starter is None else starter, spread, scale)
+
+
+def stated_pace(discipline: str | None, minutes_per_game: float | None) -> Pace | str | None:
+    """Return the discipline or the pace that the options state, None if they state none."""
+    from evenbreak.matches.pace import own_pace
+
+    if discipline is not None and minutes_per_game is not None:
+        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
+    return discipline if minutes_per_game is None else own_pace(minutes_per_game)

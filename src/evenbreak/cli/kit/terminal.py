@@ -1,16 +1,23 @@
-"""The two streams of a command: the answer on stdout, everything else on stderr."""
+"""What a command writes: the answer on stdout, everything else on stderr, and files."""
+
+from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING
 
 import click
 
 from evenbreak.answers.faces.to_text import WIDTH, paragraph
 from evenbreak.cli.interrupts import raise_if_interrupted
 from evenbreak.cli.kit.progress import erase
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.files.tables.problems import printable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 def to_terminal() -> bool:
@@ -70,3 +77,11 @@ def say(message: str) -> None:
     terminal = sys.stderr is not None and sys.stderr.isatty()
     # File names stay whole, so that they can be copied.
     click.echo(paragraph(message, WIDTH) if terminal else printable(message), err=True)
+
+
+def write_plot(plot: Axes | Figure, path: str) -> None:
+    """Write a plot to the file named by --plot, and say so on stderr."""
+    from evenbreak.plots.picture import image_bytes
+
+    svg = PurePath(path).suffix.lower() == ".svg"
+    write_file(path, image_bytes(plot, "svg" if svg else "png"))

@@ -10,11 +10,9 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
-from evenbreak.cli.kit.paces import stated_pace
-from evenbreak.cli.kit.starters import with_starters
-from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
+from evenbreak.cli.kit.said import SAY_WHICH, refuse
+from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, stated_pace, with_starters
 from evenbreak.cli.kit.terminal import write_file
-from evenbreak.cli.kit.values import SAY_WHICH, refuse
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.questions.league import Matchups
 from evenbreak.ratings.scale import SCALES, Scale

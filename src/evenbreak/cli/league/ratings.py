@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.plot import write_plot
 from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.said import SAY_WHICH, number_of, refuse
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
-from evenbreak.cli.kit.terminal import say, write_file
-from evenbreak.cli.kit.values import SAY_WHICH, number_of, refuse
+from evenbreak.cli.kit.terminal import say, write_file, write_plot
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.kinds import NUMBER
 from evenbreak.questions.ratings import Assumed, HowToRate, Rate, Validate, Why

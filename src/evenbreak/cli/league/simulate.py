@@ -14,9 +14,9 @@ from evenbreak import files, handicaps, league, plots
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.said import SAY_WHICH
 from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.terminal import say, write_folder
-from evenbreak.cli.kit.values import SAY_WHICH
 from evenbreak.errors import EvenbreakError, InputError, WorkerError
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.questions.league import WEEKS, Simulate

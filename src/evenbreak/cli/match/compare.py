@@ -10,9 +10,9 @@ from evenbreak import matches
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.players import players_of
-from evenbreak.cli.kit.plot import write_plot
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
+from evenbreak.cli.kit.terminal import write_plot
+from evenbreak.cli.match.odds import players_of
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.questions.match import Compare
 

@@ -1,4 +1,7 @@
-"""`evenbreak graph`: a game's road from its graph to its limit, as files."""
+"""`evenbreak graph` and `evenbreak chain`: from a graph to its limit.
+
+The graph is that of a game, or of any chain from a file.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 from evenbreak import files
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_folder
-from evenbreak.cli.kit.values import refuse
 from evenbreak.errors import DataError, InputError
-from evenbreak.questions.games import Graph
+from evenbreak.questions.games import Chain, Graph
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from evenbreak.files.arcs import ArcsFile
     from evenbreak.game import Game
     from evenbreak.matches.formats import MatchFormat
+
 
 MOST_STATES = 5_000
 """The most states, so that every file is written in seconds."""
@@ -260,3 +264,13 @@ def _files(
     except InputError as error:
         doubts.append(f"no picture is written: {error}")
     return {name: written[name] for name in FILES if name in written}, doubts
+
+
+@command_of(Chain, "chain")
+def chain(asked: Chain) -> Answer:
+    """Find where a Markov chain ends."""
+    from evenbreak.answers.match.chain import chain_answer
+
+    file = files.read_chain(asked.path, states=asked.states, rows=asked.rows)
+    chain = file.chain(asked.start_state)
+    return chain_answer(chain, steps=asked.steps, warnings=file.warnings, via=asked.via)

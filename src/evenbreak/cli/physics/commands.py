@@ -10,7 +10,7 @@ from evenbreak import physics, plots
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.physics import units as measures
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.plot import write_plot
+from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.cli.physics.layout import layout_of, traced_shot
 from evenbreak.errors import InputError
 from evenbreak.questions import physics as questions

@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 
 from evenbreak import physics
 from evenbreak.answers.physics.units import Units
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.questions.physics import Shot
 
 Place = tuple[float, float]

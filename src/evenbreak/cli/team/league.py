@@ -10,9 +10,13 @@ from evenbreak import files, handicaps, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.starters import with_starters
-from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import SAY_WHICH, refuse
+from evenbreak.cli.kit.said import SAY_WHICH, refuse
+from evenbreak.cli.kit.systems import (
+    chart_by_difference,
+    refuse_levels,
+    refuse_other_scale,
+    with_starters,
+)
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.questions.teams import Capped, Caps, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale

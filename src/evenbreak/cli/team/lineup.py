@@ -6,12 +6,12 @@ from evenbreak import files, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.starters import with_starters
+from evenbreak.cli.kit.systems import with_starters
 from evenbreak.cli.team.league import race_of, refuse_without_level, scale_of_teams
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.handicaps.charts.race_of_pair import games_needed
 from evenbreak.questions.teams import InPlay, Lineup
-from evenbreak.teams.evening.plan import meeting_by
+from evenbreak.teams.evening.events import meeting_by
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import LOSER, WINNER, order_of
 from evenbreak.teams.set_laws import brought

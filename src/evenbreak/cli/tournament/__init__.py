@@ -8,7 +8,7 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
     "new": Entry("tournament.new", "Begin a tournament that is run here."),
-    "import": Entry("tournament.import_", "Go on with a tournament from another program."),
+    "import": Entry("tournament.new:import_", "Go on with a tournament from another program."),
     "draw": Entry("tournament.moves:draw", "Make the draw."),
     "show": Entry("tournament.paper:show", "Show the bracket."),
     "next": Entry("tournament.paper:next_matches", "Show who plays next, and on which table."),
@@ -28,9 +28,13 @@ COMMANDS = {
         "tournament.paper:export", "List the matches that were played, for the ratings."
     ),
     "print": Entry("tournament.paper:print_paper", "Write score cards or the bracket to print."),
-    "prizes": Entry("tournament.prizes", "What each place is paid, and what players may expect."),
+    "prizes": Entry(
+        "tournament.odds:prizes", "What each place is paid, and what players may expect."
+    ),
     "odds": Entry("tournament.odds", "Find each player's odds of winning the tournament."),
-    "time": Entry("tournament.time", "Find when the tournament ends, and when each match starts."),
+    "time": Entry(
+        "tournament.odds:time", "Find when the tournament ends, and when each match starts."
+    ),
 }
 """Each command, in the module of its name, with its line of help."""
 

@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.questions.evening import TimedUnderWay
 
 if TYPE_CHECKING:

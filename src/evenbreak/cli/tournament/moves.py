@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.tournament.evening import add, answer_of, moment
 from evenbreak.questions import evening as questions
 

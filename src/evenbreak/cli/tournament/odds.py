@@ -1,17 +1,25 @@
-"""`evenbreak tournament odds`: each player's odds of winning tonight's tournament."""
+"""What is to be expected of tonight's tournament: its `odds`, `time` and `prizes`."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.values import refuse
+from evenbreak.cli.kit.said import refuse
+from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.cli.tournament.evening import moment, outlook_of
 from evenbreak.cli.tournament.options import tournament_of
-from evenbreak.cli.tournament.prizes import paid_places
-from evenbreak.questions.tournament import TournamentOdds
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Number
+from evenbreak.files.tables.names import KnownNames
+from evenbreak.questions.evening import PayOut
+from evenbreak.questions.tournament import TournamentOdds, TournamentTime
+
+if TYPE_CHECKING:
+    from evenbreak.tournaments import PrizeMoney
 
 
 @command_of(TournamentOdds, "odds")
@@ -22,7 +30,7 @@ def command(asked: TournamentOdds) -> Answer:
     from evenbreak.answers.tournament.odds import tournament_odds_answer
 
     if asked.entrants is None:
-        return _under_way(asked)
+        return _odds_under_way(asked)
     tournament, warnings = tournament_of(asked, before_draw=asked.before_draw)
     if np.isnan(tournament.file.roster.rating).all():
         refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")
@@ -39,7 +47,7 @@ def command(asked: TournamentOdds) -> Answer:
     )
 
 
-def _under_way(asked: TournamentOdds) -> Answer:
+def _odds_under_way(asked: TournamentOdds) -> Answer:
     """Find each player's odds in the tournament under way."""
     from evenbreak.answers.tournament.under_way import odds_under_way
 
@@ -47,3 +55,105 @@ def _under_way(asked: TournamentOdds) -> Answer:
     outlook = replace(outlook_of(file, moment(asked.at, file)), walkovers=asked.walkovers)
     paid = paid_places(asked.prizes, len(outlook.state.order))
     return odds_under_way(outlook, sure=asked.sure, prizes=paid, source=PurePath(file).name)
+
+
+@command_of(TournamentTime, "time")
+def time(asked: TournamentTime) -> Answer:
+    """Find when the tournament ends."""
+    from evenbreak.answers.tournament.time import tournament_time_answer
+    from evenbreak.matches import Turnover
+
+    if asked.entrants is None:
+        return _time_under_way(asked)
+    tournament, warnings = tournament_of(asked)
+    pace = stated_pace(asked.discipline, asked.minutes_per_game) or ""
+    return tournament_time_answer(
+        tournament,
+        tables=asked.tables or 1,
+        pace=pace,
+        turnover=None if asked.turnover is None else Turnover(asked.turnover),
+        start=asked.start,
+        seed=asked.seed,
+        warnings=warnings,
+    )
+
+
+def _time_under_way(asked: TournamentTime) -> Answer:
+    """Find when the tournament under way ends."""
+    from evenbreak.answers.tournament.under_way import time_under_way
+    from evenbreak.matches import Turnover
+
+    file = asked.path
+    return time_under_way(
+        outlook_of(file, moment(asked.at, file)),
+        tables=asked.tables,
+        turnover=None if asked.turnover is None else Turnover(asked.turnover),
+        source=PurePath(file).name,
+    )
+
+
+@command_of(PayOut, "prizes")
+def prizes(asked: PayOut) -> Answer:
+    """Find what each place is paid."""
+    from evenbreak.answers.tournament.prizes import calcutta_answer, tournament_prizes_answer
+    from evenbreak.files.store.desk import keep_prizes, kept_prizes
+    from evenbreak.files.store.tournament import read_tournament
+
+    file, house, has_money = asked.path, asked.house, asked.fee or asked.added
+    state = read_tournament(file)
+    entrants, name = len(state.entrants), PurePath(file).name
+    money = _money(asked)
+    if asked.calcutta:
+        odds = outlook_of(file, moment(asked.at, file)).odds
+        bids = _bids(asked, state.order)
+        table = money.payouts(entrants)
+        return calcutta_answer(odds, table, bids, house=house, source=name)
+    kept = kept_prizes(file)
+    if kept and not has_money:
+        money = replace(kept, house=house or kept.house, payout=money.payout or kept.payout)
+    pot = money.pot(entrants)
+    if not pot:
+        asked.refuse("there is no prize money; give {fee} or {added}")
+    now = outlook_of(file, moment(asked.at, file)).odds if state.drawn else None
+    answer = tournament_prizes_answer(state, money.payouts(entrants), pot, now, source=name)
+    if asked.keep:
+        keep_prizes(file, money)
+    return answer
+
+
+def _money(asked: PayOut) -> PrizeMoney:
+    from evenbreak.tournaments import PAYOUTS, PrizeMoney
+
+    text = asked.payout or ""
+    if text not in PAYOUTS:
+        text = "/".join(part.strip().removesuffix("%") for part in text.split(","))
+    try:
+        return PrizeMoney(asked.fee, asked.added, asked.house, text)
+    except InputError as error:
+        asked.refuse("{payout}: {why}", why=error.sentence)
+
+
+def _bids(asked: PayOut, players: tuple[str, ...]) -> dict[str, float]:
+    names, bids = KnownNames(players), {}
+    for name, amount in asked.sold:
+        place = names.place(name)
+        if place is None:
+            asked.refuse(
+                "{sold} {name!r} is not in the tournament{hint}", name=name, hint=names.hint(name)
+            )
+        bids[players[place]] = amount
+    return bids
+
+
+def paid_places(text: str | None, players: int) -> tuple[float, ...]:
+    """Return the money for each place that --prizes states."""
+    if text is None:
+        return ()
+    wanted = "give an amount for each paid place, such as 500,300,150"
+    try:
+        amounts = tuple(Number(0.0, 1e12).read(part) for part in text.split(","))
+    except InputError:
+        refuse(f"--prizes is {text!r}; {wanted}")
+    if len(amounts) > players:
+        refuse(f"--prizes has {len(amounts)} places for {players} players; give fewer")
+    return amounts

@@ -6,18 +6,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak import files, ratings, tournaments
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.starters import with_starters
-from evenbreak.cli.kit.systems import chart_by_difference, refuse_levels, refuse_other_scale
-from evenbreak.cli.kit.values import SAY_WHICH, refuse
+from evenbreak.cli.kit.said import SAY_WHICH, refuse
+from evenbreak.cli.kit.systems import (
+    chart_by_difference,
+    refuse_levels,
+    refuse_other_scale,
+    with_starters,
+)
 from evenbreak.files.charts import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.questions.plan import TournamentPlan
 from evenbreak.questions.tournament import NewTournament, OfEntrants
-from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
-from evenbreak.tournaments.evening.opening import BYE
-from evenbreak.tournaments.evening.races_of_plan import races_of
+from evenbreak.tournaments.evening.plan import BYE, bracket_of, races_of
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament.tournament import Tournament

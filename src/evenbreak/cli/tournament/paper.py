@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_file
-from evenbreak.cli.kit.values import refuse
 from evenbreak.cli.tournament.evening import answer_of, moment
-from evenbreak.cli.tournament.prizes import paid_places
+from evenbreak.cli.tournament.odds import paid_places
 from evenbreak.questions.evening import Export, Next, Print, Show
 from evenbreak.words import FilePath, say, say_count
 

@@ -23,7 +23,6 @@ from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import content_of
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
-from evenbreak.tournaments.evening.bracket_of_plan import bracket_of
 from evenbreak.tournaments.evening.events import (
     NAMES,
     Called,
@@ -39,6 +38,7 @@ from evenbreak.tournaments.evening.events import (
     event_of,
 )
 from evenbreak.tournaments.evening.fold import evening
+from evenbreak.tournaments.evening.plan import bracket_of
 from evenbreak.words import Parameter, listed, say
 
 _DISCIPLINES = {"8": "8-ball", "9": "9-ball", "10": "10-ball"}

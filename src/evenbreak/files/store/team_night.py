@@ -80,7 +80,7 @@ def add_team_events(
 
     >>> import tempfile, pathlib
     >>> from evenbreak.teams.evening.events import Begun
-    >>> from evenbreak.teams.evening.plan import NightPlan, TeamSheet
+    >>> from evenbreak.teams.evening.events import NightPlan, TeamSheet
     >>> us = TeamSheet("Racks", ("Ann",), (600.0,), (0.0,), (6.0,))
     >>> them = TeamSheet("Cues", ("Cy",), (560.0,), (0.0,), (6.0,))
     >>> how = {"at": "2025-03-01T19:30:00", "by": "director's page", "form": "f1"}

@@ -1,16 +1,228 @@
-"""What happens on a team night: events, which are only ever added.
+"""What is played on a team night, and what happens on it: events, which are only ever added.
 
 An event is a frozen value; `as_dict` and `event_of` turn it into plain data and back.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any, TypeAlias
+from functools import lru_cache
+from typing import Annotated, Any, Protocol, TypeAlias
 
-from evenbreak.checks import Between, made
+from evenbreak.checks import Between, made, one_of, whole
 from evenbreak.errors import InputError
-from evenbreak.teams.evening.plan import NightPlan
+from evenbreak.handicaps.charts.chart import chart
+from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.teams.meeting import SEALED, Meeting
+from evenbreak.teams.night import order_of
+from evenbreak.teams.sealed import sealed
+from evenbreak.teams.set_laws import Count, Points
+from evenbreak.teams.solve import refuse_large
+from evenbreak.teams.squad import Squad, caps_of
+
+COUNTS = ("sets", "games", "points")
+"""What may decide a night."""
+
+
+@dataclass(frozen=True)
+class TeamSheet:
+    """A team as it came in.
+
+    Parameters
+    ----------
+    name
+        of the team.
+    players
+        their names.
+    ratings, errors
+        of the players, and how far off a rating may be (0: not stated).
+    weights
+        what each player counts for under a cap: their skill level, or their rating.
+    """
+
+    name: str
+    players: tuple[str, ...]
+    ratings: tuple[Annotated[float, Between(-1_000_000, 1_000_000)], ...]
+    errors: tuple[Annotated[float, Between(0, 1_000_000)], ...]
+    weights: tuple[float, ...]
+
+    @property
+    def roster(self) -> Roster:
+        """The players with their ratings."""
+        return Roster(self.players, self.ratings, self.errors)
+
+
+@dataclass(frozen=True)
+class NightPlan:
+    """What is played on a team night, and by whom.
+
+    Parameters
+    ----------
+    teams
+        team A and team B.
+    sets
+        how many are played.
+    race
+        the games of a race; 0 where a chart says it.
+    handicapped
+        whether the stronger player needs that many games, and the weaker as many as is fairest.
+    chart
+        the chart that comes with the package by which races are played; '' if there is none.
+    order
+        who names first, as `order_of` reads it, or 'sealed'.
+    count
+        what decides the night: sets, games or points.
+    doubles
+        the numbers of the sets that are doubles.
+    cap
+        the largest sum of the weights of a line-up; None: no limit.
+    at_most
+        how many players of this weight or more may play; None: any number.
+    times
+        how often a player may be put up.
+    scale
+        of the ratings, as `scale_of` reads it.
+    """
+
+    teams: tuple[TeamSheet, TeamSheet]
+    sets: Annotated[int, Between(1, 100)]
+    race: Annotated[int, Between(0, 1_000)] = 0
+    handicapped: bool = False
+    chart: str = ""
+    order: str = "alternate"
+    count: str = "sets"
+    doubles: tuple[int, ...] = ()
+    cap: float | None = None
+    at_most: tuple[int, float] | None = None
+    times: Annotated[int, Between(1, 100)] = 1
+    scale: str = "fargo"
+
+
+@lru_cache(maxsize=8)
+def meeting_of(plan: NightPlan) -> Meeting:
+    """Return the meeting that a plan describes, as team A sees it.
+
+    Raises
+    ------
+    InputError
+        if the plan makes no sense.
+
+    >>> def team(name, *players):
+    ...     many = len(players)
+    ...     return TeamSheet(name, players, (500.0,) * many, (0.0,) * many, (5.0,) * many)
+    >>> plan = NightPlan((team("Racks", "Ann", "Bo"), team("Cues", "Cy", "Di")), 2, race=5)
+    >>> meeting_of(plan).sizes, meeting_of(plan).order
+    ((1, 1), 'AB')
+    """
+    first, second = (team.roster for team in plan.teams)
+    return meeting_by(
+        plan,
+        (first, second),
+        [team.weights for team in plan.teams],
+        race=_race(plan),
+        scale=scale_of(plan.scale),
+        sets=plan.sets,
+    )
+
+
+class Rules(Protocol):
+    """The rules of a team night, as a plan and a question state them; see `NightPlan`."""
+
+    @property
+    def order(self) -> str: ...  # noqa: D102
+    @property
+    def count(self) -> str: ...  # noqa: D102
+    @property
+    def doubles(self) -> tuple[int, ...]: ...  # noqa: D102
+    @property
+    def cap(self) -> float | None: ...  # noqa: D102
+    @property
+    def at_most(self) -> tuple[int, float] | None: ...  # noqa: D102
+    @property
+    def times(self) -> int: ...  # noqa: D102
+
+
+def meeting_by(
+    rules: Rules,
+    sides: tuple[Roster, Roster],
+    weights: Sequence[Sequence[float]],
+    *,
+    race: Race,
+    scale: Scale,
+    sets: int,
+) -> Meeting:
+    """Return the meeting of two rosters by the rules of a night.
+
+    Parameters
+    ----------
+    rules
+        the rules.
+    sides
+        team A and team B.
+    weights
+        what each player counts for under a cap, by team.
+    race, scale
+        what is played in each set, and the scale of the ratings.
+    sets
+        how many are played.
+
+    Raises
+    ------
+    InputError
+        if the rules make no sense.
+    """
+    whole(sets, "sets", at_least=1)
+    one_of(rules.count, "count", COUNTS)
+    wrong = [k for k in rules.doubles if not 1 <= k <= sets]
+    if wrong:
+        raise InputError(
+            "set {n} can't be doubles: the sets are 1 to {sets}", n=wrong[0], sets=sets
+        )
+    first, second = (
+        Squad(side.players, caps_of(counted, rules.cap, rules.at_most), rules.times)
+        for side, counted in zip(sides, weights, strict=True)
+    )
+    count: Count = Points() if rules.count == "points" else rules.count  # type: ignore[assignment]
+    order = rules.order.strip().lower()
+    return Meeting(
+        *sides,
+        (first, second),
+        race,
+        scale,
+        tuple(2 if k in rules.doubles else 1 for k in range(1, sets + 1)),
+        order if order == SEALED else order_of(rules.order, sets),
+        count,
+    )
+
+
+def check_plan(plan: NightPlan) -> None:
+    """Refuse a plan that cannot be played, or is too large to be worked out.
+
+    Raises
+    ------
+    InputError
+        if a team cannot fill its sets within the caps, two names are one, or no race is given.
+    """
+    first, second = (team.name for team in plan.teams)
+    if first.casefold() == second.casefold():
+        raise InputError("both teams are called {name}; give them different names", name=first)
+    meeting = meeting_of(plan)
+    night = meeting.night()
+    if meeting.order == SEALED:
+        sealed(night)
+    else:
+        refuse_large(night)
+
+
+def _race(plan: NightPlan) -> Race:
+    if plan.chart:
+        return chart(plan.chart)
+    race = whole(plan.race, "race", at_least=1)
+    return Fairest(race) if plan.handicapped else race
+
 
 Pick: TypeAlias = tuple[str, ...]
 """Who plays a set: one player, or the pair of a doubles set."""

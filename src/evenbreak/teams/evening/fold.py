@@ -10,6 +10,7 @@ from evenbreak.teams.evening.events import (
     Begun,
     Event,
     HandedIn,
+    NightPlan,
     Pick,
     Proposed,
     PutUp,
@@ -17,8 +18,8 @@ from evenbreak.teams.evening.events import (
     Score,
     Undone,
     What,
+    meeting_of,
 )
-from evenbreak.teams.evening.plan import NightPlan, meeting_of
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import BOTH, LOSER, OURS, THEIRS, WINNER
 from evenbreak.teams.set_laws import brought
@@ -199,7 +200,7 @@ def _without(line: SetLine, viewer: int | None) -> SetLine:
 def team_evening(events: Iterable[Event]) -> TeamEvening | None:
     """Return the state after some events; None if no night has begun.
 
-    >>> from evenbreak.teams.evening.plan import TeamSheet
+    >>> from evenbreak.teams.evening.events import TeamSheet
     >>> us = TeamSheet("Racks", ("Ann", "Bo"), (600.0, 500.0), (0.0, 0.0), (6.0, 5.0))
     >>> them = TeamSheet("Cues", ("Cy", "Di"), (560.0, 540.0), (0.0, 0.0), (6.0, 5.0))
     >>> plan = NightPlan((us, them), 2, race=5)

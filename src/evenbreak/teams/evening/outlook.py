@@ -80,7 +80,7 @@ def chance(side: Side, state: TeamEvening) -> float:
 
     >>> from evenbreak.teams.evening.events import Begun, Event, PutUp
     >>> from evenbreak.teams.evening.fold import team_evening
-    >>> from evenbreak.teams.evening.plan import NightPlan, TeamSheet
+    >>> from evenbreak.teams.evening.events import NightPlan, TeamSheet
     >>> us = TeamSheet("Racks", ("Ann", "Bo"), (600.0, 500.0), (0.0, 0.0), (6.0, 5.0))
     >>> them = TeamSheet("Cues", ("Cy", "Di"), (560.0, 540.0), (0.0, 0.0), (6.0, 5.0))
     >>> what = [Begun(NightPlan((us, them), 1, race=5)), PutUp(0, 1, ("Ann",))]

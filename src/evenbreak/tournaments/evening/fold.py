@@ -18,7 +18,6 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
 from evenbreak.tournaments.brackets.standing import Standing, ranked, standing
-from evenbreak.tournaments.evening.bracket_of_plan import bracket_now, bracket_of, whole_bracket
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.events import (
     Called,
@@ -39,7 +38,13 @@ from evenbreak.tournaments.evening.events import (
     Undone,
     What,
 )
-from evenbreak.tournaments.evening.races_of_plan import changed, races_of
+from evenbreak.tournaments.evening.plan import (
+    bracket_now,
+    bracket_of,
+    changed,
+    races_of,
+    whole_bracket,
+)
 from evenbreak.tournaments.odds.races import Races, games_needed
 from evenbreak.words import Command
 

@@ -8,9 +8,9 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.double import losers_qualifiers
 from evenbreak.tournaments.brackets.swiss import swiss_round
-from evenbreak.tournaments.evening.bracket_of_plan import KNOCK_OUT, pairings, swiss_of
 from evenbreak.tournaments.evening.events import LaterDraw
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.plan import KNOCK_OUT, pairings, swiss_of
 from evenbreak.words import Command, listed
 
 

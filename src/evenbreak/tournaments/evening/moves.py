@@ -35,8 +35,8 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.later_draws import draw_later
-from evenbreak.tournaments.evening.losses import losses
-from evenbreak.tournaments.evening.opening import refuse_bye
+from evenbreak.tournaments.evening.plan import refuse_bye
+from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Command, Parameter, listed, say
 
 

@@ -23,11 +23,11 @@ from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.play import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay, Timed, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
-from evenbreak.tournaments.evening.bracket_of_plan import pairings, swiss_of
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening, Played
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
+from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.odds.draws import redraw_odds, swiss_odds
 from evenbreak.tournaments.odds.leverage import Leverage, leverages
 from evenbreak.tournaments.odds.races import PairOdds, Races, chances_given, from_score, pair_odds

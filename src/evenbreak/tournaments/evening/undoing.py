@@ -1,10 +1,16 @@
-"""What can be taken back: the director's own entries, the last one first."""
+"""What can be taken back, the director's last entry first, and what an entry takes away.
+
+An entry takes away matches in play, and results that no longer count.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from evenbreak.errors import InputError
-from evenbreak.tournaments.evening.events import Event, Result, Undone
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.events import Called, CalledBack, Event, Result, Scored, Undone
+from evenbreak.tournaments.evening.fold import Evening, LiveScore, OnTable
 
 
 def undoable(state: Evening) -> dict[int, Event]:
@@ -31,3 +37,77 @@ def undo(state: Evening, entry: int | None = None) -> Undone:
     if entry is not None and entry not in can:
         raise InputError("entry {entry} is not the last one, so it can't be undone", entry=entry)
     return Undone(own[0] if entry is None else entry)
+
+
+class Loss(NamedTuple):
+    """A match that is no longer played, or whose result no longer counts.
+
+    Parameters
+    ----------
+    match, players
+        the match, as it was played.
+    table
+        the table that it leaves; None: it was on none, or stays there.
+    score
+        its score so far; None: it has none, or keeps it.
+    result
+        its result; None: it was in play.
+    """
+
+    match: str
+    players: tuple[str, str]
+    table: int | None = None
+    score: tuple[int, int] | None = None
+    result: Result | None = None
+
+
+def losses(before: Evening, after: Evening) -> list[Loss]:
+    """Return what an entry takes away besides that which it is about.
+
+    Nothing of it is forgotten: a result counts again, and a match goes on at its score, as soon as
+    the same players are in the match.
+    """
+    if not before.drawn:
+        return []
+    about = matches_of(before, after)
+    return [*_no_longer_played(before, after, about), *_no_longer_counted(before, after, about)]
+
+
+def matches_of(before: Evening, after: Evening) -> set[str]:
+    """Return the matches that what was entered, or taken back, is about."""
+    then, now = (dict(zip(s.numbers, s.events, strict=True)) for s in (before, after))
+    entries = [(then | now)[number].what for number in then.keys() ^ now.keys()]
+    return {one.match for one in entries if isinstance(one, Result | Called | CalledBack | Scored)}
+
+
+def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:
+    there, on, live = (after.counted, after.on_tables, after.live) if after.drawn else ({}, {}, {})
+    for name in dict.fromkeys([*before.on_tables, *before.live]):
+        pair = before.pair(name)
+        ended = name in there and set(there[name].players) == set(pair)
+        if (ended and not there[name].forfeit) or (name in about and not ended):
+            continue
+        table, score = None, None
+        if name in before.on_tables and not (ended or _plays(on.get(name), pair)):
+            table = before.on_tables[name].call.table
+        if name in before.live and not _plays(live.get(name), pair):
+            games = before.live[name].what
+            score = games.score if games.players == pair else games.score[::-1]
+        if table is not None or (score is not None and any(score)):
+            yield Loss(name, pair, table, score)
+
+
+def _plays(there: OnTable | LiveScore | None, pair: tuple[str, str]) -> bool:
+    if there is None:
+        return False
+    what = there.call if isinstance(there, OnTable) else there.what
+    return set(what.players) == set(pair)
+
+
+def _no_longer_counted(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:
+    there = after.counted if after.drawn else {}
+    for name, result in before.counted.items():
+        entered = any(one.result == result for one in before.records.get(name, ()))
+        stays = name in there and set(there[name].players) == set(result.players)
+        if entered and not stays and name not in about:
+            yield Loss(name, result.players, result=result)

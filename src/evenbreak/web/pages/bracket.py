@@ -16,8 +16,8 @@ from evenbreak.answers.tournament.night import swiss_table
 from evenbreak.answers.tournament.printed import score_cards
 from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, page, site_of
-from evenbreak.web.refusals import RefusalError
 
 
 async def bracket(request: Request) -> Response:

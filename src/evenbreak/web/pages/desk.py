@@ -31,18 +31,15 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw
-from evenbreak.tournaments.evening.losses import losses, matches_of
-from evenbreak.tournaments.evening.opening import FORMATS, FORMATS_WITH
+from evenbreak.tournaments.evening.plan import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.settling import TieBreak, break_ties, stand, tied_groups
+from evenbreak.tournaments.evening.undoing import losses, matches_of, undoable
 from evenbreak.tournaments.evening.undoing import undo as take_back
-from evenbreak.tournaments.evening.undoing import undoable
-from evenbreak.web.authors import DIRECTOR
-from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
 from evenbreak.web.evening_view import view_of
-from evenbreak.web.forms import Form, form_of, whole
+from evenbreak.web.forms import Form, entered_name, entered_rating, form_of, rating_doubts, whole
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import done, in_words, page, site_of
-from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import check_director
+from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
 from evenbreak.words import Sentence, say
 
 RACES_TO_CHANGE = {
@@ -135,7 +132,7 @@ async def _enter(
         def events(state: Evening) -> list[Event]:
             return [Event(at, what) for what in decide(state)]
 
-        return add_events(site.path, events, by=DIRECTOR, form=key, check=check)
+        return add_events(site.path, events, by=DIRECTORS_PAGE, form=key, check=check)
 
     try:
         before, after = await asyncio.to_thread(work)
@@ -263,7 +260,7 @@ async def drop(request: Request) -> Response:
 async def entrant(request: Request) -> Response:
     """Correct a name or a rating before the draw."""
     form = await _form(request)
-    player, name, stated = form.text("player"), name_of(form), rating_of(form)
+    player, name, stated = form.text("player"), entered_name(form), entered_rating(form)
 
     def decide(state: Evening) -> list[What]:
         if state.drawn:

@@ -19,12 +19,11 @@ from evenbreak.files.store.tournament import read_events
 from evenbreak.tournaments.evening.events import Undone
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook
-from evenbreak.web.authors import author_words
 from evenbreak.web.forms import form_of
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.match import phone_label, phone_words
-from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import DIRECTOR, check_director, let_in
+from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
 from evenbreak.words import say
 
 

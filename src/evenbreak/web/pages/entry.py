@@ -30,17 +30,30 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
-from evenbreak.tournaments.evening.opening import FORMATS, opened
-from evenbreak.web.asked import asked_in, fields_named, form_fields
-from evenbreak.web.authors import DIRECTOR
-from evenbreak.web.entrant_fields import name_of, rating_doubts, rating_of
-from evenbreak.web.forms import CHOOSE_IT, EVEN, FAIR, RACES, Form, form_of, scale_in
+from evenbreak.tournaments.evening.plan import FORMATS, opened
+from evenbreak.web.forms import (
+    CHOOSE_IT,
+    EVEN,
+    FAIR,
+    RACES,
+    Form,
+    asked_in,
+    entered_name,
+    entered_rating,
+    fields_named,
+    form_fields,
+    form_of,
+    list_of,
+    rating_doubts,
+    read_upload,
+    scale_in,
+    warnings_of,
+)
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, page, site_of
-from evenbreak.web.refusals import RefusalError
-from evenbreak.web.sessions import check_director
+from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
 from evenbreak.web.site import Site
-from evenbreak.web.uploads import list_of, read_upload, warnings_of
 from evenbreak.words import say
 
 NOT_WITH_FORMAT = {
@@ -168,7 +181,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         doubts.append(unrated_words(new, plan.starter, plan.starter_error))
     if not known:
         doubts += filter(None, [games_words(read, filled)])
-    return Event(site.clock(), opened(plan, rows), DIRECTOR), [*warnings_of(file), *doubts]
+    return Event(site.clock(), opened(plan, rows), DIRECTORS_PAGE), [*warnings_of(file), *doubts]
 
 
 def _plan(form: Form, scale: Scale) -> Plan:
@@ -239,7 +252,7 @@ async def late(request: Request) -> Response:
     """Let a late player in."""
     form = await form_of(request)
     check_director(request)
-    site, name, rating = site_of(request), name_of(form), rating_of(form)
+    site, name, rating = site_of(request), entered_name(form), entered_rating(form)
     if not name:
         raise RefusalError("Enter at least one player.")
 
@@ -253,7 +266,7 @@ async def late(request: Request) -> Response:
         return [Event(site.clock(), moves.late(state, entrant))]
 
     key = form.key(request.url.path)
-    _, after = await asyncio.to_thread(add_events, site.path, decide, by=DIRECTOR, form=key)
+    _, after = await asyncio.to_thread(add_events, site.path, decide, by=DIRECTORS_PAGE, form=key)
     return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
 
 

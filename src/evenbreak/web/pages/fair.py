@@ -19,11 +19,10 @@ from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of, unstated_sca
 from evenbreak.tournaments.evening.events import Entrant
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_player
-from evenbreak.web.asked import value_of
-from evenbreak.web.forms import CHOOSE_IT, Form
+from evenbreak.web.forms import CHOOSE_IT, Form, value_of
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
-from evenbreak.web.refusals import RefusalError
 
 LENGTHS = (3, 4, 5, 7, 9, 11, 13, 15, 21)
 

@@ -20,15 +20,12 @@ from evenbreak.questions.common import USUAL_RACE
 from evenbreak.questions.ratings import Report
 from evenbreak.ratings.scale import NAMES, SCALES
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.asked import value_of
-from evenbreak.web.forms import form_of
-from evenbreak.web.guard import MOST_BYTES
+from evenbreak.web.forms import form_of, list_of, value_of
+from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, page, site_of
-from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
-from evenbreak.web.uploads import list_of
 from evenbreak.words import say
 
 if TYPE_CHECKING:

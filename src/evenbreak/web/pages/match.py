@@ -32,13 +32,19 @@ from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event, Result
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.authors import DIRECTOR, author_words, phones_of
-from evenbreak.web.evening_view import MatchView, match_view
+from evenbreak.web.evening_view import MatchView, match_view, player_views
 from evenbreak.web.forms import form_of
+from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.page import done, page, reason, site_of
-from evenbreak.web.player_view import player_views
-from evenbreak.web.refusals import MovedOnError, RefusalError
-from evenbreak.web.sessions import address_of, check_director, is_director, phone_of
+from evenbreak.web.sessions import (
+    DIRECTORS_PAGE,
+    address_of,
+    author_words,
+    check_director,
+    is_director,
+    phone_of,
+    phones_of,
+)
 from evenbreak.words import say
 
 _SEEN, _MOST_SEEN = "seen", 4
@@ -346,7 +352,7 @@ def phone_words(entry: Entry) -> str:
 def phone_label(entry: Entry) -> str:
     """Return which phone did it, for the history; the director has none."""
     if not entry.phone:
-        return author_words(DIRECTOR)
+        return author_words(DIRECTORS_PAGE)
     label = f"{entry.phone[:4]} {entry.address}".strip()
     return say("phone {label}", label=label)
 

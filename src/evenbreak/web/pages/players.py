@@ -13,10 +13,10 @@ from evenbreak.answers.tournament.prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import kept_prizes
 from evenbreak.tournaments.money.payouts import PAYOUTS, PrizeMoney
+from evenbreak.web.evening_view import player_views
 from evenbreak.web.forms import Form, form_of
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, reason, site_of
-from evenbreak.web.player_view import player_views
-from evenbreak.web.refusals import RefusalError
 from evenbreak.web.sessions import check_director
 from evenbreak.words import Parameter, say
 

@@ -1,9 +1,15 @@
-"""A team night as everybody sees it, as each captain does, and as the director does."""
+"""A team night as everybody sees it, as each captain does, and as the director does.
+
+What is entered is one event, and each form is taken once.
+"""
 
 from __future__ import annotations
 
 import asyncio
+import hmac
+from collections.abc import Callable, Sequence
 from datetime import datetime
+from functools import partial
 from typing import Any
 
 from starlette.requests import Request
@@ -19,12 +25,40 @@ from evenbreak.answers.team.night import (
     night_words,
     waiting_words,
 )
-from evenbreak.web.authors import DIRECTOR, author_words
-from evenbreak.web.page import page, site_of
-from evenbreak.web.sessions import captain_of, check_director, is_director
-from evenbreak.web.team_captain import captain_values
+from evenbreak.errors import EvenbreakError
+from evenbreak.files.store.team_night import add_team_events
+from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.questions.teams import ORDERS
+from evenbreak.ratings.scale import NAMES
+from evenbreak.teams.evening import moves
+from evenbreak.teams.evening.events import Event, Pick, Undone, What, check_plan
+from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.web.forms import RACES, Form, form_fields, form_of
+from evenbreak.web.guard import RefusalError
+from evenbreak.web.page import asked_again, done, page, site_of
+from evenbreak.web.sessions import (
+    CAPTAIN,
+    DIRECTOR,
+    DIRECTORS_PAGE,
+    author_words,
+    captain_of,
+    captain_of_team,
+    check_director,
+    check_tries,
+    is_director,
+    let_in,
+    let_out,
+    wrong_pin,
+)
+from evenbreak.web.site import Site
+from evenbreak.web.team_form import FIELDS, plan_of
 from evenbreak.web.team_night import TeamNow, night_on
-from evenbreak.web.team_view import plain_options, set_views
+from evenbreak.web.team_view import captain_values, plain_options, set_views
+from evenbreak.words import Sentence, say
+
+_MOST_PLAYERS = 2
+
+Decide = Callable[[TeamEvening], list[What]]
 
 
 async def team(request: Request) -> Response:
@@ -78,7 +112,7 @@ def _for_director(request: Request, now: TeamNow) -> dict[str, Any]:
     return {
         "pins": [(name, site.captain_pin(state.began, k)) for k, name in enumerate(state.teams)],
         "seen": len(now.events),
-        "by": DIRECTOR,
+        "by": DIRECTORS_PAGE,
         "last": state.last,
         "last_by": author_words(state.last.by),
         "said": last_words(state),
@@ -99,4 +133,222 @@ async def history(request: Request) -> Response:
     return page(request, "history.html", rows=rows[::-1], gone=())
 
 
-ROUTES = [Route("/team", team), Route("/team/history", history)]
+async def ask(request: Request) -> Response:
+    """Show the form that begins a team night."""
+    check_director(request)
+    return page(request, "team_new.html", entered={}, why="", **await _choices(site_of(request)))
+
+
+async def _choices(site: Site) -> dict[str, Any]:
+    """Return what there is to choose from, and what the page warns of."""
+    return {
+        "on": await site.teams.now(),
+        "fields": {one.name: one for one in form_fields(FIELDS)},
+        "orders": ORDERS,
+        "races": RACES,
+        "charts": CHARTS,
+        "scales": NAMES,
+    }
+
+
+async def begin(request: Request) -> Response:
+    """Begin a team night; a form that is refused comes back as it was filled in."""
+    site = site_of(request)
+    form = await form_of(request)
+    check_director(request)
+    try:
+        plan, warnings = await asyncio.to_thread(plan_of, form, site.league)
+        await site.night.beside.run(partial(check_plan, plan))
+    except (RefusalError, EvenbreakError) as error:
+        return asked_again(request, "team_new.html", form, error, **await _choices(site))
+
+    def decide(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
+        return moves.begin(state, plan)
+
+    at, key = site.clock(), form.key("/team/new", repr(plan))
+    await asyncio.to_thread(add_team_events, site.path, decide, at=at, by=DIRECTORS_PAGE, form=key)
+    site.keep_secrets()
+    return done(request, "/team", *warnings)
+
+
+async def enter_pin(request: Request) -> Response:
+    """Let a captain in."""
+    form = await form_of(request)
+    site, now = site_of(request), await night_on(request)
+    check_tries(request)
+    given = form.text("pin").encode()
+    for side in (0, 1):
+        if hmac.compare_digest(given, site.captain_pin(now.state.began, side).encode()):
+            let_in(request, CAPTAIN, site.captain_mark(now.state.began, side))
+            return done(request, "/team")
+    raise wrong_pin(request)
+
+
+async def leave(request: Request) -> Response:
+    """Let a captain out."""
+    await form_of(request)
+    await asyncio.to_thread(let_out, request, CAPTAIN)
+    return done(request, "/team")
+
+
+async def put(request: Request) -> Response:
+    """Put somebody up."""
+    form = await form_of(request)
+    now = await night_on(request)
+    by, side = _author(request, now.state, form)
+    number = form.whole("number", 1, len(now.state.sets))
+    pick = _pick(form, "pick", now.state, side)
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == DIRECTORS_PAGE:
+            _refuse_unseen(state, side, number)
+        return moves.put_up(state, side, number, pick)
+
+    _, added = await _add(request, form, by, decide)
+    return _taken(request, added, say("{name} plays set {n}.", name=" + ".join(pick), n=number))
+
+
+async def hand(request: Request) -> Response:
+    """Hand in a whole line-up."""
+    form = await form_of(request)
+    now = await night_on(request)
+    by, side = _author(request, now.state, form)
+    picks = tuple(_pick(form, f"pick{line.number}", now.state, side) for line in now.state.sets)
+
+    def decide(state: TeamEvening) -> list[What]:
+        if by == DIRECTORS_PAGE:
+            _refuse_unseen(state, side, 1)
+        return moves.hand_in(state, side, picks)
+
+    _, added = await _add(request, form, by, decide)
+    return _taken(request, added, say("The line-up is handed in."))
+
+
+async def result(request: Request) -> Response:
+    """Take the result of a set: a captain proposes it, the director enters it."""
+    form = await form_of(request)
+    now = await night_on(request)
+    number = form.whole("number", 1, len(now.state.sets))
+    score = form.whole("a", 0, 999), form.whole("b", 0, 999)
+    if form.text("by") == DIRECTOR:
+        check_director(request)
+        _, added = await _add(
+            request, form, DIRECTORS_PAGE, lambda state: moves.result(state, number, score)
+        )
+        return _taken(request, added, say("The result of set {n} is in.", n=number))
+    by, side = _author(request, now.state, form)
+    state, added = await _add(
+        request, form, by, lambda state: moves.propose(state, side, number, score)
+    )
+    line, other = state.sets[number - 1], state.teams[1 - side]
+    if line.score:
+        return _taken(
+            request, added, say("Both captains agree. The result of set {n} is in.", n=number)
+        )
+    if line.said[1 - side] not in (None, score):
+        return _taken(
+            request,
+            added,
+            say(
+                "{name} entered a different result. Please agree, or go to the director.",
+                name=other,
+            ),
+        )
+    return _taken(
+        request, added, say("Sent. It counts once {name} or the director confirms it.", name=other)
+    )
+
+
+async def undo(request: Request) -> Response:
+    """Take back what happened last, if nothing has come in since the page was made."""
+    form = await form_of(request)
+    check_director(request)
+    seen = form.whole("seen", 0, 10**7)
+
+    def decide(events: list[Event], _: TeamEvening | None) -> Sequence[What]:
+        if len(events) != seen:
+            raise RefusalError(
+                "Something was entered after you opened this page. Check it before you undo.",
+                status=409,
+            )
+        return [Undone()]
+
+    await asyncio.to_thread(_write, request, decide, form, DIRECTORS_PAGE)
+    return done(request, "/team", say("The last entry has been undone."))
+
+
+def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]:
+    """Return who enters something, and for which team; refuse whoever may not."""
+    if form.text("by") == DIRECTOR:
+        check_director(request)
+        return DIRECTORS_PAGE, form.whole("team", 0, 1)
+    side = captain_of(request, state.began)
+    if side is None or form.text("by") != str(side):
+        raise RefusalError(
+            "Only that team's captain can do that. Enter the captain's PIN first.", status=403
+        )
+    return captain_of_team(state.teams[side]), side
+
+
+def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
+    """Refuse to let the director find out by guessing what a captain has handed in unseen."""
+    if not state.open(number) and state.sets[number - 1].picks[side]:
+        raise RefusalError(
+            "{name} has already handed in for this set. Undo that first, or let the "
+            "captain change it.",
+            status=409,
+            name=state.teams[side],
+        )
+
+
+def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
+    """Return the players that a field names by their places in the squad."""
+    squad = state.plan.teams[side].players
+    text = form.text(field, longest=12)
+    places = [int(part) for part in text.split(",") if part.isascii() and part.isdigit()]
+    if not 1 <= len(places) <= _MOST_PLAYERS or max(places) >= len(squad):
+        raise RefusalError("Choose a player first.")
+    return tuple(squad[place] for place in places)
+
+
+async def _add(request: Request, form: Form, by: str, decide: Decide) -> tuple[TeamEvening, bool]:
+    """Add what is decided to the night that the form was made for."""
+    night = form.whole("night", 1, 10**7)
+
+    def decided(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
+        if state is None or state.began != night:
+            raise RefusalError(
+                "Another team night was started in the meantime. Open the page again.", status=409
+            )
+        return decide(state)
+
+    state, added = await asyncio.to_thread(_write, request, decided, form, by)
+    if state is None:
+        raise RefusalError("No team night is running yet.", status=404)
+    return state, added
+
+
+def _write(request: Request, decide: Any, form: Form, by: str) -> tuple[TeamEvening | None, bool]:
+    site = site_of(request)
+    return add_team_events(
+        site.path, decide, at=site.clock(), by=by, form=form.key(request.url.path)
+    )
+
+
+def _taken(request: Request, added: bool, words: Sentence) -> Response:
+    """Return to the night, and say what was taken, or that it was there already."""
+    return done(request, "/team", words if added else say("That has already been entered."))
+
+
+ROUTES = [
+    Route("/team", team),
+    Route("/team/history", history),
+    Route("/team/new", ask, methods=["GET"]),
+    Route("/team/new", begin, methods=["POST"]),
+    Route("/team/pin", enter_pin, methods=["POST"]),
+    Route("/team/leave", leave, methods=["POST"]),
+    Route("/team/put", put, methods=["POST"]),
+    Route("/team/hand", hand, methods=["POST"]),
+    Route("/team/result", result, methods=["POST"]),
+    Route("/team/undo", undo, methods=["POST"]),
+]

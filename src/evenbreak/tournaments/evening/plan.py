@@ -1,11 +1,15 @@
-"""The bracket of a plan: once the players are drawn, and with what is drawn in the course of it."""
+"""The plan of an evening: the formats there are, and how one begins; its bracket, and its races."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, replace
 from functools import lru_cache
 from typing import Any
 
+from evenbreak.errors import InputError
+from evenbreak.fields.question import declared
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.double import (
     double_elimination,
@@ -20,20 +24,101 @@ from evenbreak.tournaments.brackets.knockout import (
     single_elimination,
 )
 from evenbreak.tournaments.brackets.laid_out import laid_out
-from evenbreak.tournaments.brackets.swiss import Pairing, Swiss, swiss, swiss_bracket
+from evenbreak.tournaments.brackets.swiss import Pairing, Swiss, swiss, swiss_bracket, swiss_round
 from evenbreak.tournaments.evening.chip_night import rack_bracket
-from evenbreak.tournaments.evening.events import Plan, Result
+from evenbreak.tournaments.evening.events import Changed, Entrant, Opened, Plan, Result
+from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format
+from evenbreak.tournaments.odds.races import Fairest, Races
+
+FORMATS = (
+    "double",
+    "single",
+    "pods",
+    "groups",
+    "swiss",
+    "round-robin",
+    "consolation",
+    "king-of-the-hill",
+    "chips",
+)
+"""The formats that a tournament can be begun in."""
+
+FORMATS_WITH: Mapping[str, tuple[str, ...]] = {
+    **{one.name: one.field.formats for one in declared(Format) if one.field.formats},
+    "chips": ("chips",),
+}
+"""For the parts of a plan that only some formats have: which."""
+
+BYE = re.compile(r"byes?[\s\d]*", re.IGNORECASE)
+"""How a bye is written on a list."""
 
 KNOCK_OUT = "K1"
 """The stage of the redraw: the first round of the knock-out."""
 
-
 TO_DRAW = "to draw"
 """In place of a match, the source of a player who is still to be drawn."""
 
-
 Drawn = Mapping[str, tuple[str | None, ...]]
 """What has been drawn, by stage: the players of a round in pairs, or where qualifiers come from."""
+
+
+def usual_seeding(form: str) -> str:
+    """Return how the seeds of a format are ordered if nothing else is asked for.
+
+    >>> usual_seeding("double"), usual_seeding("chips")
+    ('listed', 'blind')
+    """
+    return "blind" if form == "chips" else "listed"
+
+
+def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
+    """Begin an evening, if what is planned can be played by those who have entered.
+
+    Parameters
+    ----------
+    plan
+        what is played.
+    entrants
+        who has entered; more may enter later.
+
+    Raises
+    ------
+    InputError
+        if there are too few or too many players for the plan, or one of them is a bye.
+
+    >>> two = [Entrant("Ann", 600.0), Entrant("Bo", 500.0)]
+    >>> opened(Plan("single", 5), two).plan.form
+    'single'
+    >>> opened(Plan("double", 5, qualifiers=4), two)
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: qualifiers must be a power of 2, at most 2 for this
+    bracket; it is 4
+    """
+    names = tuple(one.name for one in entrants)
+    if not 2 <= len(names) <= MOST_PLAYERS:
+        raise InputError(
+            "a tournament takes 2 to {most} players, and {entered:,} entered",
+            most=MOST_PLAYERS,
+            entered=len(names),
+        )
+    for name in names:
+        refuse_bye(name)
+    if plan.chips is not None:
+        plan.chips.chips([one.rating for one in entrants])  # refuses ratings below the chart
+    elif plan.form == "swiss":
+        swiss_round(swiss_of(plan, names))  # refuses what cannot be paired
+    else:
+        bracket_of(plan, names, None)
+    return Opened(plan, tuple(entrants))
+
+
+def refuse_bye(name: str) -> None:
+    """Refuse a bye in place of a player."""
+    if BYE.fullmatch(name):
+        raise InputError(
+            "{name!r} is a bye, not a player; leave it out, the draw adds the byes", name=name
+        )
 
 
 @lru_cache(maxsize=8)
@@ -142,3 +227,43 @@ def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[
             ]
         )
     return found
+
+
+def races_of(plan: Plan) -> Races:
+    """Return the races of a plan.
+
+    >>> races_of(Plan("double", 7, losers_race=5)).losers
+    5
+    """
+    if plan.chart is not None:
+        return Races(plan.chart)
+    if not plan.handicapped:
+        return Races(plan.race, plan.losers_race, plan.final_race, plan.by_match)
+    losers, last = (None if n is None else Fairest(n) for n in (plan.losers_race, plan.final_race))
+    by_match = {name: Fairest(games) for name, games in plan.by_match.items()}
+    return Races(Fairest(plan.race), losers, last, by_match)
+
+
+def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterable[str]) -> Plan:
+    """Return a plan with other tables or races; matches that have begun keep their race.
+
+    Parameters
+    ----------
+    plan, change
+        the plan so far, and what is changed.
+    bracket
+        the bracket; None before the draw.
+    begun
+        the matches that have been called, scored or played.
+
+    >>> changed(Plan("double", 5, tables=4), Changed(race=4), None, ()).race
+    4
+    """
+    given = {name: value for name, value in asdict(change).items() if value is not None}
+    if bracket is None or not set(given) - {"tables"}:
+        return replace(plan, **given)
+    races, by_match = races_of(plan), dict(plan.by_match)
+    for name in begun:
+        race = races.of(bracket.match(name))
+        by_match[name] = race.race_to if isinstance(race, Fairest) else int(race)  # type: ignore[arg-type]
+    return replace(plan, **given, by_match=by_match)
