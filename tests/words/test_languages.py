@@ -51,6 +51,7 @@ def test_translations_have_the_values_of_the_english(code: str) -> None:
         assert list(problems_of(message)) == []
 
 
+INDIRECT = (ast.JoinedStr, ast.Subscript)
 SAYING = {"say": 1, "say_as": 2, "say_count": 2}
 ROOMS = ("answers", "tournaments", "teams", "files", "web", "questions")
 
@@ -64,7 +65,7 @@ def test_templates_are_literals_that_can_be_collected(room: str) -> None:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
-        and any(isinstance(one, ast.JoinedStr) for one in node.args[: SAYING.get(node.func.id, 0)])
+        and any(isinstance(one, INDIRECT) for one in node.args[: SAYING.get(node.func.id, 0)])
     ]
     assert wrong == []
 

@@ -58,7 +58,12 @@ def _part(part: Part, said: Said) -> Part:
 
 
 def _column(column: Column, said: Said) -> Column:
-    return replace(column, words=said(column.words), show=lambda value: said(column.show(value)))
+    def show(value: Any) -> str:
+        # First the value: `str` of a sentence would be its English text.
+        shown: str = said(column.show(said(value)))
+        return shown
+
+    return replace(column, words=said(column.words), show=show)
 
 
 def _quantity(quantity: Quantity, said: Said) -> Quantity:

@@ -43,11 +43,16 @@ _UNDECIDED = say(
 _SHOWN = 6  # players whose title odds everybody sees
 
 
+def played_words(state: Evening) -> Sentence:
+    """Return the races, or the chips, that are played."""
+    return chip_heading(state) if state.plan.form == "chips" else races_words(state.races)
+
+
 def heading(outlook: Outlook, source: str = "") -> str:
     """Return what is played by whom."""
     state = outlook.state
     chips = state.plan.form == "chips"
-    races = chip_heading(state) if chips else races_words(state.races)
+    races = played_words(state)
     if not state.drawn:
         count = say_count("{n} player", "{n} players", len(state.entrants))
         text = say("{players}, not drawn yet\n{races}", players=count, races=races)

@@ -42,12 +42,8 @@ from evenbreak.web.page import done, in_words, page, site_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
 from evenbreak.words import Sentence, say
 
-RACES_TO_CHANGE = {
-    "race": "Race to (now {now})",
-    "losers_race": "Race on the losers' side (now {now})",
-    "final_race": "Race in the final (now {now})",
-}
-"""The races that can be changed, with their fields."""
+RACES_TO_CHANGE = ("race", "losers_race", "final_race")
+"""The races that can be changed."""
 
 Decide = Callable[[Evening], Sequence[What]]
 Said = Callable[[Evening, Evening], Sequence[str]]
@@ -95,13 +91,20 @@ async def desk(request: Request) -> Response:
 def _changeable(state: Evening) -> dict[str, Sentence]:
     """Return what can be changed under way, with what it is now: the tables, and the races."""
     plan = state.plan
-    found: dict[str, Sentence] = {"tables": say("Tables (now {now})", now=plan.tables)}
-    if plan.chart is None and plan.form != "chips":
-        own = (plan.race, plan.losers_race or plan.race, plan.final_race or plan.race)
-        for name, now in zip(RACES_TO_CHANGE, own, strict=True):
-            if plan.form in FORMATS_WITH.get(name, FORMATS):
-                found[name] = say(RACES_TO_CHANGE[name], now=now)
-    return found
+    tables = {"tables": say("Tables (now {now})", now=plan.tables)}
+    if plan.chart is not None or plan.form == "chips":
+        return tables
+    losers, final = plan.losers_race or plan.race, plan.final_race or plan.race
+    races = {
+        "race": say("Race to (now {now})", now=plan.race),
+        "losers_race": say("Race on the losers' side (now {now})", now=losers),
+        "final_race": say("Race in the final (now {now})", now=final),
+    }
+    return tables | {
+        name: races[name]
+        for name in RACES_TO_CHANGE
+        if plan.form in FORMATS_WITH.get(name, FORMATS)
+    }
 
 
 class _AskError(Exception):

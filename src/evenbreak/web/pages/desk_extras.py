@@ -13,6 +13,7 @@ from starlette.routing import Route
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.tournament.moves import history_words
+from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.files.store.tournament import read_events
@@ -67,7 +68,7 @@ async def time(request: Request) -> Response:
 
     def work() -> Answer:
         answer = time_under_way(Outlook(state, site.clock()))
-        return replace(answer, heading=answer.heading.splitlines()[-1])  # the races alone
+        return replace(answer, heading=played_words(state))
 
     answer = await site.night.beside.run(work)
     return page(request, "time.html", answer=answer_shown(request, answer))
