@@ -39,7 +39,7 @@ def test_a_prior_that_is_too_wide_or_too_narrow_is_refused(play_season):
     narrow = said(play_season(3), prior_sd=0.05)
     assert "2.16 points" in narrow
     assert "more often" in narrow
-    assert "larger --prior" in narrow
+    assert "larger prior" in narrow
 
 
 @pytest.mark.slow
@@ -53,7 +53,7 @@ def test_players_who_are_too_alike_are_not_told_apart(play_season):
         np.where(turned, a, b), date=results.date,
     )  # fmt: skip
     assert "too equal" in said(results)
-    assert "leave --prior out" in said(results, prior_sd=0.3)
+    assert "leave prior out" in said(results, prior_sd=0.3)
 
 
 def test_few_matches_are_too_few(play_season):

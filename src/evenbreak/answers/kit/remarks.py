@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.answers.kit.wording import some_of
-from evenbreak.files.tables.problems import of_list, source_of
 from evenbreak.words import listed
 
 if TYPE_CHECKING:  # they load numpy
@@ -98,7 +97,9 @@ def warnings_of(
 ) -> Iterator[Remark]:
     """Yield warnings about a file, by default its own, without its folder, which is private."""
     for warning in file.warnings if warnings is None else warnings:
-        if source_of(warning) == file.source:
-            yield Remark(f"Warning about {file_name(file)}", of_list(warning))
-        else:
+        text = warning.removeprefix(f"{file.source}:")
+        if text == warning:
             yield Remark("Warning", warning)
+        else:  # after the name comes a blank, or the number of a line
+            why = text.lstrip() if text.startswith(" ") else f"line {text}"
+            yield Remark(f"Warning about {file_name(file)}", why)

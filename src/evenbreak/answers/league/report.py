@@ -119,7 +119,7 @@ def left_out(
         how many players the list of ratings and the table of races show; None: all.
     """
     if skipped := sheet.file.skipped:
-        yield Remark(count_of(skipped, "bad row"), "left out, as --skip-bad asks")
+        yield Remark(count_of(skipped, "bad row"), "left out, as asked")
     yield from _uncounted_matches(sheet.ratings)
     yield from _unlinked(sheet)
     yield from _not_shown(sheet, listed, in_table)

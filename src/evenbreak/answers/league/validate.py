@@ -29,7 +29,7 @@ from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validation.advantages import FEWEST_ON_A_DATE
 from evenbreak.ratings.validation.validate import Validation
-from evenbreak.words import listed
+from evenbreak.words import listed, say
 
 
 def validate_answer(
@@ -199,9 +199,10 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
     turned = slope is not None and clearly_off(slope, 0.0) < 0
     plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
     if plenty and found.choice is None:
-        return (
-            f"With a prior of {points_text(found.prior_sd, scale)} points the ratings predict no "
-            "better than a coin; leave --prior out to find the best."
+        return say(
+            "With a prior of {points} points the ratings predict no better than a coin; leave "
+            "{prior} out to find the best.",
+            points=points_text(found.prior_sd, scale),
         )
     if plenty:
         return (
@@ -231,9 +232,12 @@ def _too_sure(wrong: Mapping[str, int]) -> str:
 def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
     if found.choice is None:
         size = "smaller" if -1 in wrong.values() else "larger"
-        return (
-            f"Do not use a prior of {points_text(found.prior_sd, scale)} points: "
-            f"{_too_sure(wrong)}. Use a {size} --prior, or leave the option out to find the best."
+        return say(
+            "Do not use a prior of {points} points: {why}. Use a {size} {prior}, or leave it out "
+            "to find the best.",
+            points=points_text(found.prior_sd, scale),
+            why=_too_sure(wrong),
+            size=size,
         )
     even = "even with the best prior"
     if not found.choice.learnt:
@@ -266,9 +270,12 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
     if not wrong or found.choice is None or found.prior_sd == PRIOR_SD:
         return ""
     use, default = (points_text(sd, scale) for sd in (found.prior_sd, PRIOR_SD))
-    return (
-        f"All of this is for a prior of {use} points, which rate and report use too if --prior is "
-        f"left out. With a prior of {default} points, {_too_sure(wrong)}."
+    return say(
+        "All of this is for a prior of {use} points, which rate and report use too if {prior} is "
+        "left out. With a prior of {default} points, {why}.",
+        use=use,
+        default=default,
+        why=_too_sure(wrong),
     )
 
 
@@ -304,8 +311,11 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
     texts = [text for text in (*every, _first_column(found)) if text]
     if chart.scale is None and any(" points" in text for text in texts):
         texts.append(
-            f"Points are such that {scale.points_per_doubling:.4g} double the odds of winning a "
-            "game; --scale sets others."
+            say(
+                "Points are such that {points:.4g} double the odds of winning a game; {scale} sets "
+                "others.",
+                points=scale.points_per_doubling,
+            )
         )
     return texts
 

@@ -16,6 +16,7 @@ from evenbreak.ratings.stretches import STRETCHES
 from evenbreak.ratings.validation.advantages import ByExperience, known_breaks
 from evenbreak.ratings.validation.calibration import Scored
 from evenbreak.ratings.validation.validate import Validation
+from evenbreak.words import say
 
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")
 
@@ -183,12 +184,17 @@ def _prior(found: Validation, scale: Scale) -> str:
         return f"There are too few results to choose a prior, so the default is used: {points}."
     least = min(choice.log_loss)
     cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
-    return (
-        f"The prior of {points} predicts later games best, as rate --prior best finds: by ratings "
-        f"at face value, in up to {STRETCHES} stretches of the season, its log-loss is "
-        f"{least:.4f} a game. The default of {points_text(PRIOR_SD, scale)} points costs "
-        f"{cost:.4f} more; with the prior chosen anew for each stretch, log-loss would have been "
-        f"{choice.as_it_went:.4f}."
+    return say(
+        "The prior of {points} predicts later games best, as rate {prior} best finds: by ratings "
+        "at face value, in up to {stretches} stretches of the season, its log-loss is {least:.4f} "
+        "a game. The default of {default} points costs {cost:.4f} more; with the prior chosen anew "
+        "for each stretch, log-loss would have been {as_it_went:.4f}.",
+        points=points,
+        stretches=STRETCHES,
+        least=least,
+        default=points_text(PRIOR_SD, scale),
+        cost=cost,
+        as_it_went=choice.as_it_went,
     )
 
 

@@ -17,7 +17,7 @@ from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.words import listed
+from evenbreak.words import listed, say
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""
@@ -109,13 +109,22 @@ def sandbag_watch_answer(
             " ".join([_who_is_flagged(rows), *_where(rows)]),
             players,
             *_more(len(rows) - (players.most or 0)),
-            f"A player is flagged when the evidence reaches {evidence(1.0 / alpha)}. It starts at "
-            "1, rises with each result that is likelier from a sandbagger than from an honest "
-            "player, and falls with the others. It is not a verdict: look at the player's matches "
-            "(--player), and ask.",
-            f"The chance that {HONEST_PLAYER[honest]} is ever flagged is at most {percent(alpha)}. "
-            f"If all {len(rows):,} players are honest, at most {alpha * len(rows):.2g} of them are "
-            "flagged on average. This holds if form varies as much as --day-sd says.",
+            say(
+                "A player is flagged when the evidence reaches {evidence}. It starts at 1, rises "
+                "with each result that is likelier from a sandbagger than from an honest player, "
+                "and falls with the others. It is not a verdict: look at the player's matches "
+                "({player}), and ask.",
+                evidence=evidence(1.0 / alpha),
+            ),
+            say(
+                "The chance that {honest} is ever flagged is at most {alpha}. If all {n:,} players "
+                "are honest, at most {flagged:.2g} of them are flagged on average. This holds if "
+                "form varies as much as {day_sd} says.",
+                honest=HONEST_PLAYER[honest],
+                alpha=percent(alpha),
+                n=len(rows),
+                flagged=alpha * len(rows),
+            ),
         ],
         details=[
             f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
@@ -130,7 +139,7 @@ def sandbag_watch_answer(
 
 
 def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
-    """Return a warning if form of the day is established in results, and what --day-sd fits it.
+    """Return a warning if form of the day is established in results, and what `day_sd` fits it.
 
     >>> day_sd_doubts(Results.from_names(["Ann"], ["Bo"], [7], [5]), "npl")
     []
@@ -142,9 +151,12 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
     # Two players' forms, alike and independent, make up that of their difference.
     points = scale_of(scale).points(form.sd) / math.sqrt(2.0)
     return [
-        "honest players are taken to play at the same strength every day, but in these results "
-        f"their form varies by about {points:.0f} points from match to match; give --day-sd "
-        f"{points:.0f}, or players may be flagged for a good or bad day"
+        say(
+            "honest players are taken to play at the same strength every day, but in these results "
+            "their form varies by about {points:.0f} points from match to match; give {day_sd} "
+            "{points:.0f}, or players may be flagged for a good or bad day",
+            points=points,
+        )
     ]
 
 
@@ -167,9 +179,13 @@ def unrated_doubts(roster: Roster, results: Results) -> list[str]:
     if not new or new < FEW_NEW * len(rated):
         return []
     return [
-        f"{new:,} of {count_of(len(rated), 'player')} begin without a rating of their own, but "
-        "--honest established takes all ratings to be as accurate as in the long run; strong "
-        "newcomers may be flagged for winning, so use --honest any"
+        say(
+            "{new:,} of {players} begin without a rating of their own, but {honest} established "
+            "takes all ratings to be as accurate as in the long run; strong newcomers may be "
+            "flagged for winning, so use {honest} any",
+            new=new,
+            players=count_of(len(rated), "player"),
+        )
     ]
 
 
@@ -236,12 +252,14 @@ def _tried(one: Watched) -> Iterator[str]:
     """Yield how the events that were tried enter the evidence."""
     events = _events(one)
     if events:
-        yield (
-            f"Each of the {count_of(len(events), 'event')} ({some_of(events, NAMED)}) was tried as "
-            "the only one in which matches are dumped, besides dumps in any event. The evidence is "
-            f"the average of these {len(one.tried)} e-values, which is an e-value too, so honest "
-            "players are flagged no more often. With --dumps-in only the event that you name is "
-            "tried; choose it before you look at the results."
+        yield say(
+            "Each of the {events} ({names}) was tried as the only one in which matches are dumped, "
+            "besides dumps in any event. The evidence is the average of these {tried} e-values, "
+            "which is an e-value too, so honest players are flagged no more often. With {dumps_in} "
+            "only the event that you name is tried; choose it before you look at the results.",
+            events=count_of(len(events), "event"),
+            names=some_of(events, NAMED),
+            tried=len(one.tried),
         )
 
 

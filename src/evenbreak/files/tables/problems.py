@@ -85,17 +85,6 @@ def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence
     )
 
 
-def source_of(problem: str) -> str | None:
-    """Return the file that a problem or a warning names in front; None if it names none.
-
-    >>> source_of(warning("r.csv", 7, "is tied")), source_of("r.csv:7: is tied")
-    ('r.csv', None)
-    """
-    if isinstance(problem, Sentence) and problem.template in (_OF_FILE, _OF_LINE):
-        return str(problem.values["source"])
-    return None
-
-
 def of_list(problem: str, name: str = "") -> str:
     """Return a problem or a warning as one of a list, whose file has no name worth saying.
 
@@ -103,7 +92,7 @@ def of_list(problem: str, name: str = "") -> str:
     >>> of_list(tied), of_list(tied, "Racks")
     ('line 7: is tied', 'Racks, line 7: is tied')
     """
-    if not isinstance(problem, Sentence) or source_of(problem) is None:
+    if not isinstance(problem, Sentence) or problem.template not in (_OF_FILE, _OF_LINE):
         return problem
     text, line = problem.values["text"], problem.values.get("line")
     if name and line:
