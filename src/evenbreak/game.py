@@ -8,9 +8,9 @@ a `probability`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
 from evenbreak.errors import GameError
 
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _ONE = 1.0 + 1e-9  # a sum of probabilities may miss 1 by rounding
-
-State: TypeAlias = Hashable
-"""A situation in a game: a small tuple, string or number that prints well."""
 
 
 @runtime_checkable

@@ -139,7 +139,7 @@ class Counting:
         return rows.reshape(self.batches, many, -1).transpose(1, 0, 2).reshape(many, -1)
 
     def _products(self, wins: Any, moved: Any, matches: Any, share: int) -> Any:
-        """Return the sums of `PRODUCTS` over the batches; None if a batch is one replica."""
+        """Return the `products` of a tally; None if a batch is one replica."""
         if len(wins) > ALONE:
             return None
         won, gone, played = (

@@ -145,17 +145,8 @@ def _check_schedule(schedule: Any, players: int) -> None:
 # What is kept of simulated seasons: counts, which can be added up across workers.
 
 
-GAP_COLUMNS = ("matches", "stronger_won", "hill_hill", "shutouts", "games")
-"""What is summed for each gap between the two skills."""
-
 WEEK_COLUMNS = ("players", "error", "error_squared", "near")
 """What is summed for each week."""
-
-PRODUCTS = (
-    *("wins_wins", "wins_matches", "matches_matches", "moved_moved"),
-    *("wins_replicas", "moved_replicas"),
-)
-"""The products of sums over a batch, for each player, that are summed over the batches."""
 
 FIFTHS = 5
 """Groups of players by true skill, the weakest first."""
@@ -187,9 +178,10 @@ class Tally:
         games that each player won, summed over the replicas; None if matches are not played
         rack by rack.
     products
-        of each player, summed over the batches: the products of `PRODUCTS`, each of two sums
-        over the replicas of a batch (`moved` is `rating` of a batch); shape (players, 6). None
-        in a league so large that a batch is one replica.
+        of each player, summed over the batches: wins by wins, wins by matches, matches by
+        matches, moved by moved, wins by replicas and moved by replicas, each of two sums over the
+        replicas of a batch (moved is `rating` of a batch); shape (players, 6). None in a league so
+        large that a batch is one replica.
     wins_counts
         in how many replicas each player won 0, 1, 2, ... matches: shape (players, most + 1).
         None if it would be large.
@@ -203,11 +195,11 @@ class Tally:
     gap_width
         points of a bin of `gaps`.
     gaps
-        shape (batches, bins, 5), the columns of `GAP_COLUMNS` for matches in which the skills of
-        the day lie [k * gap_width, (k + 1) * gap_width) points apart, k the bin: matches, those
-        that the stronger player won (half of them if the two are equal), hill-hill, shutouts (the
-        loser won no game), and games in all. If matches are not played rack by rack, the last
-        three are means given the two ratings and skills of each match, not drawn.
+        shape (batches, bins, 5), for matches in which the skills of the day lie
+        [k * gap_width, (k + 1) * gap_width) points apart, k the bin: matches, those that the
+        stronger player won (half of them if the two are equal), hill-hill, shutouts (the loser won
+        no game), and games in all. If matches are not played rack by rack, the last three are
+        means given the two ratings and skills of each match, not drawn.
     weeks
         shape (batches, weeks + 1, 4), the columns of `WEEK_COLUMNS`: players in the league, the
         sums of their rating errors (as in `errors`) and of the squares of these, and how many of

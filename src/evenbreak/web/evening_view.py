@@ -122,7 +122,7 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         )
         finish = early, middle, late
     listed = data.get("odds") or data.get("players", [])  # of a chip tournament
-    odds = sorted(((one["name"], one["p_title"]) for one in listed), key=_chance)
+    odds = sorted(((one["name"], one["p_title"]) for one in listed), key=lambda each: -each[1])
     places = [(one["place"], one["name"]) for one in data.get("places", [])]
     return EveningView(
         state,
@@ -170,10 +170,6 @@ def match_view(state: Evening, name: str, table: int | None = None) -> MatchView
         table = state.on_tables[name].call.table
         since = f"{datetime.fromisoformat(state.on_tables[name].at):%H:%M}"
     return MatchView(name, pair, state.needed(name, pair), score, table, since)
-
-
-def _chance(one: tuple[str, float]) -> float:
-    return -one[1]
 
 
 class PlayerView(NamedTuple):
