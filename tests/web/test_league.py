@@ -81,6 +81,8 @@ def test_a_player_sees_matches_and_why_a_race_is_fair(director: Phone) -> None:
     assert shown.text.count("<tr>") > 10
     assert second in shown.words
     assert guest.open("/league/player", name="Nobody").status == 400
+    german = Phone(director.site, language="de").open("/league/player", name="Zoë")
+    assert "Nicht in der Liga: 'Zoë' (gemeint: 'Zoë Kestleman'?)" in german.words
 
 
 @pytest.mark.slow

@@ -16,6 +16,8 @@ from starlette.routing import Route
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament.printed import tournament_matches_answer
 from evenbreak.fields.question import declaration
+from evenbreak.files.tables.names import KnownNames, clean_name
+from evenbreak.files.tables.problems import quoted
 from evenbreak.questions.common import USUAL_RACE
 from evenbreak.questions.ratings import Report
 from evenbreak.ratings.scale import NAMES, SCALES
@@ -26,7 +28,7 @@ from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.sessions import check_director
 from evenbreak.web.site import Site
-from evenbreak.words import say
+from evenbreak.words import joined, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.league.sheet import Sheet
@@ -136,12 +138,10 @@ def matches_csv(state: Evening, event: str) -> bytes:
 
 async def player(request: Request) -> Response:
     """Show a player's rating and matches and, against another, the fairest race and why."""
-    from evenbreak.answers.league.sheet import find_players
-
     sheet = _sheet(request)
     name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
     names = [name, other] if other.strip() else [name]
-    pair = find_players(sheet.ratings, names, said="name", where=sheet.file.source)
+    pair = _places(sheet, names)
     shown: dict[str, Any] = {"working": False, "answer": "", "other": None}
     rows = await asyncio.to_thread(_rows, sheet)
     if len(pair) == 2:
@@ -160,6 +160,16 @@ async def player(request: Request) -> Response:
         matches=await asyncio.to_thread(_matches, sheet, pair[0]),
         **shown,
     )
+
+
+def _places(sheet: Sheet, names: list[str]) -> list[int]:
+    """Return where players stand in the league; a reader of the page knows nothing of its files."""
+    known = KnownNames(sheet.ratings.players)
+    places = {name: known.place(name) for name in map(clean_name, names)}
+    missing = [quoted(name) + known.hint(name) for name, at in places.items() if at is None]
+    if missing:
+        raise RefusalError("Not in the league: {names}", names=joined(missing, ", "), status=400)
+    return list(dict.fromkeys(place for place in places.values() if place is not None))
 
 
 def _why(sheet: Sheet, pair: tuple[int, int]) -> Any:
