@@ -183,7 +183,7 @@ def test_a_long_unbounded_match():
         (Rack(0.5), [], {}, "give a Race or an Ahead"),
         (Race(2, 2, Rack(0.5)), [], {"set_score": (1, 0)}, "leave it out"),
         (SETS, [], {"set_score": (3, 1)}, "set_score is 3:1"),
-        (SETS, [], {"set_score": (4, 1)}, "cannot be reached"),
+        (SETS, [], {"set_score": (4, 1)}, "set_score is 4:1, which cannot be reached"),
         (Race(1, 1, SETS.rack, score=(1, 0)), [], {"set_score": (1, 0)}, "is over; leave"),
     ],
 )

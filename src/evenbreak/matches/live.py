@@ -19,6 +19,7 @@ from evenbreak.games.rack import Rack
 from evenbreak.matches.outcomes import NEVER, ScoreChain
 from evenbreak.matches.parameters import checked_match, rack_in, unit_of
 from evenbreak.matches.rack_by_rack import RackMoves, breaker_in, rack_moves, racks_within
+from evenbreak.words import Parameter, say
 
 
 class Standing(NamedTuple):
@@ -247,19 +248,26 @@ def _moves_in_form(match: Match, form: float) -> RackMoves:
 def _state_at(match: Match, set_score: Score | None) -> Any:
     if set_score is None:
         return match.start
-    inside = unit_of(match)
+    inside, of_set = unit_of(match), Parameter("set_score")
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
-            "set_score is given, but the match is not one of sets of racks; leave it out"
+            "{set_score} is given, but the match is not one of sets of racks; leave it out",
+            set_score=of_set,
         )
-    under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
+    try:
+        under_way = replace(inside, score=set_score, first_breaker=match.first_breaker)
+    except InputError as error:  # the set calls it its score
+        said = error.sentence
+        raise InputError(say(said.template, **{**said.values, "score": of_set})) from None
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
         raise InputError(
             "{set_score} is {a}:{b}, where the set is over; count it in the score", a=a, b=b
         )
     if match.decided(*match.score) is not None:
-        raise InputError("set_score is given, but the match is over; leave it out")
+        raise InputError(
+            "{set_score} is given, but the match is over; leave it out", set_score=of_set
+        )
     return (*match.start[:-1], under_way.start)
 
 

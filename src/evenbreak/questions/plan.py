@@ -13,6 +13,7 @@ from evenbreak.tournaments.evening.format import Format
 from evenbreak.tournaments.evening.plan import FORMATS, usual_seeding
 from evenbreak.words import Parameter, say
 
+_RACES = ("race", "race_to", "chart", "losers_race", "final_race")
 SEEDINGS = ("listed", "rating", "blind", "drawn")
 FORMAT_TITLES = {
     "double": say("Double elimination"),
@@ -114,7 +115,11 @@ class TournamentPlan(Format, Question):
         apart = self.losers_race is not None or self.final_race is not None
         if self.form == "chips":
             if races or apart:
-                self.refuse("a chip tournament is played by the rack; leave out the races")
+                extra = next(one for one in _RACES if getattr(self, one) is not None)
+                self.refuse(
+                    "a chip tournament is played by the rack; leave out {extra}",
+                    extra=Parameter(extra),
+                )
             if self.chips is None:
                 self.refuse("the chip chart is missing; give it with {chips}, such as hoboken")
         elif len(races) != 1:

@@ -35,6 +35,12 @@ def test_parts_differ_in_size_where_equal_ones_do_not_fit():
     assert [head for block in blocks_of(text) for head in block] == heads
 
 
+def test_a_part_of_a_table_has_no_line_for_headings_of_other_parts():
+    heads = ["x" * 50, "y" * 50 + "\ny"]
+    table = Table("", [Column(head, head) for head in heads], [range(2)])
+    assert "\n\n\n" not in to_text(Answer("Heading", [table]))
+
+
 def test_items_of_a_list_are_indented_where_they_go_on():
     assert paragraph("- one two three\nfour five six", 9) == "- one two\n  three\nfour five\nsix"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING
@@ -12,6 +13,9 @@ from evenbreak.files.tables.problems import printable
 
 if TYPE_CHECKING:
     from evenbreak.answers.kit.parts import Content, Part
+
+_OTHERS = re.compile("[^\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}]+")
+"""All but the spaces that some languages have within numbers."""
 
 
 def to_html(answer: Content) -> str:
@@ -96,4 +100,5 @@ def _look(left: bool) -> str:
 
 
 def _text(text: str) -> str:
-    return "<br>".join(escape(printable(line)) for line in text.split("\n"))
+    lines = (_OTHERS.sub(lambda found: printable(found[0]), line) for line in text.split("\n"))
+    return "<br>".join(map(escape, lines))

@@ -90,6 +90,8 @@ def _table(part: Table, width: int, verbose: bool) -> Iterator[str]:
         if number:
             yield ""
         picked = [[row[k] for k in block] for row in cells]
+        while not any(picked[0]):  # a line of headings for other columns alone
+            del picked[0]
         yield from aligned(picked, flush=[place for place, k in enumerate(block) if k in flush])
 
 
