@@ -78,7 +78,10 @@ def test_the_calcutta_breaks_even_where_the_pot_is_shared_fairly(run, file):
     [
         (("prizes",), "--fee"),
         (("prizes", "--fee", "20", "--payout", "60,50"), "--payout: the payout '60/50'"),
-        (("prizes", "--fee", "20", "--payout", "lots"), "--payout: there is no payout table 'lots'"),
+        (
+            ("prizes", "--fee", "20", "--payout", "lots"),
+            "--payout: there is no payout table 'lots'",
+        ),
         (("prizes", "--calcutta", "--sold", "Nobody=5"), "Nobody"),
         (("prizes", "--calcutta", "--sold", "Ann Lee"), "Ann Lee"),
         (("print", "cards", "--out", "cards.doc"), "cards.doc"),
