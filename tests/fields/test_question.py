@@ -21,7 +21,7 @@ Length: TypeAlias = Annotated[int, Field(Whole(1, 9), "How long.")]
 
 @dataclass(frozen=True, kw_only=True)
 class Sides(Question):
-    left: Annotated[bool, Field(Flag(), "The left side.")] = False
+    left: Annotated[bool, Field(Flag(), "The left side, without {right}.")] = False
     right: Annotated[bool, Field(Flag(), "The right side.")] = False
 
     def check(self) -> None:
@@ -65,6 +65,7 @@ def test_what_is_given_differs_from_its_default() -> None:
 def test_the_schema_has_kinds_limits_and_what_must_be_given() -> None:
     schema = schema_of(Walk)
     assert schema["required"] == ["steps"]
+    assert schema["properties"]["left"]["description"] == "The left side, without right."
     assert schema["properties"]["steps"] == {
         "type": "integer",
         "minimum": 1,

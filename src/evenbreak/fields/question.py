@@ -157,7 +157,7 @@ class Declared:
         if self.field.words > 1:
             one = {"type": "array", "items": one}
         said = {"type": "array", "items": one} if self.field.many else dict(one)
-        said["description"] = self.field.help
+        said["description"] = str(worded(self.field.help))
         if self.usual and not self.field.usual:
             said["default"] = self.usual if said.get("type") == "string" else self.default
         return said

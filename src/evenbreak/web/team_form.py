@@ -87,12 +87,15 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     ]
     both = [name for name in sheets[0].players if name in sheets[1].players]
     if both:
-        warnings.append(f"{some_of(both)} is on the lists of both teams; are they two people?")
+        warnings.append(
+            say("both teams list {names}; are they different people?", names=some_of(both))
+        )
     for one in lists:
         filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
-    return plan, [*dict.fromkeys(warnings), *league_doubts(scale, rated, "is it the right scale?")]
+    doubts = league_doubts(scale, rated, say("is it the right scale?"))
+    return plan, [*dict.fromkeys(warnings), *doubts]
 
 
 def _read(content: bytes, name: str) -> TeamList:

@@ -170,7 +170,9 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     plan, rows = _plan(form, scale), _entrants(filled, league)
     known = league is not None
     doubts = (
-        [] if known else league_doubts(scale, read.rating, "is it the right scale?", read.players)
+        []
+        if known
+        else league_doubts(scale, read.rating, say("is it the right scale?"), read.players)
     )
     doubts += chart_doubts(plan.chart, scale)
     unrated = zip(rows, np.isnan(read.rating).tolist(), strict=True)
