@@ -206,3 +206,13 @@ def test_a_name_is_corrected_before_the_draw(night):
     night("draw")
     matches = night("show")["matches"]
     assert {"Anne", "Di"} == {matches[0]["player_a"], matches[0]["player_b"]}
+
+
+def test_a_hint_names_the_file_that_the_command_was_given(tmp_path, run):
+    players, file = tmp_path / "players.csv", str(tmp_path / "saturday.db")
+    players.write_text("player\nAnn\nBo\nCy\n")
+    new = run("tournament", "new", str(players), "--race", "5", "--out", file, "--text")
+    assert f"evenbreak tournament draw --file {file}" in " ".join(new.stdout.split())
+    for words in (("--file", file), (f"--file={file}",), (file,)):
+        again = run("tournament", "draw", *words)
+    assert f"evenbreak tournament undo --file {file}" in again.stderr

@@ -7,7 +7,7 @@ problem, and an exit code: 0 done, 1 failed, 2 wrong usage, 3 bad data, 130 inte
 import errno
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any, NoReturn
@@ -16,7 +16,7 @@ import click
 
 from evenbreak.cli.interrupts import INTERRUPTED
 from evenbreak.errors import DataError, EvenbreakError, InputError
-from evenbreak.words import Face, in_face, say
+from evenbreak.words import PYTHON, Face, in_face, say
 
 SAY_WHICH = "say which with --scale npl, --scale fargo or --scale elo"
 """What to do about ratings that do not show their scale."""
@@ -26,11 +26,25 @@ NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 FAILED, USAGE, BAD_DATA = 1, 2, 3
 
 _running: list[click.Command] = []
+_file: list[str] = []
 
 
 def runs(command: click.Command) -> None:
     """Keep which command runs: a sentence calls a parameter by its option there."""
     _running[:] = [command]
+
+
+def works_on(file: str | None) -> None:
+    """Keep which file of a tournament was named; None: the usual one."""
+    _file[:] = [] if file is None else [file]
+
+
+def _typed(name: str, words: Sequence[str]) -> str:
+    """Return a command as it is typed, with the file of the tournament if one was named."""
+    if _file and name.startswith("tournament "):
+        option = "--out" if name.endswith((" new", " import")) else "--file"
+        words = [*words, option, *_file]
+    return PYTHON.command(name, words)
 
 
 def _spelled(name: str) -> str:
@@ -46,7 +60,7 @@ def terminal() -> Face:
     """Return how the terminal says what the command that runs answers."""
     from evenbreak.files.catalogues import face_in
 
-    return replace(face_in("en"), parameter=_spelled)
+    return replace(face_in("en"), parameter=_spelled, command=_typed)
 
 
 def said(text: str, spelled: Callable[[str], str] | None = None) -> str:

@@ -1,10 +1,11 @@
 """`evenbreak tournament`: tonight's tournament, each of its commands in a module of its own."""
 
-from itertools import chain
+from itertools import chain, pairwise
 
 import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup
+from evenbreak.cli.kit.said import works_on
 
 COMMANDS = {
     "new": Entry("tournament.new", "Begin a tournament that is run here."),
@@ -53,7 +54,16 @@ class _OfFile(LazyGroup):
             [option, word] if word.endswith(".db") and last not in _NAMES_IT else [word]
             for last, word in zip(["", *args], args, strict=False)
         ]
-        return super().parse_args(ctx, list(chain.from_iterable(words)))
+        typed = [part for word in chain.from_iterable(words) for part in _apart(word, option)]
+        named = dict(pairwise(typed)).get(option)
+        works_on(None if named == "tonight.db" else named)
+        return super().parse_args(ctx, typed)
+
+
+def _apart(word: str, option: str) -> list[str]:
+    """Return an option and its value as two words."""
+    value = word.removeprefix(f"{option}=")
+    return [word] if value == word else [option, value]
 
 
 @click.command("tournament", cls=_OfFile, table=COMMANDS)
