@@ -79,7 +79,7 @@ import numpy as np
 from evenbreak.plots.picture import LINES, new_axes
 from evenbreak.tournaments import double_elimination, single_elimination, title_odds
 
-picture, axes = new_axes(
+picture = new_axes(
     "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
 )
 chances = np.linspace(0.5, 1.0, 26)
@@ -91,8 +91,8 @@ for players, line in ((8, LINES[0]), (16, LINES[1])):
             win[0, 1:], win[1:, 0] = p, 1.0 - p
             title.append(title_odds(make(players), win).title[0])
         name = f"{make.__name__.replace('_', ' ')} of {players}"
-        axes.plot(chances, title, dashes, color=line.color, label=name)
-axes.legend(fontsize=9)
+        picture.plot(chances, title, dashes, color=line.color, label=name)
+picture.legend(fontsize=9)
 """,
         ),
     ),
