@@ -96,7 +96,7 @@ def test_a_match_stands_and_results_count_again(begun):
     assert "Counts again" in shown
     assert not begun("next")["set_aside"]
     undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
-    assert "Open again" in undone.stdout
+    assert "Must be replayed: W2.1" in undone.stdout
 
 
 def test_ties_of_a_round_robin(night):
@@ -177,7 +177,7 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     begun("score", "W2.1", "2:1")
     wrong = ("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
     for words, said in (
-        (wrong, "W2.1, Ann against Bo, would leave table 2 at 2:1. "),
+        (wrong, "W2.1 (Ann against Bo) would leave table 2 at 2:1. "),
         (("tournament", "drop", "ann", "--file", begun.file), "would end at 2:1. "),
     ):
         asked = begun.run(*words)
