@@ -160,6 +160,7 @@ ENDINGS = [
 def undisturbed() -> Iterator[None]:
     """Hold back requests to end until the block is done; only the main thread can do that.
 
+    >>> before = signal.signal(signal.SIGINT, signal.default_int_handler)
     >>> try:
     ...     with undisturbed():
     ...         signal.raise_signal(signal.SIGINT)
@@ -168,6 +169,7 @@ def undisturbed() -> Iterator[None]:
     ...     print("then interrupted")
     done first
     then interrupted
+    >>> _ = signal.signal(signal.SIGINT, before)
     """
     if threading.current_thread() is not threading.main_thread():
         yield
