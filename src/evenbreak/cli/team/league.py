@@ -18,7 +18,7 @@ from evenbreak.cli.kit.systems import (
     with_starters,
 )
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.questions.teams import Capped, Caps, OfTeams, Round, Season
+from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale
 from evenbreak.words import Parameter
 
@@ -37,13 +37,7 @@ def round_(asked: Round) -> Answer:
     from evenbreak.answers.team.lineup import race_words
     from evenbreak.answers.team.round import team_round_answer
 
-    lists = files.read_team(asked.ours), files.read_team(asked.theirs)
-    scale, warnings = scale_of_teams(lists, asked.scale)
-    rosters = [
-        with_starters(each.file.roster, scale, asked.starter, asked.starter_sd) for each in lists
-    ]
-    if asked.sure:
-        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
+    lists, scale, warnings, rosters = two_teams(asked)
     games = asked.single_games
     race = None if games is not None else race_of(asked)
     if not asked.everybody and len(rosters[0]) != len(rosters[1]):
@@ -233,6 +227,20 @@ def _next(to_come: Any, rounds: tuple[str, ...]) -> tuple[tuple[int, ...], str]:
 
 
 # What team lists have in common, for `evenbreak lineup` too.
+
+
+def two_teams(
+    asked: Lineup | Round,
+) -> tuple[tuple[TeamList, TeamList], Scale, list[str], list[ratings.Roster]]:
+    """Return the lists of two teams, the scale, the warnings, and the players with ratings."""
+    lists = files.read_team(asked.ours), files.read_team(asked.theirs)
+    scale, warnings = scale_of_teams(lists, asked.scale)
+    rosters = [
+        with_starters(each.file.roster, scale, asked.starter, asked.starter_sd) for each in lists
+    ]
+    if asked.sure:
+        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
+    return lists, scale, warnings, rosters
 
 
 def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Scale, list[str]]:

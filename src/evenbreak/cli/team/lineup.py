@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from evenbreak import files, ratings, teams
+from evenbreak import teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.systems import with_starters
-from evenbreak.cli.team.league import race_of, refuse_without_level, scale_of_teams
+from evenbreak.cli.team.league import race_of, refuse_without_level, two_teams
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.handicaps.charts.race_of_pair import games_needed
 from evenbreak.questions.teams import InPlay, Lineup
@@ -26,13 +25,7 @@ def command(asked: Lineup) -> Answer:
     from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import lineup_answer
 
-    lists = files.read_team(asked.ours), files.read_team(asked.theirs)
-    scale, warnings = scale_of_teams(lists, asked.scale)
-    rosters = [
-        with_starters(each.file.roster, scale, asked.starter, asked.starter_sd) for each in lists
-    ]
-    if asked.sure:
-        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
+    lists, scale, warnings, rosters = two_teams(asked)
     for each in lists:
         refuse_without_level(asked, each)
     meeting = meeting_by(
