@@ -10,9 +10,10 @@ from scipy.special import expit, log_expit, logit, logsumexp, ndtr, ndtri, pdtrc
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.estimates import Estimate, logistic_coefficient, two_sided, with_error
+from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.ratings.validation.calibration import TOSS_UP
-from evenbreak.ratings.validation.walk_forward import NODES, Forecasts
+from evenbreak.ratings.validation.walk_forward import Forecasts
 from evenbreak.ratings.who_broke import breakers
 
 MOST_ADVANTAGE = 5.0
@@ -73,7 +74,7 @@ def break_advantage(forecasts: Forecasts) -> Estimate | None:
     if not rows.any():
         return None
     won, lost = tally[rows, :, 0].T[:, :, None], tally[rows, :, 1].T[:, :, None]
-    points, weights = np.polynomial.hermite_e.hermegauss(NODES)
+    points, weights = normal_nodes()
     breaks = np.array([1.0, -1.0])[:, None, None]
 
     def at(b: float, days: float) -> tuple[Floats, Floats]:

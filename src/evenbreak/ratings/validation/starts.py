@@ -26,6 +26,7 @@ from scipy.special import betaincinv, expit, log_expit, logit, logsumexp, ndtri,
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.estimates import CONFIDENCE, Estimate, with_error
+from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
 
@@ -293,8 +294,8 @@ class _Model:
 
     def __init__(self, x: Floats, won: Floats, lost: Floats) -> None:
         self._x, self._won, self._lost = (column[:, None] for column in (x, won, lost))
-        points, weights = np.polynomial.hermite_e.hermegauss(NODES)
-        self._points, self._weights = points, np.log(weights / math.sqrt(2.0 * math.pi))
+        points, weights = normal_nodes(NODES)
+        self._points, self._weights = points, np.log(weights)
 
     def at(self, k_and_sd: Floats) -> tuple[Floats, Floats]:
         """Return the log-likelihood of each match, and its slopes in k and in √v."""

@@ -11,7 +11,6 @@ start no threads that wait for each other.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -26,15 +25,14 @@ from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.beginning import PriorMeans
+from evenbreak.ratings.conjugate_gradients import solve_columns
 from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
+from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.levels import Knowledge, Levels
 from evenbreak.ratings.posterior import damped, find_zero, step_accuracy, tolerance
 from evenbreak.ratings.results import Results
-
-NODES = 31
-"""Nodes of the Gauss-Hermite rule that integrates a prediction over a rating difference."""
 
 
 @own_arrays
@@ -249,8 +247,7 @@ def _forecasts(
     needs = np.maximum(race_a, 1), np.maximum(race_b, 1)
     p_match = np.where(raced, race_win_probability(p_game, *needs), np.nan)
     p_game_integrated, p_match_integrated = np.zeros(len(season)), np.zeros(len(season))
-    points, weights = np.polynomial.hermite_e.hermegauss(NODES)
-    for point, weight in zip(points, weights / math.sqrt(2.0 * math.pi), strict=True):
+    for point, weight in zip(*normal_nodes(), strict=True):
         p = expit(difference + sd * point)
         p_game_integrated += weight * p
         p_match_integrated += weight * race_win_probability(p, *needs)
@@ -292,9 +289,6 @@ def _known_before(season: Results, date_of: Ints) -> tuple[Floats, Floats]:
 GRADIENT = 1e-6
 """How small the gradient has to become, in games, times τ where that is below 1."""
 
-
-AT_ONCE = 32
-"""Columns solved together: few enough to stay in the processor's cache."""
 
 VARIANCE_ACCURACY = 1e-4
 """How exactly to solve for a variance, which is off by the square of what its solution is."""
@@ -420,52 +414,4 @@ class DailyRefit:
             blocks: Any = [[whole, across], [across.T, levels]]
             whole = sparse.csr_array(sparse.block_array(blocks))
             diagonal = np.append(diagonal, np.diagonal(levels))
-        return lambda right, accuracy: _conjugate_gradients(whole, diagonal, right, accuracy)
-
-
-def _conjugate_gradients(matrix: Any, diagonal: Floats, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column, the matrix scaled to a unit diagonal.
-
-    What is left over of each column is at most `accuracy` times it.
-    """
-    columns = right[:, None] if right.ndim == 1 else right
-    scale = 1.0 / np.sqrt(diagonal)
-    rows = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))
-    unit = sparse.csr_array(
-        (matrix.data * scale[rows] * scale[matrix.indices], matrix.indices, matrix.indptr),
-        shape=matrix.shape,
-        dtype=columns.dtype,
-    )
-    scale = scale.astype(columns.dtype)
-    solution = np.empty_like(columns)
-    for first in range(0, columns.shape[1], AT_ONCE):
-        part = slice(first, first + AT_ONCE)
-        solution[:, part] = _of_unit_diagonal(unit, scale[:, None] * columns[:, part], accuracy)
-    solution *= scale[:, None]
-    return solution.reshape(right.shape)
-
-
-def _of_unit_diagonal(matrix: Any, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column by conjugate gradients."""
-    residual, direction = right.copy(), right.copy()
-    solution = np.zeros_like(residual)
-    square = _products(residual, residual)
-    enough = accuracy**2 * square
-    for _ in range(2 * len(right) + 100):
-        if (square <= enough).all():
-            break
-        image = matrix @ direction
-        curvature = _products(direction, image)
-        length = np.divide(square, curvature, out=np.zeros_like(square), where=curvature > 0)
-        solution += length * direction
-        image *= length
-        residual -= image
-        before, square = square, _products(residual, residual)
-        direction *= np.divide(square, before, out=np.zeros_like(square), where=before > 0)
-        direction += residual
-    return solution
-
-
-def _products(left: Floats, right: Floats) -> Floats:
-    """Return the product of each column of one with that of the other."""
-    return np.asarray(np.einsum("ij,ij->j", left, right))
+        return lambda right, accuracy: solve_columns(whole, diagonal, right, accuracy)
