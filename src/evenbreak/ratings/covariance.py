@@ -31,6 +31,7 @@ from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
+from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
 _DENSE_UP_TO = 2000
 """Players up to which the Hessian is factorised once; with more, each answer is iterated."""
@@ -147,14 +148,34 @@ class Curvature:
         root = np.linalg.cholesky(self._with_levels[self.size :])
         return np.asarray(np.linalg.solve(root, self._with_levels[: self.size].T).T)
 
+    @cached_property
+    def given_levels(self) -> InverseDiagonal:
+        """The variance of each rating, were the levels and the advantage known; nearly, or not."""
+        even = self.means is None or self.means.known is None
+        return inverse_diagonal(self.matrix, self.precision if even else None)
+
+    @cached_property
+    def _shared(self) -> Floats:
+        """The F for which FFᵀ is what levels and advantage add to the covariance of the ratings."""
+        if self._with_border is None or self.border_variance is None:
+            return self.by_levels
+        by_border = self._with_border[: self.size] * np.sqrt(self.border_variance)
+        return np.column_stack([self.by_levels, by_border])
+
     def variances(self) -> Floats:
         """Return the variance of each rating."""
-        even = self.means is None or self.means.known is None
-        own = inverse_diagonal(self.matrix, self.precision if even else None)
-        variance = own + (self.by_levels**2).sum(1)
-        if self._with_border is not None and self.border_variance is not None:
-            variance = variance + self._with_border[: self.size] ** 2 * self.border_variance
-        return np.asarray(variance)
+        return np.asarray(self.given_levels.value + (self._shared**2).sum(1))
+
+    def with_means(self, group: Ints) -> Floats:
+        """Return the covariance of each rating with the mean of its group, all in one solution.
+
+        No players of two groups have met.
+        """
+        share = 1.0 / np.bincount(group)[group]
+        alone = self._solve(np.append(share, np.zeros(len(self._levels))))[: self.size]
+        alone -= self.by_levels @ (share @ self.by_levels)
+        means = [np.bincount(group, share * column)[group] for column in self._shared.T]
+        return np.asarray(alone + sum(self._shared.T * np.reshape(means, self._shared.T.shape)))
 
     def times(self, contrast: Floats) -> Floats:
         """Return the covariance of each rating with a weighted sum of them.

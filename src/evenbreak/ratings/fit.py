@@ -203,8 +203,9 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
         if anchor is None:
             return scale.centre, {}
         return number(anchor, "anchor", wanted="a finite number of points"), {}
+    rated = {*players}
     for name in anchor:
-        if name not in players:
+        if name not in rated:
             raise InputError(
                 "anchor {name!r} is not in the results; give a name that is", name=name
             )
@@ -221,7 +222,10 @@ def _shifted(
     component: Ints,
 ) -> Floats:
     """Return the ratings, each component shifted so that its named players fit on average."""
-    at = np.array([players.index(name) for name in named], dtype=np.int64)
+    if not named:
+        return rating
+    place = {name: k for k, name in enumerate(players)}
+    at = np.array([place[name] for name in named], dtype=np.int64)
     missing = np.array(list(named.values())) - rating[at]
     rating = rating.copy()
     for label in np.unique(component[at]):

@@ -214,7 +214,8 @@ class Ratings:
         given the model and the prior. Where a component is anchored at named players it is
         that of the difference from their mean. Exact to rounding for up to 2,000 players,
         and for more who play in divisions; for more who all play each other within 0.1%,
-        as a rule within 1e-5.
+        as a rule within 1e-5. For more than 5,000 in clubs that meet they are sampled, with the
+        `error_of_errors`.
         """
         variance = self._variance.copy()
         for members, level in self._levels():
@@ -222,6 +223,14 @@ class Ratings:
             beside = variance[members] - 2.0 * shared[members] + level @ shared
             variance[members] = np.maximum(beside, 0.0)
         return np.sqrt(variance) * self.scale.points_per_log_odds
+
+    @property
+    def error_of_errors(self) -> float:
+        """How far off the least certain of the standard errors may be: its own, relatively.
+
+        0 where they are not sampled (see `evenbreak.ratings.sampled_diagonal`).
+        """
+        return self._curvature.given_levels.relative_error / 2.0
 
     @cached_property
     def quasi_error(self) -> Floats:
@@ -236,52 +245,24 @@ class Ratings:
         Notes
         -----
         After Firth & de Menezes (2004), "Quasi-variances", Biometrika 91, who fit them to all
-        differences. Here they follow directly: the curvature's row sums are the prior's
-        precision, so the level of a component of n players has the variance σ²/n (σ² the
-        prior's) and is independent of where in it each player stands. With v the variance of
-        a rating,
+        differences. Here they follow directly: with m the mean rating of a component of n players,
 
-            q = (v - σ²/n) n / (n - 1).
+            q = var(θ - m) n / (n - 1).
 
-        Uncertain levels add AAᵀ to the covariance; in its place comes that of the rows of A
-        less their mean over the component. The mean of q₁ + q₂ over the pairs of a component is
-        then exactly the mean variance of their differences. For n = 2 that of the only pair is
-        exact too.
+        The mean of q₁ + q₂ over the pairs of a component is then exactly the mean variance of
+        their differences. For n = 2 that of the only pair is exact too.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
         >>> ratings.quasi_error.round(1), float(np.hypot(*ratings.quasi_error).round(1))
         (array([18.5, 18.5]), 26.2)
         """
-        if self.prior_means.known is not None:
-            return self._around_components()
         size = np.bincount(self.component)[self.component]
-        alone = size == 1
-        by_levels = self._curvature.by_levels
-        sums = np.zeros((self.component.max() + 1, by_levels.shape[1]))
-        np.add.at(sums, self.component, by_levels)
-        apart = by_levels - sums[self.component] / size[:, None]
-        around_level = self._variance - self.prior_sd**2 / size
-        around_level += (apart**2).sum(1) - (by_levels**2).sum(1)
-        around_level = np.maximum(around_level, 0.0)
-        share = around_level * size / np.where(alone, 1, size - 1)
-        variance = np.where(alone, self._variance, share)
-        return np.sqrt(variance) * self.scale.points_per_log_odds
-
-    def _around_components(self) -> Floats:
-        """Return the quasi-standard errors where earlier results count: q = var(θ - mean) n/(n-1).
-
-        The level of a component is then not independent of where in it each player stands.
-        """
-        variance = self._variance.copy()
-        for label in range(1, int(self.component.max()) + 1):
-            members = self.component == label
-            size = int(members.sum())
-            if size > 1:
-                share = members / size
-                with_mean = self._curvature.times(share)
-                around = variance - 2.0 * with_mean + float(share @ with_mean)
-                variance[members] = np.maximum(around[members], 0.0) * size / (size - 1)
+        with_mean = self._curvature.with_means(self.component)
+        of_mean = np.bincount(self.component, with_mean)[self.component] / size
+        around = np.maximum(self._variance - 2.0 * with_mean + of_mean, 0.0)
+        share = around * size / np.maximum(size - 1, 1)
+        variance = np.where(size == 1, self._variance, share)
         return np.asarray(np.sqrt(variance) * self.scale.points_per_log_odds)
 
     @property
@@ -431,10 +412,14 @@ class Ratings:
             )
         return first, second
 
+    @cached_property
+    def _place(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self.players)}
+
     def _position(self, player: str) -> int:
-        if player not in self.players:
+        if player not in self._place:
             raise InputError("{name!r} is not rated; write names as the results do", name=player)
-        return self.players.index(player)
+        return self._place[player]
 
 
 LEAST = 1e-3

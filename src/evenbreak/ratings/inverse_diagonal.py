@@ -7,7 +7,7 @@ block first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complemen
 
 and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fagan & Chen
 1973; Erisman & Tinney 1975). The blocks are the dense fronts of the multifrontal method
-(Duff & Reid 1983). A matrix that fills in altogether is one front.
+(Duff & Reid 1983). A small matrix is inverted whole.
 
 Where no elimination order keeps a league's Hessian sparse, the diagonal is found nearly. All rows
 of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with a weak prior, its
@@ -24,10 +24,14 @@ C being the inverse without row i, whose eigenvalues lie between 1/(1+ρ) and 1/
 the sum is known within that factor of Σⱼ Wᵢⱼ², which is small where players have many
 games. Within those bounds C is taken as its diagonal, and that as the answer sought: the
 cavity approximation, exact but for cycles of opponents (Thouless, Anderson & Palmer 1977).
+
+Where neither does, as in a federation of clubs, small matrices are inverted whole, and larger ones
+by blocks and draws (see `evenbreak.ratings.sampled_diagonal`).
 """
 
 from __future__ import annotations
 
+import heapq
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,16 +39,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import lapack
-from scipy.sparse.linalg import LinearOperator, eigsh, spilu
+from scipy.sparse.linalg import LinearOperator, eigsh
 
 from evenbreak.arrays import Floats, Places
-from evenbreak.errors import AccuracyError
+from evenbreak.ratings.sampled_diagonal import InverseDiagonal, not_definite, sampled_diagonal
 
 _TRACE = 1e-100
 _NOTHING = np.zeros((0, 0))
 
 
-def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
+def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
     """Return the diagonal of the inverse of a diagonally dominant M-matrix.
 
     Parameters
@@ -56,12 +60,12 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
 
     Returns
     -------
-    numpy.ndarray
+    InverseDiagonal
         n values, with a relative error near rounding. For a matrix of 2,000 rows or more
         that fills in they come from the cavity approximation (see `approximate_diagonal`)
-        where that is within 0.2% at worst, 1e-5 as a rule; failing that from single
-        precision where the condition number is below 1000: within a few 1e-6 as a rule,
-        and 1e-4 at worst.
+        where that is within 0.2% at worst, 1e-5 as a rule; failing that, for up to 5,000 rows,
+        from single precision where the condition number is below 1000: within a few 1e-6 as a
+        rule, and 1e-4 at worst. For more than 5,000 rows they are sampled, with the error stated.
 
     Raises
     ------
@@ -69,13 +73,13 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
         if the matrix is not positive definite in floating point.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
-    >>> inverse_diagonal(path, 1.0)
+    >>> inverse_diagonal(path, 1.0).value
     array([0.625, 0.5  , 0.625])
     """
-    fronts = fronts_of(matrix)
-    if len(fronts) == 1 and len(fronts[0].rows) == 0:
+    fronts = fronts_of(matrix) if matrix.shape[0] >= _LARGE else []
+    if not fronts:
         return approximate_diagonal(matrix, row_sum)
-    return _come_back(fronts, *_eliminate(matrix, fronts))
+    return InverseDiagonal(_come_back(fronts, *_eliminate(matrix, fronts)))
 
 
 def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floats], list[Floats]]:
@@ -157,7 +161,10 @@ def _sums(x: Floats, y: Floats) -> Floats:
 
 
 _LARGE = 2000
-"""From this many rows on, answers may be approximate, because they are much faster."""
+"""Rows from which it is worth while to look for fronts, and to accept an approximate answer."""
+
+_DENSE_UP_TO = 5000
+"""Rows up to which a matrix is inverted whole."""
 
 _WELL_MIXED = 0.002
 """How far from certain an answer by cavities may be. As ρ² is at least the sum of any row of
@@ -165,15 +172,19 @@ squares, no such sum is then above .015, and every round comes 60 times nearer."
 _ROUNDS = 6
 
 
-def approximate_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Floats:
+def approximate_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
     """Return the diagonal of the inverse; parameters and errors of `inverse_diagonal`."""
-    if matrix.shape[0] >= _LARGE and row_sum is not None:
+    size = matrix.shape[0]
+    if size >= _LARGE and row_sum is not None:
         league = _Levelled.of(matrix, row_sum)
-        for diagonal_of in (_by_cavities, _in_single_precision):
+        whole = [_in_single_precision] if size <= _DENSE_UP_TO else []
+        for diagonal_of in (_by_cavities, *whole):
             diagonal = diagonal_of(league)
             if diagonal is not None:
-                return diagonal * league.scale**2 + league.level
-    return _in_double_precision(matrix)
+                return InverseDiagonal(diagonal * league.scale**2 + league.level)
+    if size > _DENSE_UP_TO:
+        return sampled_diagonal(matrix, row_sum)
+    return InverseDiagonal(_in_double_precision(matrix))
 
 
 @dataclass(frozen=True, eq=False)
@@ -253,12 +264,6 @@ def _square_sums(lower: NDArray[Any]) -> Floats:
     return np.array([column @ column for column in columns], dtype=np.float64)
 
 
-def not_definite() -> AccuracyError:
-    """Return the error of a Hessian that rounding has made singular."""
-    return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
-
-
-_ONE_FRONT_UP_TO = 300
 _PADDING, _PADDING_PER_ROW = 64, 20
 """Explicit zeros that a front accepts before its rows get a front of their own."""
 
@@ -277,52 +282,67 @@ class Front:
 
 
 def fronts_of(matrix: sparse.csc_array) -> list[Front]:
-    """Return the fronts of a symmetric matrix, children before parents.
+    """Return the fronts of a symmetric matrix, children before parents; none if it fills in.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> fronts_of(path)
     [Front(pivots=array([0, 1, 2]), rows=array([], dtype=int64), children=[])]
     """
-    size = matrix.shape[0]
-    if size <= _ONE_FRONT_UP_TO or _fills_in(matrix):
-        return [Front(np.arange(size), np.zeros(0, dtype=np.intp))]
-    return _gather(matrix, _minimum_degree(matrix))
+    order = _minimum_degree(matrix)
+    return [] if order is None else _gather(matrix, order)
 
 
-def _fills_in(matrix: sparse.csc_array) -> bool:
-    """Return whether nearly everybody is reached in two steps, through many at once.
+_MOST_LINKS = 10_000_000
+"""Links that eliminating makes or meets again, from which on a matrix counts as filling in.
 
-    No order helps such a matrix, and finding that out by minimum degree takes longer than
-    the elimination. A sample of the rows is enough.
+That many take about a second to find, and fronts of that many at most a few seconds to eliminate.
+"""
+
+
+def _minimum_degree(matrix: sparse.csc_array) -> Places | None:
+    """Return the columns in an order of elimination, or None where no good one is found in time.
+
+    Whoever has the fewest neighbors left comes next, and with them all who have just the same
+    neighbors. That links all these neighbors with each other.
     """
     size = matrix.shape[0]
-    if matrix.nnz < 32 * size:
-        return False
-    reached = []
-    for row in range(0, size, max(size // 16, 1)):
-        near = matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]]
-        seen = np.zeros(size, dtype=bool)
-        for neighbor in near:
-            seen[matrix.indices[matrix.indptr[neighbor] : matrix.indptr[neighbor + 1]]] = True
-        reached.append(int(seen.sum()))
-    return bool(np.median(reached) > size / 6)
+    indices, starts = matrix.indices, matrix.indptr.tolist()
+    near: dict[int, set[int]] = {}
 
+    def neighbors(column: int) -> set[int]:
+        if column not in near:
+            near[column] = {*indices[starts[column] : starts[column + 1]].tolist()} - {column}
+        return near[column]
 
-def _minimum_degree(matrix: sparse.csc_array) -> Places:
-    """Return the columns in the order of elimination.
-
-    SuperLU orders before it factorises, and an incomplete factor that drops all it may
-    costs nothing: what is left is the order.
-    """
-    factor = spilu(
-        matrix,
-        drop_tol=1.0,
-        fill_factor=1.0,
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
-    return np.argsort(factor.perm_c)
+    degree = (np.diff(matrix.indptr) - (matrix.diagonal() != 0)).tolist()
+    waiting = [many * size + column for column, many in enumerate(degree)]
+    heapq.heapify(waiting)
+    order: list[int] = []
+    links = 0
+    while waiting:
+        many, column = divmod(heapq.heappop(waiting), size)
+        if degree[column] != many:  # out of date, or eliminated
+            continue
+        links += many * many
+        if links > _MOST_LINKS:
+            return None
+        around = near.pop(column) if column in near else neighbors(column)
+        for other in around:
+            others = neighbors(other)
+            others |= around
+            others -= {other, column}
+        same = [other for other in around if len(near[other]) == many - 1]
+        order += [column, *sorted(same)]
+        degree[column] = -1
+        for other in same:
+            del near[other]
+            degree[other] = -1
+        gone = {*same}
+        for other in around - gone:
+            near[other] -= gone
+            degree[other] = len(near[other])
+            heapq.heappush(waiting, degree[other] * size + other)
+    return np.array(order, dtype=np.intp)
 
 
 def _gather(matrix: sparse.csc_array, order: Places) -> list[Front]:

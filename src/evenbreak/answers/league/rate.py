@@ -76,7 +76,7 @@ def rate_answer(
             table,
         ],
         details=[
-            *([] if pairs else [_ERRORS_IN_WORDS]),
+            *([] if pairs else [_ERRORS_IN_WORDS, *_error_of_errors_in_words(ratings)]),
             *prior_details(ratings, choice),
             *form_details(ratings.form, ratings.scale),
             *groups_table(ratings),
@@ -102,6 +102,16 @@ _ERRORS_IN_WORDS = (
     "error of their difference. It is smaller because the uncertainty that the whole league "
     "shares cancels."
 )
+
+
+def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
+    """Yield how far off the standard errors are, where they are sampled."""
+    if ratings.error_of_errors:
+        yield (
+            "With this many players the standard errors are estimated from random draws: for every "
+            f"player the estimate is within {percent(ratings.error_of_errors)} of the exact "
+            "value at least two times in three."
+        )
 
 
 def _players_table(ratings: Ratings) -> Table:
