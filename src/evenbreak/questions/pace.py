@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from evenbreak.fields.kinds import Number
+from evenbreak.fields.kinds import File, Number
 from evenbreak.fields.question import Field, Question
 from evenbreak.tournaments.evening.format import Discipline
 
@@ -20,6 +20,19 @@ Turnover: TypeAlias = Annotated[
         Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0"),
         "The time between two matches on a table, on average.",
         metavar="MINUTES",
+    ),
+]
+EarlierNights: TypeAlias = Annotated[
+    tuple[str, ...],
+    Field(
+        File("FILE.db"),
+        "An earlier tournament at this venue, or a folder of them: their times set the pace.",
+        usual="the usual pace",
+        many=True,
+        section="Details",
+        more="Only nights of the same discipline count. A file also knows the nights that its own "
+        "tournament was planned by, so that the last one will do. How it is done is in "
+        "[Brackets](../../explanation/brackets.md#time).",
     ),
 ]
 

@@ -9,7 +9,7 @@ from evenbreak.fields.kinds import File, Flag
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters, Sure
 from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
-from evenbreak.questions.pace import Pace, Turnover
+from evenbreak.questions.pace import EarlierNights, Pace, Turnover
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import Parameter
@@ -36,6 +36,7 @@ class NewTournament(TournamentPlan, Starters):
     entrants: Annotated[str, Field(File("ENTRANTS.csv"), argument=True)]
     tables: Tables = 4
     discipline: Discipline = "9-ball"
+    pace: EarlierNights = ()
     scale: ScaleOf = None
     seed: Draw = 0
     out: Annotated[
@@ -166,6 +167,7 @@ class TournamentTime(OfEntrants, Pace):
 """
     under_way = ("tables", "turnover")
     tables: Tables | None = None
+    pace: EarlierNights = ()
     turnover: Annotated[
         Turnover,
         Says(
@@ -189,4 +191,9 @@ class TournamentTime(OfEntrants, Pace):
             self.refuse(
                 "say how long games take; give {discipline}, such as 9-ball, or "
                 "{minutes_per_game}, such as 8"
+            )
+        if self.pace and self.minutes_per_game is not None:
+            self.refuse(
+                "{pace} corrects the usual pace of a game; give it with {discipline}, not with "
+                "{minutes_per_game}"
             )

@@ -38,9 +38,10 @@ from .chips.play import ChipOdds as ChipOdds
 from .chips.play import play_chips as play_chips
 from .chips.play import rack_chances as rack_chances
 from .clock.evenings import InPlay as InPlay
-from .clock.evenings import Timed as Timed
-from .clock.evenings import event_pace as event_pace
-from .clock.evenings import learned_pace as learned_pace
+from .clock.event_pace import EarlierNight as EarlierNight
+from .clock.event_pace import Timed as Timed
+from .clock.event_pace import event_pace as event_pace
+from .clock.event_pace import learned_pace as learned_pace
 from .clock.finish import Call as Call
 from .clock.finish import Finish as Finish
 from .clock.finish import Start as Start

@@ -20,11 +20,11 @@ from evenbreak.answers.tournament.time import (
     finish_quantities,
     minute_of_day,
     time_of_day,
+    venue_words,
 )
 from evenbreak.answers.tournament.tournament import against
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
-from evenbreak.tournaments.clock.evenings import event_pace
 from evenbreak.tournaments.clock.finish import bands_of
 from evenbreak.tournaments.evening.events import Result, as_dict, score_words
 from evenbreak.tournaments.evening.fold import Evening
@@ -252,7 +252,7 @@ def chip_time_answer(
     columns = columns_of("-change in_words minutes_later")
     change = Table("what_if", columns, rows, title=say("What if"))
     parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
-    plain = event_pace(state.plan.discipline).mean_minutes(1)
+    plain = outlook.pace.mean_minutes(1)
     usual_words = say(
         "A rack of {game} usually takes about {minutes:.0f} minutes, with the change of players.",
         game=state.plan.discipline,
@@ -265,5 +265,5 @@ def chip_time_answer(
             timed,
         )
         usual_words = joined([usual_words, adjusted])
-    parts.append(usual_words)
+    parts += filter(None, [usual_words, venue_words(state.plan.discipline, state.plan.earlier)])
     return Answer(heading, parts, csv=change, data={"start": outlook.start.isoformat()})

@@ -108,7 +108,7 @@ def night_answer(
     >>> answer = night_answer(Outlook(state, "2025-03-01T19:30:00"))
     >>> print(answer.sentences[0])
     Now play F, Ann against Bo, on table 1.
-    It ends at about 20:08; eight times out of ten between 19:54 and 20:30.
+    It ends at about 20:12; eight times out of ten between 19:57 and 20:36.
     """
     state = night.state
     if not state.drawn:

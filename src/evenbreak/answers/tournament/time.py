@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from typing import Any
+
+import numpy as np
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of, quantity_of
 from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
 from evenbreak.answers.kit.scales import form_used_words
-from evenbreak.answers.kit.wording import clock
+from evenbreak.answers.kit.wording import clock, percent
 from evenbreak.answers.tournament.tournament import Tournament, pair_words
 from evenbreak.arrays import Floats
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.clock.event_pace import EarlierNight, event_pace, nights_of
 from evenbreak.tournaments.clock.finish import QUANTILES, Finish, bands_of, finish, minutes_later
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
 from evenbreak.words import Sentence, joined, say, say_count
@@ -97,6 +100,7 @@ def tournament_time_answer(
     *,
     tables: int,
     pace: Pace | str,
+    earlier: Sequence[EarlierNight] = (),
     turnover: Turnover | None = None,
     start: int | None = None,
     seed: int = 0,
@@ -112,6 +116,8 @@ def tournament_time_answer(
         how many tables there are.
     pace
         how long matches take: a discipline, at its usual pace, or a pace.
+    earlier
+        the nights before at this venue, which correct the pace of a discipline.
     turnover
         the time between two matches on a table; None: as in real events.
     start
@@ -131,9 +137,9 @@ def tournament_time_answer(
     >>> tonight = Tournament(file, club, *asked)
     >>> answer = tournament_time_answer(tonight, tables=2, pace="9-ball", start=19 * 60)
     >>> print(answer.sentences[0].splitlines()[0])
-    It ends at about 22:05; eight times out of ten between 21:19 and 23:06.
+    It ends at about 22:26; eight times out of ten between 21:37 and 23:28.
     """
-    asked: Any = {"pace": pace, "turnover": turnover, "seed": seed}
+    asked: Any = {"pace": event_pace(pace, earlier), "turnover": turnover, "seed": seed}
     form = tournament.file.form
     laws_now = tournament.laws_of(tournament.races, form=form)
     found = finish(tournament.bracket, laws_now, tables=tables, **asked)
@@ -151,9 +157,10 @@ def tournament_time_answer(
     words = joined(filter(None, [when, savings_words(changes)]), "\n")
     parts: list[Part] = [words, quantities, table, changes]
     assumed = assumed_words(tables, pace, turnover)
+    learned = venue_words(pace, earlier) if isinstance(pace, str) else ""
     unrated = tournament.unrated_words(spread=False)
     form_words = form_used_words(form, tournament.scale)
-    lines = [tournament.byes, unrated, assumed, form_words, finish_luck(found.finishes)]
+    lines = [tournament.byes, unrated, learned, assumed, form_words, finish_luck(found.finishes)]
     parts += filter(None, lines)
     return Answer(
         tournament.heading,
@@ -194,6 +201,32 @@ def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
             rows.append([name, players, middle, (early, late), played])
     rows.sort(key=lambda row: row[2])
     return Table("matches", columns, rows)
+
+
+def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | str:
+    """Return how fast the nights of a discipline were at a venue; '' if there was none.
+
+    >>> nights = [EarlierNight(f"2025-03-0{k}T19:30:00", "9-ball", 1.1) for k in (1, 2)]
+    >>> print(venue_words("9-ball", nights).partition(";")[0])
+    Your last 2 nights of 9-ball at this venue ran 10% longer than usual
+    """
+    nights = nights_of(discipline, earlier)
+    if not nights:
+        return ""
+    ratio = float(np.exp(np.mean([np.log(one.ratio) for one in nights])))
+    off = percent(abs(ratio - 1.0))
+    ran = say("{share} longer than usual", share=off)
+    if ratio < 1.0:
+        ran = say("{share} shorter than usual", share=off)
+    if abs(ratio - 1.0) < 0.005:
+        ran = say("as long as usual")
+    return say_count(
+        "Your last night of {game} at this venue ran {longer}; the times allow for it.",
+        "Your last {n} nights of {game} at this venue ran {longer}; the times allow for it.",
+        len(nights),
+        game=discipline,
+        longer=ran,
+    )
 
 
 def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:

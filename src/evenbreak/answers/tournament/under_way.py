@@ -23,12 +23,12 @@ from evenbreak.answers.tournament.time import (
     savings_words,
     starts_table,
     time_of_day,
+    venue_words,
     what_if,
 )
 from evenbreak.answers.tournament.tournament import pair_words
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
-from evenbreak.tournaments.clock.evenings import event_pace
 from evenbreak.tournaments.clock.finish import Finish
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
@@ -162,13 +162,15 @@ def time_under_way(
     table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
     words = [ends_words(*(begun + at for at in found.bands)), savings_words(changes)]
     parts: list[Part] = [joined(filter(None, words), "\n"), quantities, table, changes]
-    parts.append(assumed_words(usual, state.plan.discipline, turnover))
+    plan = state.plan
+    parts += filter(None, [venue_words(plan.discipline, plan.earlier)])
+    parts.append(assumed_words(usual, plan.discipline, turnover))
     if timed := outlook.timed:
         parts.append(
             say(
                 "Going by the matches called and played so far ({n}), tonight is {pace}.",
                 n=len(timed),
-                pace=_pace_words(found, state.plan.discipline),
+                pace=_pace_words(found.pace.per_game / outlook.pace.per_game),
             )
         )
     parts.append(finish_luck(found.finishes))
@@ -177,8 +179,7 @@ def time_under_way(
     )
 
 
-def _pace_words(found: Finish, discipline: str) -> str:
-    factor = found.pace.per_game / event_pace(discipline).per_game
+def _pace_words(factor: float) -> str:
     if abs(factor - 1.0) < 0.005:
         return say("as fast as usual")
     share = percent(abs(factor - 1.0))

@@ -40,7 +40,7 @@ COMMANDS = {
 """Each command, in the module of its name, with its line of help."""
 
 
-_NAMES_IT = ("--file", "--out", "import")
+_NAMES_IT = ("--file", "--out", "--pace", "import")
 """What stands before a file that has an option already, or is what is imported."""
 
 

@@ -8,7 +8,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.tournament.evening import moment, night_of
-from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in
+from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in, none_learned
 from evenbreak.questions.evening import Import
 from evenbreak.questions.tournament import NewTournament
 
@@ -23,6 +23,7 @@ def command(asked: NewTournament) -> Answer:
 
     import numpy as np
 
+    from evenbreak.answers.tournament.time import venue_words
     from evenbreak.files.store.tournament import new_tournament
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
     from evenbreak.tournaments.evening.fold import evening
@@ -41,9 +42,18 @@ def command(asked: NewTournament) -> Answer:
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = evening(events)
-    answer = night_of(asked.out, state, at, _unrated(entered, state))
+    said = [*_unrated(entered, state), *filter(None, [venue_words(plan.discipline, plan.earlier)])]
+    answer = night_of(asked.out, state, at, said)
     new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
-    return replace(answer, warnings=[*entered.file.warnings, *entered.warnings, *answer.warnings])
+    return replace(
+        answer,
+        warnings=[
+            *entered.file.warnings,
+            *entered.warnings,
+            *none_learned(asked, plan.earlier),
+            *answer.warnings,
+        ],
+    )
 
 
 def _unrated(entered: Entered, state: Evening) -> list[str]:

@@ -11,7 +11,7 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.cli.tournament.evening import moment, outlook_of
-from evenbreak.cli.tournament.options import tournament_of
+from evenbreak.cli.tournament.options import earlier_in, none_learned, tournament_of
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Number
 from evenbreak.files.tables.names import KnownNames
@@ -67,14 +67,16 @@ def time(asked: TournamentTime) -> Answer:
         return _time_under_way(asked)
     tournament, warnings = tournament_of(asked)
     pace = stated_pace(asked.discipline, asked.minutes_per_game) or ""
+    earlier = earlier_in(asked)
     return tournament_time_answer(
         tournament,
         tables=asked.tables or 1,
         pace=pace,
+        earlier=earlier,
         turnover=None if asked.turnover is None else Turnover(asked.turnover),
         start=asked.start,
         seed=asked.seed,
-        warnings=warnings,
+        warnings=[*warnings, *none_learned(asked, earlier)],
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak import files, ratings, tournaments
@@ -16,14 +18,16 @@ from evenbreak.cli.kit.systems import (
 from evenbreak.files.charts import chip_chart_of
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.questions.plan import TournamentPlan
-from evenbreak.questions.tournament import NewTournament, OfEntrants
+from evenbreak.questions.tournament import NewTournament, OfEntrants, TournamentTime
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.plan import BYE, bracket_of, races_of
+from evenbreak.words import Sentence, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament.tournament import Tournament
     from evenbreak.ratings.scale import Scale
+    from evenbreak.tournaments.clock.event_pace import EarlierNight
 
 
 class Entered(NamedTuple):
@@ -67,6 +71,7 @@ def _to_draw(plan: Plan, before_draw: bool) -> str:
 def entered_in(asked: NewTournament | OfEntrants) -> Entered:
     """Return what is played and who has entered."""
     path = asked.entrants or ""
+    earlier = earlier_in(asked) if isinstance(asked, NewTournament) else ()
     races = _races(asked)
     file = files.read_entrants(path)
     points, warnings = _scale(file, asked.scale, asked.starter)
@@ -85,8 +90,41 @@ def entered_in(asked: NewTournament | OfEntrants) -> Entered:
         starter=points.centre if asked.starter is None else asked.starter,
         starter_error=points.points_per_doubling if asked.starter_sd is None else asked.starter_sd,
         chips=None if asked.chips is None else chip_chart_of(asked.chips),
+        earlier=earlier,
     )
     return Entered(plan, races, file, roster, points, warnings)
+
+
+def earlier_in(asked: NewTournament | TournamentTime) -> tuple[EarlierNight, ...]:
+    """Return the nights at the venue that the options name."""
+    from evenbreak.files.store.tournament import earlier_nights
+
+    for place in asked.pace:
+        if not Path(place).exists():
+            asked.refuse(
+                "{pace} is {file}, which does not exist; name the file of an earlier tournament, "
+                "or a folder of them",
+                file=place,
+            )
+    return earlier_nights(asked.pace)
+
+
+def none_learned(
+    asked: NewTournament | TournamentTime, earlier: Sequence[EarlierNight]
+) -> list[Sentence]:
+    """Return that the nights that were named say nothing of the pace, if that is so."""
+    from evenbreak.tournaments.clock.event_pace import nights_of
+
+    if not asked.pace or nights_of(asked.discipline or "", earlier):
+        return []
+    return [
+        say(
+            "{places}: no finished {game} tournament there says how long it took; the times are "
+            "the usual ones",
+            places=", ".join(asked.pace),
+            game=asked.discipline,
+        )
+    ]
 
 
 def _races(asked: TournamentPlan) -> tournaments.Races:

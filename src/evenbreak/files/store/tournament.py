@@ -9,13 +9,13 @@ from __future__ import annotations
 import csv
 import json
 import sqlite3
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from evenbreak.errors import InputError
+from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.evening_file import (
     TOURNAMENT,
@@ -32,6 +32,8 @@ from evenbreak.files.store.evening_file import (
 )
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
+from evenbreak.tournaments.clock.event_pace import EarlierNight
+from evenbreak.tournaments.evening.earlier import nights_until
 from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.words import Command, say
@@ -116,6 +118,34 @@ def read_tournament(path: str | Path) -> Evening:
         if the file is not that of a tournament, or cannot be read.
     """
     return tournament_of(path, read_events(path))
+
+
+def earlier_nights(places: Iterable[str | Path]) -> tuple[EarlierNight, ...]:
+    """Return what earlier tournaments say of the pace at their venue, oldest first.
+
+    Parameters
+    ----------
+    places
+        their files, and folders of which all files of tournaments are taken, copies too.
+
+    Raises
+    ------
+    DataError
+        if a file is not that of a tournament, or cannot be read.
+    """
+    return nights_until(_states(places))
+
+
+def _states(places: Iterable[str | Path]) -> Iterator[Evening]:
+    for place in map(Path, places):
+        if not place.is_dir():
+            yield read_tournament(place)
+            continue
+        for path in sorted(place.glob("*.db")):
+            try:
+                yield read_tournament(path)
+            except DataError:  # something else is in the folder too
+                continue
 
 
 def add_events(

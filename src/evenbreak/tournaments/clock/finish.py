@@ -17,10 +17,9 @@ from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.clock.evenings import (
     Evenings,
     InPlay,
-    Timed,
-    learned_pace,
     play_evenings,
 )
+from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
 from evenbreak.tournaments.clock.table_schedule import (
     Schedule,
     Waiting,

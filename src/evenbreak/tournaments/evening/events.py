@@ -15,6 +15,7 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
+from evenbreak.tournaments.clock.event_pace import EarlierNight
 from evenbreak.tournaments.evening.format import Discipline, Format, Race, Table, Tables
 from evenbreak.words import Sentence, say
 
@@ -65,6 +66,8 @@ class Plan(Format):
         the races of single matches, by name.
     chips
         the chips that players of a chip tournament start with.
+    earlier
+        the nights before at this venue: they set the pace.
     """
 
     form: str
@@ -80,6 +83,7 @@ class Plan(Format):
     layout: tuple[Draft, ...] = ()
     by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
     chips: ChipChart | None = field(default=None, hash=False)
+    earlier: tuple[EarlierNight, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,8 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.play import rack_chances
-from evenbreak.tournaments.clock.evenings import InPlay, Timed, learned_pace
+from evenbreak.tournaments.clock.evenings import InPlay
+from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
@@ -72,6 +73,12 @@ class Outlook:
         events = self.state.events
         firsts = [e.at for kind in (Called, Drawn) for e in events if isinstance(e.what, kind)]
         return datetime.fromisoformat(min([*firsts[:1], self.now]))
+
+    @property
+    def pace(self) -> Pace:
+        """How long matches take here, before any of tonight."""
+        plan = self.state.plan
+        return event_pace(plan.discipline, plan.earlier)
 
     def minutes(self, at: str) -> float:
         """Return a time in minutes since the start."""
@@ -308,7 +315,7 @@ class Outlook:
             state.whole,
             self.laws if laws is None else laws,
             tables=state.plan.tables if tables is None else tables,
-            pace=state.plan.discipline if pace is None else pace,
+            pace=self.pace if pace is None else pace,
             turnover=turnover,
             results=state.results,
             played=self.timed,
@@ -321,7 +328,7 @@ class Outlook:
     ) -> Floats:
         """Return when a chip tournament ends in each of many evenings, as `finish` does."""
         win = rack_chances(self.state.ratings, scale=self.state.scale)
-        pace = learned_pace(self.state.plan.discipline, self.timed)
+        pace = learned_pace(self.pace, self.timed)
         later = chip_minutes(self.state, win, pace, tables=tables, turnover=turnover)
         return self.minutes(self.now) + later
 

@@ -20,12 +20,18 @@ from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up
-from evenbreak.files.store.tournament import add_events, new_tournament, read_events
+from evenbreak.files.store.tournament import (
+    add_events,
+    earlier_nights,
+    new_tournament,
+    read_events,
+)
 from evenbreak.handicaps.charts.chart import CHARTS, Chart
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
+from evenbreak.tournaments.clock.event_pace import EarlierNight
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
@@ -167,7 +173,8 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         refuse_to_read(file, scale, say("the league"), say("put all ratings on one scale"))
     read = file.roster
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
-    plan, rows = _plan(form, scale), _entrants(filled, league)
+    earlier = earlier_nights([site.path] if site.night.exists else [])
+    plan, rows = _plan(form, scale, earlier), _entrants(filled, league)
     known = league is not None
     doubts = (
         []
@@ -186,7 +193,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     return Event(site.clock(), opened(plan, rows), DIRECTORS_PAGE), [*warnings_of(file), *doubts]
 
 
-def _plan(form: Form, scale: Scale) -> Plan:
+def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
     """Return what is played, by the fields of the form; those left empty have their defaults."""
     kind = form.one_of("format", FORMATS)
     races = EVEN if kind == "chips" else form.one_of("races", (*RACES, *CHARTS))
@@ -226,6 +233,7 @@ def _plan(form: Form, scale: Scale) -> Plan:
         tables=asked.tables,
         discipline=asked.discipline,
         chips=None if asked.chips is None else CHIP_CHARTS[asked.chips],
+        earlier=earlier,
     )
 
 

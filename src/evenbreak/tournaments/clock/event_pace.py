@@ -1,0 +1,149 @@
+"""The pace of a whole event: calibrated to real ones, learned from earlier nights and from tonight.
+
+The model is that of `evenbreak.matches.pace`: a match takes (overhead + per_game games) N A
+minutes, with the luck N of the match and the pace A of the evening lognormal with mean 1. Half of
+the variance of log A is the venue's: it is the same on all evenings there, and what is not known
+of it shrinks with each night that is learned. What tonight's matches say of log A is a normal
+posterior.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, NamedTuple
+
+from evenbreak.checks import Between, kind_of, positive
+from evenbreak.matches.pace import Pace, pace_of
+
+_EVENTS = {"8-ball": (0.97, 0.12), "9-ball": (0.97, 0.12), "10-ball": (0.895, 0.09)}
+"""What the pace of single matches is multiplied by in an event, and how much evenings vary.
+
+They are calibrated, not derived: docs/explanation/brackets.md says how. As in that calibration,
+rounds wait for each other.
+"""
+_VENUE = 0.5  # of the variance of the pace of evenings
+_PRIOR_NIGHTS = 2.0  # that what is usual counts as, against the nights of a venue
+SLOWEST = 2.0
+"""By how much a night can be longer or shorter than usual and still say something of the pace."""
+
+
+@dataclass(frozen=True)
+class EarlierNight:
+    """A tournament that was played at the same venue.
+
+    Parameters
+    ----------
+    at
+        when its first match was called, such as 2025-03-01T19:30:00.
+    discipline
+        8-ball, 9-ball or 10-ball.
+    ratio
+        how long it took, over the middle of what was to be expected at the usual pace.
+    """
+
+    at: str
+    discipline: str
+    ratio: Annotated[float, Between(1.0 / SLOWEST, SLOWEST)]
+
+
+def nights_of(discipline: str, earlier: Iterable[EarlierNight]) -> list[EarlierNight]:
+    """Return the nights of a discipline: those of another say nothing of its pace."""
+    return [one for one in earlier if one.discipline == discipline]
+
+
+def event_pace(pace: Pace | str, earlier: Iterable[EarlierNight] = ()) -> Pace:
+    """Return the pace of a whole event: the calibrated one of a discipline, or a given pace.
+
+    Parameters
+    ----------
+    pace
+        a discipline, or a `Pace`, which is returned as it is.
+    earlier
+        nights at the same venue. With y the logarithms of the ratios of the n nights of this
+        discipline, the venue's matches take exp(sum y / (n + 2)) times as long as usual, and
+        2 / (n + 2) of the variance between venues is left in `evening_sd`.
+
+    Raises
+    ------
+    InputError
+        if there is no such discipline.
+
+    >>> event_pace("9-ball").mean_minutes(9).__round__(2)
+    52.4
+    >>> slow = [EarlierNight("2025-03-01T19:30:00", "9-ball", 1.2)] * 4
+    >>> event_pace("9-ball", slow).mean_minutes(9).__round__(2)
+    59.03
+    """
+    if not isinstance(pace, str):
+        return kind_of(pace, "pace", Pace)
+    usual = pace_of(pace)
+    level, usual_sd = _EVENTS[pace]
+    logs = [math.log(one.ratio) for one in nights_of(pace, earlier)]
+    weight = len(logs) + _PRIOR_NIGHTS
+    not_known = 1.0 - _VENUE + _VENUE * _PRIOR_NIGHTS / weight
+    evening_sd = usual_sd * math.sqrt(not_known)
+    # The ratios are of middles, and the pace is a mean.
+    level *= math.exp(sum(logs) / weight + (evening_sd**2 - usual_sd**2) / 2.0)
+    return replace(_times(usual, level), evening_sd=evening_sd)
+
+
+def _times(pace: Pace, factor: float) -> Pace:
+    scaled = {"overhead": factor * pace.overhead, "per_game": factor * pace.per_game}
+    return replace(pace, **scaled, discipline=None)
+
+
+class Timed(NamedTuple):
+    """A match that has been played: its games and its minutes."""
+
+    games: int
+    minutes: float
+
+
+def learned_pace(pace: Pace | str, played: Sequence[Timed]) -> Pace:
+    """Return the pace of this evening, learned from the matches played so far.
+
+    Parameters
+    ----------
+    pace
+        what was known before: a discipline, or a `Pace`.
+    played
+        the matches of this evening with their games and minutes.
+
+    Returns
+    -------
+    Pace
+        its `evening_sd` is what is left of the uncertainty about the evening.
+
+    Raises
+    ------
+    InputError
+        if a match has no games or no minutes.
+
+    Notes
+    -----
+    With r the logarithm of a match's minutes over their mean, n matches and the variances s²
+    of a match and t² of an evening, log A is normal with precision 1/t² + n/s² and mean
+    (-1/2 + sum of (r + s²/2) / s²) over that.
+
+    >>> slow = learned_pace(Pace(4, 6, 0.3, 0.15), [Timed(7, 60), Timed(9, 75), Timed(5, 45)])
+    >>> round(slow.per_game, 2), round(slow.evening_sd, 3)
+    (6.86, 0.113)
+    """
+    before = event_pace(pace)
+    if not played or not before.evening_sd:
+        return before
+    logs = [
+        math.log(
+            positive(match.minutes, "minutes") / before.mean_minutes(positive(match.games, "games"))
+        )
+        for match in played
+    ]
+    if not before.match_sd:
+        return replace(_times(before, math.exp(sum(logs) / len(logs))), evening_sd=0.0)
+    variance = 1.0 / (before.evening_sd**-2 + len(logs) * before.match_sd**-2)
+    seen = sum(logs) * before.match_sd**-2 + len(logs) / 2.0
+    mean = variance * (seen - 0.5)
+    learned = _times(before, math.exp(mean + variance / 2.0))
+    return replace(learned, evening_sd=math.sqrt(variance))
