@@ -6,10 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.store.tournament import new_tournament, read_tournament
+from evenbreak.files.store.tournament import add_events, new_tournament, read_tournament
+from evenbreak.tournaments.evening.earlier import night_played
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.plan import FORMATS
 from rows import each_of
+from tournament_nights import timed_night
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
@@ -91,6 +93,21 @@ def again(director: Phone) -> dict[str, str]:
     """Return the field that lets a new tournament take the place of the one that there is."""
     name = director.open("/new").text.partition('name="in_place_of" value="')[2].split('"')[0]
     return {"in_place_of": name} if name else {}
+
+
+def test_a_new_tournament_learns_from_the_one_it_takes_the_place_of(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        assert director.send("/new", **ASKED).status == 200
+        before = read_tournament(site.path)
+        played = timed_night(list(before.events), before.events[0].at, slow=1.3)
+        add_events(site.path, lambda state: played[len(state.events) :])
+        night = night_played(read_tournament(site.path))
+        for _ in range(2):  # the same tap again
+            assert director.send("/new", **ASKED, **again(director)).status == 200
+        assert read_tournament(site.path).plan.earlier == (night,)
+        assert director.send("/desk/draw").status == 200
+        assert "Your last night of 9-ball at this venue ran" in director.open("/desk/time").words
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,9 @@ import json
 
 import pytest
 
+from evenbreak.files.store.tournament import add_events, read_tournament
+from tournament_nights import timed_night
+
 NAMES = "Ann\nBo\nCy\nDi\nEd\nFlo\nGus\nHal\n"
 
 
@@ -81,3 +84,30 @@ def test_wrong_options_are_refused(run, entrants, words, named):
     result = run("tournament", "time", entrants, "--race", "5", *words)
     assert result.exit_code == 2
     assert named in result.stderr
+
+
+def test_earlier_nights_set_the_pace(run, times, entrants, tmp_path):
+    last = str(tmp_path / "last.db")
+    new = ("tournament", "new", entrants, "--race", "5", "--tables", "4")
+    assert run(*new, "--out", last).exit_code == 0
+    events = timed_night(list(read_tournament(last).events), "2025-03-01T19:30:00", slow=1.3)
+    add_events(last, lambda state: events[len(state.events) :])
+    ask = ("--tables", "4", "--discipline", "9-ball")
+    usual, file, folder = (
+        times(*ask, *more) for more in ((), ("--pace", last), ("--pace", str(tmp_path)))
+    )
+    assert file["finish_p50"] > 1.03 * usual["finish_p50"]
+    assert file["finish_p50"] == folder["finish_p50"]
+    said = run("tournament", "time", entrants, "--race", "5", *ask, "--pace", last, "--pace", last)
+    assert "Your last night of 9-ball at this venue ran" in said.stdout + said.stderr
+    tonight = run(*new, str(tmp_path / "tonight.db"), "--pace", last)
+    assert "longer than usual" in tonight.stdout + tonight.stderr
+    other = ("--tables", "4", "--discipline", "8-ball", "--pace", last)
+    assert times(*other)["finish_p50"] == times(*other[:4])["finish_p50"]
+    said = run("tournament", "time", entrants, "--race", "5", *other)
+    assert "no finished 8-ball tournament there" in said.stderr
+    gone = ("--tables", "4", "--discipline", "9-ball", "--pace", "gone.db")
+    refused = run("tournament", "time", entrants, "--race", "5", *gone)
+    assert (refused.exit_code, "does not exist" in refused.stderr) == (2, True)
+    own = ("--tables", "4", "--minutes-per-game", "8", "--pace", last)
+    assert run("tournament", "time", entrants, "--race", "5", *own).exit_code == 2
