@@ -20,7 +20,7 @@ A rating that was not made from results has no such prior: J = 1/s².
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -228,6 +228,8 @@ class PriorMeans:
         what each level is called, such as ('team', 'Cue Tips').
     known
         what earlier results say of the skills; None: nothing.
+    follow
+        what the means gain by the skills of others (see `at`); None: nothing.
     """
 
     mean: Floats
@@ -235,6 +237,7 @@ class PriorMeans:
     level_sd: Floats
     names: tuple[tuple[str, str], ...] = ()
     known: Known | None = None
+    follow: Callable[[Floats], Floats] | None = None
 
     @classmethod
     def none(cls, players: int) -> PriorMeans:
@@ -261,14 +264,24 @@ class PriorMeans:
         total = float(among.sum())
         if total == 0.0:
             return self
-        share = among / total
-        return PriorMeans(
-            self.mean - share @ self.mean,
-            self.design - share @ self.design,
-            self.level_sd,
-            self.names,
-            self.known,
+        share, follow = among / total, self.follow
+
+        def centred(skill: Floats) -> Floats:
+            above = np.zeros(len(skill)) if follow is None else follow(skill)
+            return np.asarray(above - share @ above)
+
+        return replace(
+            self,
+            mean=self.mean - share @ self.mean,
+            design=self.design - share @ self.design,
+            follow=None if follow is None else centred,
         )
+
+    def at(self, skill: Floats) -> PriorMeans:
+        """Return the same prior where the players whom others follow have some skills."""
+        if self.follow is None:
+            return self
+        return replace(self, mean=self.mean + self.follow(skill), follow=None)
 
     def faded(self, keep: float) -> PriorMeans:
         """Return the same prior, with earlier results reduced to a part of their weight."""
@@ -303,3 +316,39 @@ class PriorMeans:
         if self.known is not None:
             pull = pull + self.known.information * skill - self.known.pull
         return pull, of_level
+
+
+STILL = 1e-3
+"""By how much two ways to the same skills may differ where means follow: 1/7 of a Fargo point."""
+
+MOST_MOVES = 40
+"""How often means move with the skills at most."""
+
+
+class MovingMeans:
+    """Means that follow the skills while the mode is searched for, until they are still.
+
+    The means move the mode, and the mode the means, by less each time: by about the part of the
+    skills of known players that still comes from their prior. They stay once what is left to move,
+    if moves go on to shrink as the last one did, or by half, is half of `STILL` at most.
+    """
+
+    def __init__(self, means: PriorMeans) -> None:
+        self._whole, self.now = means, means
+        self._moves, self._moved = 0, 2.0 * STILL
+        # The levels of divisions and teams move along, which in the end takes more rounds.
+        self._times = 8.0 if len(means.level_sd) else 1.0
+
+    def follow(self, skill: Floats) -> bool:
+        """Return whether the means moved with the skills."""
+        if self._whole.follow is None:
+            return False
+        before, self.now = self.now, self._whole.at(skill)
+        self._moves += 1
+        if before.follow is None:
+            last, self._moved = self._moved, float(np.abs(self.now.mean - before.mean).max())
+            share = min(self._moved / last, 0.99) if last else 0.0
+            left = self._moved * max(share / (1.0 - share), self._times)
+            if left <= 0.5 * STILL or self._moves == MOST_MOVES:
+                self._whole = self.now
+        return True

@@ -149,6 +149,7 @@ def fit(
         )
         advantage = float(mode.point[-1]) if break_games else None
     skill = mode.point[:players]
+    means = None if means is None else means.at(skill)
     component = _components(played.graph, None if means is None else means.information)
     rating = centre + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)

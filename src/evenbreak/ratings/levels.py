@@ -13,8 +13,10 @@ over all matches so far.
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -25,6 +27,7 @@ from scipy.special import betaincinv, logit
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.ratings.beginning import Beginning, Known, PriorMeans
+from evenbreak.ratings.first_evenings import FirstEvenings
 from evenbreak.ratings.results import Results
 
 SETTLED = 50.0
@@ -55,6 +58,9 @@ class Levels:
     race
         what part of the difference that a stated race implies is taken as real: 1 where the
         races are right.
+    field
+        what part of the strength of the field on their first evening newcomers are expected to
+        have themselves (see `evenbreak.ratings.first_evenings`); it does not shrink with games.
     team_sd, division_sd
         how far apart teams, or divisions, are on average (standard deviation); 0 where they
         do not matter.
@@ -69,17 +75,18 @@ class Levels:
     InputError
         if a number is not finite, or a standard deviation is not in 0 to 100.
 
-    >>> Levels(newcomers=0.4, team_sd=0.2)
-    Levels(newcomers=0.4, joined=0.0, race=0.0, team_sd=0.2, division_sd=0.0, brought_sd=0.0)
+    >>> bool(Levels()), bool(Levels(newcomers=0.4, team_sd=0.2))
+    (False, True)
     """
 
     newcomers: float = 0.0
     joined: float = 0.0
     race: float = 0.0
+    field: float = 0.0
     team_sd: float = 0.0
     division_sd: float = 0.0
     brought_sd: float = 0.0
-    beginning: Beginning | None = field(default=None, repr=False)
+    beginning: Beginning | None = dataclasses.field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         for size in fields(self):
@@ -101,6 +108,12 @@ def begun(beginning: Beginning | None) -> Levels:
     """
     unknown = beginning is not None and beginning.unknown_error
     return Levels(beginning=beginning, brought_sd=BROUGHT_SD if unknown else 0.0)
+
+
+def first_evenings(results: Results, levels: Levels) -> FirstEvenings:
+    """Return the first evenings of those who bring no games along."""
+    old = levels.beginning
+    return FirstEvenings(results, None if old is None else old.games_of(results.players) > 0.0)
 
 
 def joined_late(results: Results) -> Floats:
@@ -143,10 +156,16 @@ class Knowledge:
         which of it matters.
     stated
         strengths by the same races; None: to be worked out.
+    evenings
+        the first evenings of the same players; None: to be looked for.
     """
 
     def __init__(
-        self, results: Results, levels: Levels, stated: StatedStrength | None = None
+        self,
+        results: Results,
+        levels: Levels,
+        stated: StatedStrength | None = None,
+        evenings: FirstEvenings | None = None,
     ) -> None:
         self._levels = levels
         self._players = len(results.players)
@@ -159,6 +178,9 @@ class Knowledge:
             self._behind = levels.beginning.games_of(results.players)
             self._known = levels.beginning.known(results.players, brought_sd=levels.brought_sd)
         self._stated = (stated or StatedStrength(results)) if levels.race else None
+        self._evenings = None
+        if levels.field:
+            self._evenings = first_evenings(results, levels) if evenings is None else evenings
         self._groups = [
             _Groups(results, kind)
             for kind in GROUPS
@@ -167,8 +189,9 @@ class Knowledge:
 
     def see(self, rows: Any) -> None:
         """Take in the races, teams and divisions of matches, known before they are played."""
-        if self._stated is not None:
-            self._stated.see(rows)
+        for of_file in (self._stated, self._evenings):
+            if of_file is not None:
+                of_file.see(rows)
         for groups in self._groups:
             groups.see(rows)
 
@@ -178,7 +201,10 @@ class Knowledge:
             self._behind += np.bincount(players[rows], self._games[rows], self._players)
 
     def means(self) -> PriorMeans:
-        """Return the means of the players' priors, 0 on average over those who have played."""
+        """Return the means of the players' priors, 0 on average over those who have played.
+
+        Where the field counts, those of newcomers follow the skills of others.
+        """
         design = [groups.design for groups in self._groups]
         sds = [
             np.full(len(group.names), getattr(self._levels, f"{group.kind}_sd"))
@@ -195,8 +221,13 @@ class Knowledge:
             np.concatenate([np.zeros(0), *sds]),
             tuple((group.kind, name) for group in self._groups for name in group.names),
             self._known,
+            self._follow(),
         )
         return whole.centred((self._behind > 0).astype(float))
+
+    def _follow(self) -> Callable[[Floats], Floats] | None:
+        size, evenings = self._levels.field, self._evenings
+        return None if evenings is None else lambda skill: size * evenings.strength(skill)
 
 
 class _Groups:
@@ -232,6 +263,7 @@ def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[
         "team_sd": has_groups(results, "team"),
         "joined": bool(joined_late(results).any()),
         "newcomers": True,
+        "field": bool(FirstEvenings(results)),
         "brought_sd": beginning is not None and beginning.unknown_error,
     }
     return tuple(name for name, says_it in says.items() if says_it)
@@ -253,7 +285,12 @@ def games_of(results: Results) -> Floats:
     return np.asarray(np.where(results.given_away, 0.0, games))
 
 
-def means_of(results: Results, levels: Levels, stated: StatedStrength | None = None) -> PriorMeans:
+def means_of(
+    results: Results,
+    levels: Levels,
+    stated: StatedStrength | None = None,
+    evenings: FirstEvenings | None = None,
+) -> PriorMeans:
     """Return the means of the players' priors after all of some results.
 
     The parameters are those of `Knowledge`. Matches still to be played, at 0-0, say who is in
@@ -263,7 +300,7 @@ def means_of(results: Results, levels: Levels, stated: StatedStrength | None = N
     >>> means_of(season, Levels(newcomers=0.6)).mean.round(3)
     array([ 0. ,  0. , -0.4])
     """
-    knowledge = Knowledge(results, levels, stated)
+    knowledge = Knowledge(results, levels, stated, evenings)
     rows = slice(None)
     knowledge.see(rows)
     knowledge.play(rows)

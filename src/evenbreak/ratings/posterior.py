@@ -40,7 +40,7 @@ from scipy.special import expit
 
 from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
-from evenbreak.ratings.beginning import PriorMeans
+from evenbreak.ratings.beginning import MovingMeans, PriorMeans
 from evenbreak.ratings.covariance import Curvature, PairCounts, sums_by_player
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, race_slopes
 
@@ -224,11 +224,12 @@ def find_mixed_mode(
     """
     players = terms.players
     beforehand = PriorMeans.none(players) if means is None else means
+    moving = MovingMeans(beforehand)
 
     def cost(point: Floats) -> float:
         skill, level, advantage = point[:players], point[players:-1], float(point[-1])
         prior = 0.5 * (break_precision or 0.0) * advantage**2
-        prior -= beforehand.log_density(skill, level, precision)
+        prior -= moving.now.log_density(skill, level, precision)
         return prior - terms.log_likelihood(skill, advantage)
 
     skill = beforehand.mean if start is None else start
@@ -238,9 +239,12 @@ def find_mixed_mode(
     value = 0.0 if games_alone else cost(begin)
 
     def gradient_at(point: Floats) -> tuple[Floats, Callable[[], Floats]]:
+        nonlocal value
         skill, level, advantage = point[:players], point[players:-1], float(point[-1])
+        if moving.follow(skill) and not games_alone:
+            value = cost(point)
         pull, slope = terms.derivatives(skill, advantage)
-        of_skill, of_level = beforehand.slopes(skill, level, precision)
+        of_skill, of_level = moving.now.slopes(skill, level, precision)
         pull = np.append(pull + of_skill, of_level)
         slope = slope + break_precision * advantage if break_precision is not None else 0.0
         whole = np.append(pull, slope)
@@ -317,6 +321,8 @@ def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[
     point = np.column_stack([skill, [way.advantage for way in ways]])
     cost = season.cost(point)
     for _ in range(MOST_STEPS):
+        if season.follow(point[:, :-1]):
+            cost = season.cost(point)
         gradient, curvature = season.slopes(point)
         left = np.abs(gradient).max(1)
         if (left <= season.enough).all():
@@ -364,11 +370,13 @@ class _Season:
         self._estimated = np.array([way.break_precision is not None for way in ways])
         self._break_precision = np.array([way.break_precision or 0.0 for way in ways])
         beforehand = [way.means or PriorMeans.none(self._players) for way in ways]
+        self._moving = [MovingMeans(means) for means in beforehand]
         priors = [
             _prior_of(means, way.precision) for means, way in zip(beforehand, ways, strict=True)
         ]
-        self.mean = np.array([mean for mean, _ in priors])
-        self._precision = np.array([precision for _, precision in priors])
+        self.mean = np.array([mean for mean, _, _ in priors])
+        self._precision = np.array([precision for _, precision, _ in priors])
+        self._share = [share for _, _, share in priors]
         brought = max(float(means.information.max(initial=0.0)) for means in beforehand)
         most = max(float(terms.race_m.max(initial=0)), terms.amount, brought)
         self.enough = np.array([tolerance(way.precision, most, GRADIENT) for way in ways])
@@ -381,6 +389,17 @@ class _Season:
         ends[np.arange(many), terms.low] = 1.0
         ends[np.arange(many), terms.high] = -1.0
         self._ends = ends
+
+    def follow(self, skills: Floats) -> bool:
+        """Return whether means of some way followed its skills."""
+        moved = False
+        for row, (moving, skill) in enumerate(zip(self._moving, skills, strict=True)):
+            before = moving.now.mean
+            if moving.follow(skill):
+                step, share = moving.now.mean - before, self._share[row]
+                self.mean[row] += step if share is None else share @ step
+                moved = True
+        return moved
 
     def _differences(self, point: Floats) -> tuple[Floats, Floats]:
         """Return the log-odds of each term of games, and of each race for its winner."""
@@ -443,10 +462,11 @@ class _Season:
         return whole
 
 
-def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
+def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats, Floats | None]:
     """Return mean and precision of the skills' prior, levels integrated out.
 
-    What earlier results say is part of it: it is normal in the skills, too.
+    What earlier results say is part of it: it is normal in the skills, too. Last is what part of
+    `means.mean` its mean has; None: all.
     """
     identity = np.eye(len(means.mean))
     prior = precision * identity
@@ -456,7 +476,10 @@ def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats]:
             np.linalg.inv(identity / precision + spread @ spread.T), dtype=np.float64
         )
     if means.known is None:
-        return means.mean, prior
+        return means.mean, prior, None
     both = prior + np.diag(means.known.information)
     mean = np.linalg.solve(both, prior @ means.mean + means.known.pull)
-    return np.asarray(mean, dtype=np.float64), both
+    share = None
+    if means.follow is not None:
+        share = np.asarray(np.linalg.solve(both, prior), dtype=np.float64)
+    return np.asarray(mean, dtype=np.float64), both, share

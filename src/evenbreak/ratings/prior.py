@@ -53,6 +53,7 @@ TRIED = {
     "team_sd": (0.1, 0.2, 0.4, 0.8),
     "joined": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
     "newcomers": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
+    "field": (0.25, 0.5, 0.75, 1.0, 1.25),
 }
 """The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
 
@@ -287,7 +288,7 @@ class _Search:
         One step of Newton's method from the best of them; the error is the sandwich's, stretches
         being independent of each other.
         """
-        if not coarse.used or coarse.of not in ("newcomers", "joined", "race"):
+        if not coarse.used or coarse.of not in ("newcomers", "joined", "race", "field"):
             return coarse
         sizes = coarse.value + np.array([-STEP, 0.0, STEP])
         losses = self._losses([_with(way, coarse.of, size) for size in sizes.tolist()]).losses

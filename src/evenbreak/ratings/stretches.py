@@ -22,8 +22,15 @@ from numpy.typing import NDArray
 from evenbreak.arrays import Bools, Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import PriorMeans
+from evenbreak.ratings.first_evenings import FirstEvenings
 from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
-from evenbreak.ratings.levels import Levels, StatedStrength, has_handicaps, means_of
+from evenbreak.ratings.levels import (
+    Levels,
+    StatedStrength,
+    first_evenings,
+    has_handicaps,
+    means_of,
+)
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.posterior import GRADIENT, WayToRate, find_mixed_mode, find_modes
 from evenbreak.ratings.results import Results
@@ -230,6 +237,7 @@ class SeasonSoFar:
         self._terms: dict[tuple[float | None, bool], LikelihoodTerms] = {}
         self._means: dict[Levels, PriorMeans | None] = {}
         self._stated = StatedStrength(results)
+        self._evenings: FirstEvenings | None = None
         self._last: Floats | None = None
 
     def skills(self, ways: Sequence[Mapping[str, Any]]) -> tuple[Floats, Floats]:
@@ -292,7 +300,10 @@ class SeasonSoFar:
 
     def _means_of(self, levels: Levels, half_life: float | None) -> PriorMeans | None:
         if levels not in self._means:
-            self._means[levels] = means_of(self._results, levels, self._stated) if levels else None
+            if levels.field and self._evenings is None:
+                self._evenings = first_evenings(self._results, levels)
+            seen = self._stated, self._evenings
+            self._means[levels] = means_of(self._results, levels, *seen) if levels else None
         means = self._means[levels]
         if means is None or levels.beginning is None:
             return means

@@ -8,7 +8,7 @@ import numpy as np
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Show, Table
 from evenbreak.answers.kit.remarks import MOST_NAMES
-from evenbreak.answers.kit.wording import count_of, decimals, some_of
+from evenbreak.answers.kit.wording import count_of, decimals, percent, some_of
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
@@ -23,6 +23,7 @@ _FEW = 5  # names that are listed
 NAMES = {
     "joined": "joined late",
     "newcomers": "first games",
+    "field": "field at the first event",
     "race": "stated races",
     "team_sd": "teams",
     "division_sd": "divisions",
@@ -60,6 +61,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
             f"A player's first games are predicted best with a start {_ONE(abs(below))} points "
             f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
         )
+    if levels.field:
+        yield _field_words(levels.field, _error_of(choice, "field"))
     if levels.race:
         error = _error(choice, "race", 1.0, decimals(2), "")
         largest = choice is not None and any(
@@ -109,9 +112,28 @@ def _group_words(group: Group) -> str:
 
 def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: str) -> str:
     """Return how far off what was chosen may be, '' where that is not known."""
-    errors = [found.standard_error for found in choice.evidence if found.of == of] if choice else []
-    known = next((error for error in errors if error is not None), None)
+    known = _error_of(choice, of)
     return "" if known is None else f", give or take {show(unit * known)}{sign}"
+
+
+def _error_of(choice: PriorChoice | None, of: str) -> float | None:
+    errors = [found.standard_error for found in choice.evidence if found.of == of] if choice else []
+    return next((error for error in errors if error is not None), None)
+
+
+def _field_words(share: float, error: float | None) -> Sentence:
+    if error is None:
+        return say(
+            "Newcomers start where the field at their first event suggests: {share} of how far "
+            "that field was above or below the usual one is taken to be theirs too.",
+            share=percent(share),
+        )
+    return say(
+        "Newcomers start where the field at their first event suggests: {share} of how far that "
+        "field was above or below the usual one is taken to be theirs too, give or take {error}.",
+        share=percent(share),
+        error=percent(error),
+    )
 
 
 def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part]:
@@ -159,6 +181,8 @@ def levels_data(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
         "newcomers_below_standard_error": None
         if newcomers is None
         else points(newcomers) * ratings.newcomer_share,
+        "field": levels.field,
+        "field_standard_error": errors.get("field"),
         "race": levels.race,
         "race_standard_error": errors.get("race"),
         "team_sd": points(levels.team_sd),

@@ -402,6 +402,7 @@ def summary_frame(
         "prior_sd_points": float(scale.points(ratings.prior_sd)),
         "joined_below_points": float(scale.points(ratings.levels.joined)),
         "newcomers_below_points": ratings.newcomer,
+        "field_counts": ratings.levels.field,
         "race_counts": ratings.levels.race,
         "team_sd_points": float(scale.points(ratings.levels.team_sd)),
         "division_sd_points": float(scale.points(ratings.levels.division_sd)),

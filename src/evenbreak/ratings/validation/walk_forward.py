@@ -24,7 +24,7 @@ from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.checks import number
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.beginning import PriorMeans
+from evenbreak.ratings.beginning import MovingMeans, PriorMeans
 from evenbreak.ratings.conjugate_gradients import solve_columns
 from evenbreak.ratings.covariance import sums_by_player
 from evenbreak.ratings.doors import check_results
@@ -365,9 +365,12 @@ class DailyRefit:
 
     def _find_mode(self) -> None:
         players = len(self.skill)
+        moving = MovingMeans(self._means)
 
         def gradient_at(point: Floats) -> tuple[Floats, Callable[[], Floats]]:
             skill, level = point[:players], point[players:]
+            if moving.follow(skill):
+                self._means = moving.now
             surplus, weight = self._curvatures(skill)
             ends = sums_by_player(players, self._low, self._high, surplus, -surplus)
             of_skill, of_level = self._means.slopes(skill, level, self._precision)
