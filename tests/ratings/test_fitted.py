@@ -8,7 +8,7 @@ import pytest
 from evenbreak.errors import InputError
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Beginning, Levels, Results, covariance, fit
-from evenbreak.ratings.fitted import rating_sources
+from evenbreak.ratings.sources import rating_sources
 from places import DATA
 
 NAMES = tuple("ABCDEFGH")
@@ -231,12 +231,12 @@ def test_everybody_is_in_the_frame_the_strongest_first():
     ratings = fit(season, scale="fargo")
     frame = ratings.to_frame()
     assert set(frame["scale"]) == {"fargo"}
-    # Di and Ed, who only forfeited, stand at the anchor and keep the order of names.
-    assert frame["player"].tolist() == ["Ann", "Di", "Ed", "Bo", "Cy"]
-    assert frame["games"].tolist() == [21, 0, 0, 23, 22]
+    # Di and Ed, who only forfeited, have no place, and keep the order of names.
+    assert frame["player"].tolist() == ["Ann", "Bo", "Cy", "Di", "Ed"]
+    assert frame["games"].tolist() == [21, 23, 22, 0, 0]
     assert (frame["won"] + frame["lost"]).tolist() == frame["games"].tolist()
-    assert frame["component"].tolist() == [1, 2, 3, 1, 1]
-    assert frame["rating"].tolist() == sorted(ratings.rating, reverse=True)
+    assert frame["component"].tolist() == [1, 1, 1, 2, 3]
+    assert frame["provisional"].tolist() == [False, False, False, True, True]
     assert dict(zip(frame["player"], frame["standard_error"], strict=True)) == dict(
         zip(ratings.players, ratings.standard_error, strict=True)
     )

@@ -218,7 +218,7 @@ ROOM = 7.0
 
 def lines_of(players, name="Player"):
     return [
-        PlayerLine(k, f"{name} {k}", "612", "35", 9, 5, 4, None, 40.0, 50.0, 60.0)
+        PlayerLine(str(k), f"{name} {k}", "612", "35", 9, 5, 4, None, 40.0, 50.0, 60.0)
         for k in range(1, players + 1)
     ]
 

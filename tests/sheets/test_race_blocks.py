@@ -100,6 +100,7 @@ def test_what_is_not_stated_is_empty():
             "standard_error": CLUB.standard_error,
             "games": [140, 60, -1, 30],
             "component": 0,
+            "provisional": CLUB.provisional,
         }
     )
     ann, _, cy, _ = lines_with_bars(rated)

@@ -243,3 +243,16 @@ def test_results_that_are_replaced_stay_in_a_file(tmp_path: Path) -> None:
         kept = tmp_path / "tonight.league.csv.replaced"
         assert (kept.read_bytes() if before else b"") == (before or b"")
     assert len(league.paths) == 2
+
+
+@pytest.mark.slow
+def test_a_visitor_has_no_place_whatever_the_rating(tmp_path: Path) -> None:
+    rounds = "Ann,Bo,7,6\nBo,Cy,7,5\nCy,Di,7,6\nAnn,Di,7,4\n" * 6
+    with running(tmp_path / "tonight.db") as site:
+        phone = Phone(site, director=True)
+        shown = rated(phone, f"player_a,player_b,score_a,score_b\n{rounds}Eve,Ann,7,0\n")
+        words = shown.words
+        assert words.index("1 Ann") < words.index("4 Di") < words.index("Provisional: fewer than")
+        assert words.index("Provisional: fewer than") < words.index("Eve ~")
+        assert "No. 1 in the league" in phone.open("/league/player?name=Ann").words
+        assert "Provisional: 7 games" in phone.open("/league/player?name=Eve").words

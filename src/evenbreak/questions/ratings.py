@@ -22,12 +22,19 @@ from evenbreak.questions.common import (
 )
 from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, Day, Reading, Results
 from evenbreak.questions.systems import SystemOf
+from evenbreak.ratings.provisional import ESTABLISHED
 from evenbreak.words import Parameter
 
 MOST_PAIRED = 1000
 """The most players that are paired."""
 
 _RATING, _RULE = "How to rate", "A league's own rule"
+PROVISIONAL = Field(
+    Whole(0, 1_000_000, metavar="GAMES"),
+    "Ratings from fewer games are provisional: they are listed after the others, without a place.",
+    usual=f"{ESTABLISHED}, or a third of what the league's regulars have if that is less",
+    more="See [who has a place](../../explanation/ratings.md#who-has-a-place-in-the-list).",
+)
 _PLAYER = Field(Named(str, "NAME", offers="players"), argument=True)
 
 
@@ -145,6 +152,7 @@ class Rate(Results, HowToRate):
             words=2,
         ),
     ] = ()
+    provisional: Annotated[int | None, PROVISIONAL] = None
     break_advantage: Annotated[
         float | Literal["fit"] | None,
         Field(
@@ -193,8 +201,12 @@ class Rate(Results, HowToRate):
                         part=Parameter(name),
                     )
             return
-        of_fit = ("anchor", "prior", "half_life", "begin", "save", "as_of", "break_advantage")
-        given = [f"{{{name}}}" for name in (*of_fit, "pair", "scale") if name in self.given]
+        of_fit = ("anchor", "prior", "half_life", "begin", "save", "as_of", "provisional")
+        given = [
+            f"{{{name}}}"
+            for name in (*of_fit, "break_advantage", "pair", "scale")
+            if name in self.given
+        ]
         if given:
             self.refuse("{system} has its own rule; leave out " + ", ".join(given))
         if self.roster is None:
@@ -273,8 +285,8 @@ class Report(Results, HowToRate, Lengths):
     if known, date, race_a, race_b, winner, first_break, break_format, racks, event and forfeit;
     `evenbreak rate --help-all` names other ways. - reads standard input. The sheet gives the rating
     of each player and the race nearest to even for each pair, and holds all players, the strongest
-    first. Several files are read as one. The sheet is printed here, and sheet.pdf is for the wall;
-    {page} adds a page to hand out, {excel} a workbook.
+    first and those with few games last. Several files are read as one. The sheet is printed here,
+    and sheet.pdf is for the wall; {page} adds a page to hand out, {excel} a workbook.
     """
 
     examples = """\
@@ -313,6 +325,7 @@ class Report(Results, HowToRate, Lengths):
     title: Annotated[
         str, Field(Named(title_in, "TEXT"), "A title for the sheet, such as the league's name.")
     ] = ""
+    provisional: Annotated[int | None, PROVISIONAL] = None
     page: Annotated[
         bool,
         Field(

@@ -13,6 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
+from evenbreak.ratings.beginning import Beginning, PriorMeans
 from evenbreak.ratings.covariance import PairCounts, count_pairs
 from evenbreak.ratings.decay import day_of, match_weights, until
 from evenbreak.ratings.doors import check_results
@@ -20,6 +21,7 @@ from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.posterior import find_mixed_mode, find_mode
+from evenbreak.ratings.provisional import games_of_winner
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
@@ -53,6 +55,7 @@ def fit(
     as_of: Any = None,
     break_advantage: float | str | None = None,
     levels: Levels | None = None,
+    provisional: int | None = None,
 ) -> Ratings:
     """Return the ratings that are most likely a posteriori, given the games of `results`.
 
@@ -86,6 +89,9 @@ def fit(
     levels
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
         players bring along; None: every player's prior has the same mean.
+    provisional
+        ratings from fewer games than this have no place in lists (see `Ratings.provisional`);
+        None: 200, or a third of what the league's regulars have if that is less.
 
     Raises
     ------
@@ -176,6 +182,10 @@ def fit(
         later=len(results) - len(in_time),
         break_advantage=None if advantage is None else scale.points(advantage),
         break_games=break_games,
+        games_behind=_games_behind(
+            pairs, won_only, None if levels is None else levels.beginning, means
+        ),
+        least_games=provisional,
         _played=played,
         levels=levels or Levels(),
         _skill=skill,
@@ -255,6 +265,19 @@ def _races(won_only: Results) -> tuple[Ints, Ints]:
     winner = np.where(a_won, won_only.player_a, won_only.player_b)
     loser = np.where(a_won, won_only.player_b, won_only.player_a)
     return np.bincount(winner, minlength=players), np.bincount(loser, minlength=players)
+
+
+def _games_behind(
+    pairs: PairCounts, won_only: Results, beginning: Beginning | None, means: PriorMeans | None
+) -> Floats:
+    """Return the games that each rating rests on, those behind ratings that count included."""
+    behind = (pairs.won + pairs.lost).astype(float)
+    worth = games_of_winner(*won_only.races)
+    for players in (won_only.player_a, won_only.player_b):
+        behind += np.bincount(players, worth, len(behind))
+    if beginning is not None and means is not None:
+        behind += np.where(means.information > 0.0, beginning.games_of(won_only.players), 0.0)
+    return behind
 
 
 def _refuse_nonsense(scored: Results, won_only: Results) -> None:

@@ -1,9 +1,4 @@
-"""Ratings as a fit returns them, with their uncertainty and what each is made of.
-
-In the normal approximation a skill is the mean of what each source says, weighted by precision:
-1/s² for the rating is that of the prior, plus J of the rating brought along (see
-`evenbreak.ratings.beginning`), plus that of the results, which is what is left.
-"""
+"""Ratings as a fit returns them, with their uncertainty."""
 
 from __future__ import annotations
 
@@ -22,6 +17,7 @@ from evenbreak.ratings.covariance import Curvature, PairCounts
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
+from evenbreak.ratings.provisional import established_from, is_provisional
 from evenbreak.ratings.scale import Scale
 
 if TYPE_CHECKING:
@@ -114,6 +110,11 @@ class Ratings:
         teams and divisions differ beforehand.
     form
         how much players vary from match to match, if that was estimated (see `day_form`).
+    games_behind
+        the games that each rating rests on: those played, what matches known by their winner alone
+        are worth in games, and those behind a rating that was brought along.
+    least_games
+        from how many of them a player has a place in lists; None: `established_from` says.
     """
 
     players: tuple[str, ...]
@@ -141,6 +142,8 @@ class Ratings:
     break_games: float = 0.0
     levels: Levels = field(default_factory=Levels)
     form: DayForm | None = None
+    games_behind: Floats
+    least_games: int | None = None
     _played: PairCounts | LikelihoodTerms = field(repr=False)
     _skill: Floats = field(repr=False)
     _break_precision: float | None = field(default=None, repr=False)
@@ -153,21 +156,37 @@ class Ratings:
             f"{self.scale.name} scale>"
         )
 
+    @property
+    def established_from(self) -> int:
+        """The games from which a player has a place in lists."""
+        known = self.least_games
+        return established_from(self.games_behind) if known is None else known
+
+    @property
+    def provisional(self) -> Bools:
+        """Which ratings rest on too few games for a place in lists."""
+        return is_provisional(self.games_behind, self.established_from)
+
     def strongest_first(self, players: Iterable[int] | None = None) -> list[int]:
-        """Return players (positions in `players`; None: all), the strongest first, then by name."""
+        """Return players in the order of a list, as positions in `players`.
+
+        Those who have a place come first, then those whose ratings are provisional; each the
+        strongest first, then by name. `players` are those to be listed; None: all.
+        """
         # Rounded in log-odds, so that neither the scale nor the last bits decide.
         strength = np.round(self.scale.log_odds(self.rating - self.anchor), 9)
+        provisional = self.provisional
         chosen = range(len(self.players)) if players is None else players
-        return sorted(chosen, key=lambda k: (-strength[k], k))
+        return sorted(chosen, key=lambda k: (provisional[k], -strength[k], k))
 
     def to_frame(self) -> pd.DataFrame:
-        """Return every player's rating as a DataFrame, the strongest first.
+        """Return every player's rating as a DataFrame, in the order of `strongest_first`.
 
         Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
         points of the scale; games, won and lost in the matches that were used; races_won and
         races_lost, if of some matches only the winner is known; component, the same for players who
-        are linked by a chain of opponents, so that they can be compared; match_form, if it is not
-        0; and scale: its name, or the points that double the odds.
+        are linked by a chain of opponents, so that they can be compared; provisional; match_form,
+        if it is not 0; and scale: its name, or the points that double the odds.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
@@ -181,7 +200,7 @@ class Ratings:
         order = self.strongest_first()
         columns = ["rating", "standard_error", "quasi_error", "games", "won", "lost"]
         columns += ["races_won", "races_lost"] if self.races_won.any() else []
-        columns.append("component")
+        columns += ["component", "provisional"]
         return pd.DataFrame(
             {
                 "player": [self.players[k] for k in order],
@@ -420,62 +439,3 @@ class Ratings:
         if player not in self._place:
             raise InputError("{name!r} is not rated; write names as the results do", name=player)
         return self._place[player]
-
-
-LEAST = 1e-3
-"""The weight from which a source says something."""
-
-
-class RatingSource(NamedTuple):
-    """What one source says about a player's rating.
-
-    Parameters
-    ----------
-    source
-        'prior', 'brought' or 'results'.
-    rating, standard_error
-        what it alone says, in points; None where it says next to nothing.
-    weight
-        its share of the rating.
-    """
-
-    source: str
-    rating: float | None
-    standard_error: float | None
-    weight: float
-
-
-def rating_sources(ratings: Ratings, player: int) -> list[RatingSource]:
-    """Return what a player's rating is made of: the ratings, by weight, have it as their mean.
-
-    Of a rating that was made from results the part that its own prior had in it is taken out. The
-    ratings are those of `fit` without named players as its anchor.
-
-    >>> from evenbreak.ratings import Beginning, Levels, Results, fit
-    >>> old = Beginning(["Ann", "Bo"], [95, 65], [10, 10])
-    >>> night = Results.from_names(["Ann"], ["Bo"], [7], [5])
-    >>> for one in rating_sources(fit(night, levels=Levels(beginning=old)), 0):
-    ...     print(one.source, round(one.rating, 1), round(one.weight, 2))
-    prior 80.0 0.09
-    brought 95.0 0.81
-    results 80.8 0.11
-    """
-    means = ratings.prior_means
-    unit = ratings.scale.points_per_log_odds
-    rating, error = (float(column[player]) for column in (ratings.rating, ratings.standard_error))
-    prior = 1.0 / (ratings.prior_sd**2 + float(means.design[player] ** 2 @ means.level_sd**2))
-    said = {"prior": (prior, float(ratings.expected[player]))}
-    if means.known is not None and (brought := float(means.information[player])) > 0.0:
-        points = ratings.anchor + unit * float(means.known.pull[player]) / brought
-        said["brought"] = brought, points
-    before = sum(precision for precision, _ in said.values())
-    whole = max((unit / error) ** 2, before)
-    left = whole - before
-    pull = whole * rating - sum(precision * points for precision, points in said.values())
-    said["results"] = left, pull / left if left > LEAST * whole else math.nan
-    return [
-        RatingSource(name, points, unit / math.sqrt(precision), precision / whole)
-        if precision > LEAST * whole
-        else RatingSource(name, None, None, precision / whole)
-        for name, (precision, points) in said.items()
-    ]

@@ -10,9 +10,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, Ints, array_values
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import column, names
 from evenbreak.errors import InputError
+from evenbreak.ratings.provisional import is_provisional
 from evenbreak.ratings.scale import Scale, scale_of
 
 
@@ -69,8 +70,11 @@ class Roster:
     matches
         the matches that each player has played, by which some systems recognise newcomers;
         `NOT_STATED` where the list does not say.
+    provisional
+        whose rating has no place in the list; if None, new players and those whom
+        `is_provisional` finds by their games.
 
-    A column that is None is not stated for any player.
+    Any other column that is None is not stated for any player.
 
     Raises
     ------
@@ -90,6 +94,7 @@ class Roster:
     games: Ints
     component: Ints
     matches: Ints
+    provisional: Bools
 
     def __init__(
         self,
@@ -100,6 +105,7 @@ class Roster:
         *,
         component: ArrayLike | None = None,
         matches: ArrayLike | None = None,
+        provisional: ArrayLike | None = None,
     ) -> None:
         object.__setattr__(self, "players", names(players, "players"))
         many = len(self.players)
@@ -112,6 +118,10 @@ class Roster:
         ):
             values = np.full(many, unstated) if stated is None else stated
             object.__setattr__(self, name, column(values, name, many, "players", kind))
+        if provisional is None:
+            provisional = np.isnan(self.rating) | is_provisional(self.games)
+        few = column(provisional, "provisional", many, "players", np.bool_)
+        object.__setattr__(self, "provisional", few)
         if np.isinf(self.rating).any():
             raise InputError("rating holds infinity; give numbers, NaN for a new player")
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
@@ -124,6 +134,14 @@ class Roster:
 
     def __len__(self) -> int:
         return len(self.players)
+
+    def strongest_first(self, places: ArrayLike | None = None) -> Ints:
+        """Return places in the order of a list: provisional ratings last, then the strongest first.
+
+        `places` are those to be listed; None: all. Equal ratings stay in their order.
+        """
+        chosen = np.arange(len(self)) if places is None else np.asarray(places)
+        return chosen[np.lexsort((-self.rating[chosen], self.provisional[chosen]))]
 
     def position(self, player: str) -> int:
         """Return the position of a player in the list, counted from 0.
@@ -193,4 +211,5 @@ class Roster:
             self.games,
             component=self.component,
             matches=self.matches,
+            provisional=self.provisional,
         )

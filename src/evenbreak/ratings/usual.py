@@ -29,6 +29,7 @@ def usual_ratings(
     beginning: Beginning | None = None,
     anchor: float | Mapping[str, float] | None = None,
     break_advantage: float | str | None = None,
+    provisional: int | None = None,
     progress: Progress = lambda _done, _all: None,
 ) -> tuple[Ratings, PriorChoice | None]:
     """Return ratings with form of the day, and how their prior was chosen, if it was.
@@ -37,7 +38,7 @@ def usual_ratings(
     ----------
     results
         the matches.
-    scale, as_of, anchor, break_advantage
+    scale, as_of, anchor, break_advantage, provisional
         as for `fit`.
     prior
         the standard deviation of skills before any result, in log-odds; 'best': the one that
@@ -75,6 +76,7 @@ def usual_ratings(
         anchor=anchor,
         as_of=as_of,
         break_advantage=break_advantage,
+        provisional=provisional,
         prior_sd=choice.prior_sd if choice else prior if isinstance(prior, float) else PRIOR_SD,
         half_life=choice.half_life if choice else days,
         levels=choice.levels if choice else begun(beginning),

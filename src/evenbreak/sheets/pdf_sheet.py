@@ -106,7 +106,7 @@ def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSi
     def widest(texts: Sequence[str], size: float) -> float:
         return max(width_of(text, size) for text in texts)
 
-    place = widest([str(line.place) for line in lines], size)
+    place = widest([line.place for line in lines], size)
     name = min(LONGEST_NAME, widest([line.name for line in lines], size))
     rating = min(LONGEST_RATING, widest([rating_text(line) for line in lines], size))
     grouped = any(line.group is not None for line in lines)
@@ -167,8 +167,8 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than `MOST_ON_SHEET` paired players the strongest are on paper. White
-    squares stand for letters that the font lacks.
+    each a page; of more than `MOST_ON_SHEET` paired players the first of the list are on paper.
+    White squares stand for letters that the font lacks.
 
     >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
@@ -181,7 +181,9 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     shown = sheet.strongest(MOST_ON_SHEET)
     bars = Bars(shown.listed)
     grouped = count_groups(sheet.ratings) > 1
-    lines = player_lines(shown.listed, sheet.ratings.scale, bars, grouped=grouped)
+    lines = player_lines(
+        shown.listed, sheet.ratings.scale, bars, grouped=grouped, places=sheet.places
+    )
     notes = _broken(
         [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
     )
@@ -228,8 +230,8 @@ def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
         yield f"The number beside a name is its place among all {rated:,} players."
     if any(UNKNOWN in drawable(line.name) for line in lines):
         yield (
-            f"{UNKNOWN} is a letter that the font of this page lacks; the number beside a name "
-            "is its row in ratings.csv, which has it whole."
+            f"{UNKNOWN} is a letter that the font of this page lacks; ratings.csv has "
+            "the names whole, in the same order."
         )
 
 
@@ -282,7 +284,7 @@ class _Table:
         look: dict[str, Any] = {"size": sizes.text_size}
         for y, line in self._middles():
             x = MARGIN + sizes.place
-            page.centred(x, y, str(line.place), ha="right", color="0.35", **look)
+            page.centred(x, y, line.place, ha="right", color="0.35", **look)
             name = shortened(line.name, sizes.text_size, sizes.name)
             page.centred(x + GAP, y, name, ha="left", **look)
         for column, line in enumerate(self.block.across):

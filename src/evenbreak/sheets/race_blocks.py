@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.ticker import MaxNLocator
 
 from evenbreak.answers.kit.scales import decimals_of
-from evenbreak.answers.league.sheet import NO_RACE, Band, SurePair
+from evenbreak.answers.league.sheet import NO_RACE, Band, SurePair, places_in_list
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import Scale
 
@@ -20,10 +20,11 @@ NOT_OVER_THE_EDGE = (4, 96)
 class PlayerLine(NamedTuple):
     """A player's rating, and a bar of two standard errors either way, in per cent of the axis.
 
+    The rating has ~ before it if it is provisional, and the place P.
     An error that is not stated is empty; counts are None where they are not stated.
     """
 
-    place: int
+    place: str
     name: str
     rating: str
     error: str
@@ -87,22 +88,30 @@ def round_numbers(low: float, high: float, *, most: int, steps: list[float]) -> 
 
 
 def player_lines(
-    rated: pd.DataFrame, scale: Scale, bars: Bars, *, grouped: bool
+    rated: pd.DataFrame,
+    scale: Scale,
+    bars: Bars,
+    *,
+    grouped: bool,
+    places: Sequence[str] | None = None,
 ) -> list[PlayerLine]:
-    """Return the lines of a list of ratings, in its order; the index is the place, from 0.
+    """Return the lines of a list of ratings, in its order.
 
     Parameters
     ----------
     rated
         with the columns player, rating, standard_error (NaN: not stated), games (below 0: not
-        stated) and component (0: not stated); perhaps won and lost.
+        stated), component (0: not stated) and provisional; perhaps won and lost.
     scale
         of the ratings, which says how many decimals they need.
     bars
         their axis.
     grouped
         whether to say to which group a player belongs.
+    places
+        the place of each row of a longer list, in which the index is the row; None: these are all.
     """
+    places = places_in_list(rated["provisional"]) if places is None else places
     # Ratings in whole points are shown as the league knows them.
     whole = bool((rated["rating"] % 1 == 0).all())
     decimals = decimals_of(scale)
@@ -113,9 +122,9 @@ def player_lines(
         reach = 0.0 if unknown else 2 * row.standard_error
         lines.append(
             PlayerLine(
-                row.Index + 1,
+                places[row.Index],
                 row.player,
-                f"{row.rating:.{0 if whole else decimals}f}",
+                f"{'~' if row.provisional else ''}{row.rating:.{0 if whole else decimals}f}",
                 "" if unknown else f"{row.standard_error:.{decimals}f}",
                 row.games if row.games >= 0 else None,
                 getattr(row, "won", None),

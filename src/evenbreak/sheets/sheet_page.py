@@ -45,9 +45,9 @@ def sheet_html(sheet: Sheet) -> bytes:
     """Return the sheet as one HTML file that asks no other host for anything.
 
     Its Content-Security-Policy allows its own style, the script of its search box, and nothing
-    else. A wide page and paper show the table of races, a narrow one each player's races. The 500
-    strongest players are listed, and the races of the `MOST_ON_SHEET` strongest of those who are
-    paired. All else is what `report_answer` says.
+    else. A wide page and paper show the table of races, a narrow one each player's races. The first
+    500 players are listed, and the races of the first `MOST_ON_SHEET` of those who are paired. All
+    else is what `report_answer` says.
 
     Returns
     -------
@@ -176,11 +176,10 @@ def _check(tonight: Round, players: int) -> None:
 
 
 def _rated(tonight: Round) -> pd.DataFrame:
-    """Return the players who are on the page, the strongest first."""
+    """Return the players who are on the page, in the order of a list."""
     roster = tonight.roster
-    here = np.unique(tonight.pairs)
-    order = here[np.argsort(-roster.rating[here], kind="stable")]
-    columns = ("rating", "standard_error", "games", "component")
+    order = roster.strongest_first(np.unique(tonight.pairs))
+    columns = ("rating", "standard_error", "games", "component", "provisional")
     return pd.DataFrame(
         {
             "player": [roster.players[place] for place in order.tolist()],

@@ -30,13 +30,13 @@ def answer_of(tmp_path):
 
 def test_the_list_after_the_night_with_its_reasons(answer_of):
     assert "".join(to_csv(answer_of())).splitlines() == [
-        "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
-        "matches_lost,why,scale",
-        'Ann,94,,156,,,92,2,2,0,"beat Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",',
-        'Bo,80,,135,,,80,0,1,1,"lost to Ann 3-5 (race 4:5); beat =cmd() 6-1 (race 6:4)",',
-        "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6),",
-        "'=cmd(),59,,7,,,60,-1,0,1,lost to Bo 1-6 (race 4:6),",
-        "New,,,0,,,,,0,0,,",
+        "player,rating,standard_error,games,component,provisional,matches,rating_before,change,"
+        "matches_won,matches_lost,why,scale",
+        'Ann,94,,156,,no,,92,2,2,0,"beat Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",',
+        'Bo,80,,135,,no,,80,0,1,1,"lost to Ann 3-5 (race 4:5); beat =cmd() 6-1 (race 6:4)",',
+        "Cy,70,,,,yes,,71,-1,0,1,lost to Ann 2-6 (race 4:6),",
+        "'=cmd(),59,,7,,yes,,60,-1,0,1,lost to Bo 1-6 (race 4:6),",
+        "New,,,0,,yes,,,,0,0,,",
     ]
 
 
@@ -63,11 +63,11 @@ def test_each_match_is_a_line_and_each_player_is_named_once(answer_of):
     reasons, standings = answer_of().parts[1:]
     assert [row[0] for row in reasons.rows] == ["Ann", None, "Bo", None, "Cy", "=cmd()"]
     assert [row[:2] for row in standings.rows] == [
-        (1, "Ann"),
-        (2, "Bo"),
-        (3, "Cy"),
-        (4, "=cmd()"),
-        (5, "New"),
+        ("1", "Ann"),
+        ("2", "Bo"),
+        ("P1", "Cy"),
+        ("P2", "=cmd()"),
+        ("P3", "New"),
     ]
     assert standings.columns[2].text(standings.rows[-1][2]) == "new"
 

@@ -27,6 +27,7 @@ COLUMNS = [
     "races_won",
     "races_lost",
     "component",
+    "provisional",
     "scale",
 ]
 

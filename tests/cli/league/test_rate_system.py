@@ -11,12 +11,12 @@ NIGHT = (
     '2026-11-20,Ann,"Diaz, Bo",5,3,\n2026-11-20,Cy,Annie,2,6,\n2026-11-20,Cy,=cmd(),,,yes\n'
 )
 LIST = (
-    "player,rating,standard_error,games,component,matches,rating_before,change,matches_won,"
-    "matches_lost,why,scale\n"
-    'Ann,94,,156,,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",\n'
-    '"Diaz, Bo",79,,128,,,80,-1,0,1,lost to Ann 3-5 (race 4:5),\n'
-    "Cy,70,,,,,71,-1,0,1,lost to Ann 2-6 (race 4:6),\n"
-    "'=cmd(),60,,0,,,60,0,0,0,,\n"
+    "player,rating,standard_error,games,component,provisional,matches,rating_before,change,"
+    "matches_won,matches_lost,why,scale\n"
+    'Ann,94,,156,,no,,92,2,2,0,"beat Diaz, Bo 5-3 (race 5:4); beat Cy 6-2 (race 6:4)",\n'
+    '"Diaz, Bo",79,,128,,no,,80,-1,0,1,lost to Ann 3-5 (race 4:5),\n'
+    "Cy,70,,,,yes,,71,-1,0,1,lost to Ann 2-6 (race 4:6),\n"
+    "'=cmd(),60,,0,,yes,,60,0,0,0,,\n"
 )
 
 
@@ -57,7 +57,7 @@ def test_in_text_who_gained_and_why_and_the_list(rate):
         "Diaz, Bo 80 79 -1 lost to Ann 3-5 (race 4:5)",
         "Cy 71 70 -1 lost to Ann 2-6 (race 4:6)",
     ]
-    assert lines[-4:] == ["1 Ann 94 156", "2 Diaz, Bo 79 128", "3 Cy 70", "4 =cmd() 60 0"]
+    assert lines[-4:] == ["1 Ann 94 156", "2 Diaz, Bo 79 128", "P1 Cy 70", "P2 =cmd() 60 0"]
 
 
 def test_json(rate):

@@ -16,6 +16,7 @@ LEAGUE = registry(
     number("races_won", "matches won"),
     number("races_lost", "matches lost"),
     number("component", "group"),
+    text("provisional", "", shown.provisional_or_blank),
     text("player_a", "A"),
     text("player_b", "B"),
     number("a_above_b", "A above B by", signed(1), "difference"),

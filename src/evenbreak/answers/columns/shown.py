@@ -83,6 +83,11 @@ def yes_or_blank(truth: bool) -> str:
     return "yes" if truth else ""
 
 
+def provisional_or_blank(truth: bool) -> str:
+    """Return 'provisional', or nothing."""
+    return say("provisional") if truth else ""
+
+
 def no_time(match: str) -> str:
     """Return a match as CSV has it: a bare 9:5 is a time of day to a spreadsheet."""
     return f"race {match}" if match[0].isdigit() else match

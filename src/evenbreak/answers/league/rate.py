@@ -70,6 +70,7 @@ def rate_answer(
         f"{file.source}: {_counted(file, ratings)}\nRatings on {like_scale_words(ratings.scale)}",
         [
             first,
+            *([] if pairs else provisional_words(ratings)),
             *_fit_in_words(ratings, choice),
             *form_words(ratings.form, ratings.scale),
             *unlinked_words(ratings),
@@ -115,20 +116,22 @@ def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
 
 
 def _players_table(ratings: Ratings) -> Table:
-    """Return every player, group by group, the strongest of each first."""
+    """Return every player, group by group, the strongest of each first; then the provisional."""
     by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
     columns = [
         *columns_of("rating standard_error quasi_error", show={"rating": decimals(1)}),
         *columns_of("games won lost" if ratings.games.any() else "-games -won -lost"),
         *columns_of("races_won races_lost" if by_winner else "-races_won -races_lost"),
         column_of("component" if ratings.component.max() > 1 else "-component"),
+        column_of("provisional" if ratings.provisional.any() else "-provisional"),
     ]
     values: dict[Any, Any] = {"player": ratings.players}
     values |= {column: np.asarray(getattr(ratings, column.names[0])) for column in columns}
     if ratings.match_form:
         values["match_form"] = [ratings.match_form] * len(ratings.players)
     values["scale"] = [ratings.scale.text] * len(ratings.players)
-    order = sorted(ratings.strongest_first(), key=lambda k: ratings.component[k])
+    provisional, component = ratings.provisional, ratings.component
+    order = sorted(ratings.strongest_first(), key=lambda k: (provisional[k], component[k]))
     return table_by_column("players", values, order=order)
 
 
@@ -160,13 +163,38 @@ def _pair_in_words(row: Sequence[Any]) -> str:
 
 
 def _highest_in_words(ratings: Ratings) -> str:
-    best = next(k for k in ratings.strongest_first() if ratings.component[k] == 1)
+    first = (k for k in ratings.strongest_first() if ratings.component[k] == 1)
+    best = next((k for k in first if not ratings.provisional[k]), None)
     where = " in the largest group" if ratings.component.max() > 1 else ""
+    if best is None:
+        return f"Nobody{where} has a place yet."
     return (
         f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "
         f"take {_ONE(ratings.standard_error[best])}. A player's true rating is within the give or "
         "take about two times in three."
     )
+
+
+def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
+    """Return which ratings are provisional, in a sentence; none if no rating is.
+
+    `mark` is what lists have in place of a place.
+
+    >>> from evenbreak.ratings import Results, fit
+    >>> season = Results.from_names(["Ann", "Cy"], ["Bo", "Bo"], [50, 2], [40, 0])
+    >>> print(*provisional_words(fit(season)))
+    1 player with fewer than 31 games is listed last, without a place: the rating is provisional.
+    """
+    few = int(ratings.provisional.sum())
+    if not few:
+        return []
+    are, rating = ("is", "the rating is") if few == 1 else ("are", "their ratings are")
+    marked = f" ({mark}1{f' to {mark}{few:,}' if few > 1 else ''})" if mark else ""
+    games = count_of(ratings.established_from, "game")
+    return [
+        f"{count_of(few, 'player')}{marked} with fewer than {games} {are} listed last, without a "
+        f"place: {rating} provisional."
+    ]
 
 
 def _counted(file: ResultsFile, ratings: Ratings) -> str:
@@ -244,6 +272,7 @@ def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
         "points_per_doubling": scale.points_per_doubling,
         "anchor": ratings.anchor,
         "anchored_at": dict(ratings.named),
+        "provisional_below_games": ratings.established_from,
         "prior_sd_points": scale.points(ratings.prior_sd),
         "prior_sd_log_odds": ratings.prior_sd,
         "priors_tried": None

@@ -13,6 +13,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, in_files, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, some_of
+from evenbreak.answers.league.sheet import places_in_list
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.results_file import ResultsFile
@@ -27,6 +28,7 @@ from evenbreak.handicaps.systems.rating_changes import (
 )
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_watch import PlayedNight, played_nights
+from evenbreak.ratings.provisional import established_from
 from evenbreak.ratings.results import Problem, Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.validation.walk_forward import even_races
@@ -139,15 +141,10 @@ def _in_words(moves: RatingChanges) -> str:
 
 
 def _order(moves: RatingChanges) -> list[int]:
-    """Return the places of the players, the strongest first, those without a rating last."""
-    after = moves.after
-
-    def key(place: int) -> tuple[bool, float, str]:
-        rating = float(after.rating[place])
-        new = math.isnan(rating)
-        return new, 0.0 if new else -rating, after.players[place]
-
-    return sorted(range(len(after)), key=key)
+    """Return the players in the order of a list, those without a rating last."""
+    by_name = sorted(range(len(moves.after)), key=moves.after.players.__getitem__)
+    order: list[int] = moves.after.strongest_first(by_name).tolist()
+    return order
 
 
 def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | None) -> Table:
@@ -160,6 +157,7 @@ def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | Non
         "standard_error": _stated(after.standard_error),
         "games": _stated(after.games),
         "component": [one or None for one in after.component.tolist()],
+        **({"provisional": after.provisional.tolist()} if after.provisional.any() else {}),
         "matches": _stated(after.matches),
         "rating_before": _numbers(before.rating),
         "change": _numbers(after.rating - before.rating),
@@ -198,12 +196,16 @@ def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
 
 def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
     games = _stated(moves.after.games)
+    places = places_in_list(moves.after.provisional[order])
     rows = [
-        (rank, moves.after.players[place], float(moves.after.rating[place]), games[place])
-        for rank, place in enumerate(order, 1)
+        (at, moves.after.players[place], float(moves.after.rating[place]), games[place])
+        for at, place in zip(places, order, strict=True)
     ]
     columns = columns_of("rank player rating games", show={"rating": points_or_new})
-    return Table("", columns, rows, "The new list:")
+    few = moves.after.provisional.any()
+    least = count_of(established_from(moves.after.games), "game")
+    title = f"The new list (P: provisional, fewer than {least}):" if few else "The new list:"
+    return Table("", columns, rows, title)
 
 
 def _reasons(moves: RatingChanges) -> dict[int, list[str]]:

@@ -13,6 +13,7 @@ from evenbreak.answers.kit.remarks import Remark, Remarks, file_name, fingerprin
 from evenbreak.answers.kit.scales import form_used_words, game_chance, like_scale_words, points_on
 from evenbreak.answers.kit.wording import count_of, percent, race
 from evenbreak.answers.league.prior import level_words, prior_warnings
+from evenbreak.answers.league.rate import provisional_words
 from evenbreak.answers.league.sheet import MOST_ON_SHEET, NO_RACE, Sheet, count_groups, dates_of
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.ratings.fitted import Ratings
@@ -73,7 +74,7 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
 def _race_table(sheet: Sheet) -> Table:
     """Return the races with a row and a column for each player."""
     names = sheet.listed["player"].tolist()
-    places = [str(place + 1) for place in sheet.listed.index]
+    places = [sheet.places[row] for row in sheet.listed.index]
     wide = max(map(len, places))
     columns = columns_of("row_player")
     columns += [column_of("against_place", place=place) for place in places]
@@ -97,7 +98,7 @@ def _ratings_table(sheet: Sheet) -> Table:
         keys += " component"
     columns = columns_of(f"place_number {keys}", show={"rating": points, "standard_error": points})
     frame = listed[keys.split()]
-    rows = [(place + 1, *row) for place, row in zip(frame.index, rows_of(frame), strict=True)]
+    rows = [(sheet.places[at], *row) for at, row in zip(frame.index, rows_of(frame), strict=True)]
     more = len(sheet.rated) > len(listed)
     title = f"#: place among all {len(sheet.rated):,} players. " if more else ""
     return Table("", columns, rows, f"{title}Give or take: one standard error.")
@@ -164,12 +165,12 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
     if listed is not None and listed < rated:
         yield Remark(
             f"{rated - listed:,} of {rated:,} rated players",
-            f"the list ends with the {listed:,} strongest; ratings.csv has all",
+            f"the list ends with the first {listed:,}; ratings.csv has all",
         )
     if in_table is not None and in_table < paired:
         yield Remark(
             f"the races of {paired - in_table:,} of {paired:,} paired players",
-            f"the table holds the {in_table:,} strongest; matchups.csv has all",
+            f"the table holds the first {in_table:,} of the list; matchups.csv has all",
         )
     if paired < rated:
         yield Remark(
@@ -242,6 +243,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
     )
     if (groups := count_groups(ratings)) > 1:
         yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
+    yield from provisional_words(ratings, "P")
     if idle := int(ratings.idle.sum()):
         yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.arrays import Floats, Ints
@@ -93,14 +93,27 @@ def unfair(chances: Any) -> Any:
 def all_pairs(roster: Roster) -> Ints:
     """Return all pairs of players as places in the roster, the stronger of the two first.
 
-    The pairs of the strongest player come first; players with equal ratings stay in the order
-    of the list.
+    The pairs come in the order of the list of ratings, in which provisional ratings are last;
+    players with equal ratings stay in the order of the roster.
 
     >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
     [[1, 2], [1, 0], [2, 0]]
     """
-    order = np.argsort(-roster.rating, kind="stable")
-    return order[np.column_stack(np.triu_indices(len(roster), 1))]
+    return pairs_of(roster, roster.strongest_first())
+
+
+def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
+    """Return all pairs of some players, who are given in the order of a list.
+
+    >>> club = Roster(["Ann", "Bo", "Cy"], [70, 92, 99], games=[400, 300, 5])
+    >>> pairs_of(club, club.strongest_first()).tolist()
+    [[1, 0], [2, 1], [2, 0]]
+    """
+    places = np.asarray(order, dtype=np.int64)
+    pairs = places[np.column_stack(np.triu_indices(len(places), 1))]
+    weaker = roster.rating[pairs[:, 0]] < roster.rating[pairs[:, 1]]
+    pairs[weaker] = pairs[weaker, ::-1]
+    return pairs
 
 
 def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:

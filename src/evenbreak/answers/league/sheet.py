@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import count, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from evenbreak import __version__
 from evenbreak.answers.kit.remarks import file_name, fingerprints
 from evenbreak.answers.kit.scales import decimals_of, like_scale_words
 from evenbreak.answers.kit.wording import race
-from evenbreak.answers.league.roster_matchups import OfferedRaces, roster_matchups
+from evenbreak.answers.league.roster_matchups import OfferedRaces, pairs_of, roster_matchups
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import DECIMALS
 from evenbreak.files.results.results_file import ResultsFile
@@ -108,10 +108,10 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
         the frame of `roster_matchups`. Where no chain of opponents links the two, their ratings
         cannot be compared: there are no numbers then, and the note says so.
     """
-    order = ratings.strongest_first(players)
-    pairs = np.array(list(combinations(order, 2)), dtype=np.int64).reshape(-1, 2)
+    roster = _as_listed(ratings)
+    pairs = pairs_of(roster, ratings.strongest_first(players))
     return roster_matchups(
-        _as_listed(ratings), pairs, scale=ratings.scale, offered=offered, form=ratings.match_form
+        roster, pairs, scale=ratings.scale, offered=offered, form=ratings.match_form
     ).frame
 
 
@@ -125,6 +125,7 @@ def _as_listed(ratings: Ratings) -> Roster:
         np.minimum(np.round(ratings.quasi_error, DECIMALS), most),
         ratings.games + ratings.races_won + ratings.races_lost,
         component=ratings.component,
+        provisional=ratings.provisional,
     )
 
 
@@ -313,16 +314,21 @@ class Sheet:
         return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
 
     def strongest(self, most: int) -> Sheet:
-        """Return the sheet with the races of the strongest players only."""
+        """Return the sheet with the races of the first players of the list only."""
         names = set(self.listed["player"].head(most))
         both = self.paired["player_a"].isin(names) & self.paired["player_b"].isin(names)
         return replace(self, paired=self.paired[both])
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """The rows of `rated` of the players who are paired; the index is the place, from 0."""
+        """The rows of `rated` of the players who are paired; the index is the row there."""
         names = {*self.paired["player_a"], *self.paired["player_b"]}
         return self.rated[self.rated["player"].isin(names)]
+
+    @cached_property
+    def places(self) -> list[str]:
+        """The place of each row of `rated`."""
+        return places_in_list(self.rated["provisional"])
 
     @cached_property
     def races(self) -> dict[tuple[str, str], str]:
@@ -357,6 +363,16 @@ class Sheet:
         made = summary_frame(self.file, self.ratings, self.paired, self.offered)
         given = pd.DataFrame({"key": ["title"], "value": [self.title]}, dtype=object)
         return pd.concat([given, made], ignore_index=True) if self.title else made
+
+
+def places_in_list(provisional: Iterable[bool]) -> list[str]:
+    """Return the places in a list of ratings: 1, 2, ..., and P1, P2, ... of those without one.
+
+    >>> places_in_list([False, False, True, True])
+    ['1', '2', 'P1', 'P2']
+    """
+    numbers = {False: count(1), True: count(1)}
+    return [f"{'P' if few else ''}{next(numbers[bool(few)])}" for few in provisional]
 
 
 def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
@@ -394,6 +410,8 @@ def summary_frame(
         "player_count": len(ratings.players),
         "players_without_games": int(ratings.idle.sum()),
         "components": count_groups(ratings),
+        "provisional_below_games": ratings.established_from,
+        "players_provisional": int(ratings.provisional.sum()),
         "groups_of_similar_names": len(file.similar_names),
         "scale": f"{like_scale_words(scale)}; not an official rating",
         "points_per_doubling": scale.points_per_doubling,

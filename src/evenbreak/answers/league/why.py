@@ -18,10 +18,11 @@ from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_w
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.sheet import matchups_frame
 from evenbreak.files.results.results_file import ResultsFile
-from evenbreak.ratings.fitted import Ratings, rating_sources
+from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results, who_won
 from evenbreak.ratings.scale import Scale
+from evenbreak.ratings.sources import rating_sources
 from evenbreak.words import FilePath, joined, say
 
 SOURCES = {

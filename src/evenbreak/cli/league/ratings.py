@@ -41,7 +41,12 @@ def rate(asked: Rate) -> Answer:
     points = anchor if isinstance(anchor, dict) else {"the mean": anchor or math.nan}
     scale = asked.scale or unstated_scale(points.values(), list(points), SAY_WHICH, "--anchor")
     ratings, choice = rated(
-        asked, file, scale, anchor=anchor, break_advantage=asked.break_advantage
+        asked,
+        file,
+        scale,
+        anchor=anchor,
+        break_advantage=asked.break_advantage,
+        provisional=asked.provisional,
     )
     warnings = []
     if asked.break_advantage is not None and ratings.break_advantage is None:

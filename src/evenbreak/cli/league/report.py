@@ -43,7 +43,7 @@ def command(asked: Report) -> Answer:
         public = without_folders(more, asked.players_file, *asked.results)
         file = replace(file, warnings=(*file.warnings, *public))
     say(f"Rating {len(file.results.players):,} players")
-    ratings, choice = rated(asked, file, asked.scale)
+    ratings, choice = rated(asked, file, asked.scale, provisional=asked.provisional)
     if asked.players:
         names = _names(asked.players, ratings.players)
         chosen = answers.find_players(ratings, names, said="--players")

@@ -146,6 +146,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         games,
         component=column("component"),
         matches=column("matches"),
+        provisional=column("provisional"),
     )
     differ = on_list & (np.abs(stated.rating - roster.rating) > APART)
     warnings = [

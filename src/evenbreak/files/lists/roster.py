@@ -13,7 +13,7 @@ from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.tables.names import Name, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import quoted, warning
-from evenbreak.files.tables.schema import Number, Parsed, Schema, Text, Whole
+from evenbreak.files.tables.schema import Number, Parsed, Schema, Text, Whole, YesNo
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.roster import NOT_STATED, Roster
@@ -75,6 +75,11 @@ ROSTER = Schema(
         "matches played",
         "the matches that the player has played; used by [systems](systems.md) with longer steps "
         "for newcomers; players without a value are treated as established",
+    ),
+    provisional=YesNo(
+        "preliminary",
+        "whether the rating rests on so few games that it has no place in the list",
+        values={"yes": True, "no": False, "true": True, "false": False},
     ),
     races_won=_COUNT.called(
         "",
@@ -318,7 +323,13 @@ def roster_of(table: TextTable) -> RosterFile:
     scale, form = _scale(table), _form(table)
     table.problems.raise_any()
     roster = Roster(
-        names, rating, error, games, component=table["component"], matches=table["matches"]
+        names,
+        rating,
+        error,
+        games,
+        component=table["component"],
+        matches=table["matches"],
+        provisional=table["provisional"] if "provisional" in table.found else None,
     )
     similar = similar_name_warnings(
         similar_names(names), table.source, say("if so, keep one of them")

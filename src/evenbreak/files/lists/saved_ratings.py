@@ -85,7 +85,7 @@ def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> by
         ratings.rating,
         ratings.quasi_error,
         ratings.standard_error,
-        ratings.games + ratings.races_won + ratings.races_lost,
+        np.round(ratings.games_behind).astype(np.int64),
         ratings.expected,
     )
     rows: list[tuple[Any, ...]] = [

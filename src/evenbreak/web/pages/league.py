@@ -47,9 +47,9 @@ _TYPES = {
 
 
 class Row(NamedTuple):
-    """A player: place, name, rating and its uncertainty, games."""
+    """A player: place, None if the rating is provisional, name, rating and its error, games."""
 
-    place: int
+    place: int | None
     name: str
     rating: float
     error: float
@@ -156,6 +156,7 @@ async def player(request: Request) -> Response:
         live=shown["working"],
         quick=shown["working"],
         one=next(row for row in rows if row.name == sheet.ratings.players[pair[0]]),
+        least=sheet.ratings.established_from,
         names=[row.name for row in rows[:_MOST_LISTED]],
         matches=await asyncio.to_thread(_matches, sheet, pair[0]),
         **shown,
@@ -183,7 +184,8 @@ def _why(sheet: Sheet, pair: tuple[int, int]) -> Any:
 def _rows(sheet: Sheet) -> list[Row]:
     table = sheet.rated
     columns = (table[name] for name in ("player", "rating", "standard_error", "games"))
-    return [Row(k, *one) for k, one in enumerate(zip(*columns, strict=True), 1)]
+    places = [None if few else k for k, few in enumerate(table["provisional"], 1)]
+    return [Row(place, *one) for place, one in zip(places, zip(*columns, strict=True), strict=True)]
 
 
 def _matches(sheet: Sheet, seat: int) -> list[Played]:

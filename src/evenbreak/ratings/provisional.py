@@ -1,0 +1,79 @@
+"""Who has a place in a list of ratings: those whose ratings rest on enough games.
+
+A rating from a handful of games says little, so that among many newcomers one is near the top by
+luck. FargoRate calls a rating preliminary below 200 games; so do lists here. In a league that has
+played less, that would leave nobody: there the number is a third of what its regulars have, the
+games of the player in the middle when each player counts once for each game. Visitors with a match
+or two, however many, do not change it, and whoever is in the middle always has a place.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from evenbreak.arrays import Bools, Floats
+
+ESTABLISHED = 200
+"""Games from which a rating is established everywhere."""
+
+SHARE = 3.0
+"""By what the games of a regular are divided in a league that has played less."""
+
+
+def established_from(games: ArrayLike) -> int:
+    """Return from how many games a rating of a list is established: 200, or fewer in a small one.
+
+    Parameters
+    ----------
+    games
+        those that each rating rests on.
+
+    >>> established_from([400, 900, 12]), established_from([60] * 12 + [8] * 40)
+    (200, 20)
+    >>> established_from([11, 11]), established_from([0, 0])
+    (4, 1)
+    """
+    played = np.sort(np.asarray(games, dtype=float).clip(0.0))[::-1]
+    total = played.cumsum()
+    middle = played[np.searchsorted(total, total[-1] / 2.0)] if len(played) else 0.0
+    return int(np.clip(math.ceil(middle / SHARE), 1, ESTABLISHED))
+
+
+def is_provisional(games: ArrayLike, least: int | None = None) -> Bools:
+    """Return which ratings rest on fewer games than a list asks for.
+
+    Parameters
+    ----------
+    games
+        those that each rating rests on; below 0 where that is not stated. Such a rating may rest
+        on none, unless it is stated for nobody, or only that players are new, by 0.
+    least
+        from how many games a rating is established; None: `established_from`.
+
+    >>> is_provisional([300, 12, -1]), is_provisional([-1, -1])
+    (array([False,  True,  True]), array([False, False]))
+    """
+    stated = np.asarray(games)
+    if not (stated > 0).any():
+        return np.asarray(stated == 0)
+    return np.asarray(stated < (established_from(stated) if least is None else least))
+
+
+def games_of_winner(race_a: ArrayLike, race_b: ArrayLike) -> Floats:
+    """Return how many games say as much as the winner of a race of which no score is known.
+
+    Where both win alike, a game says p (1 - p) about the log-odds, and the winner of the race
+    [p (1 - p) W'(p)]² / (1/4), with W(p) = 1/2: the quotient is 4 p (1 - p) W'(p)².
+
+    >>> games_of_winner([1, 7, 7], [1, 7, 4]).round(1)
+    array([1. , 8.6, 6.7])
+    """
+    from scipy.special import betaincinv, betaln
+
+    m, n = np.maximum(race_a, 1), np.maximum(race_b, 1)
+    p = betaincinv(m, n, 0.5)
+    slope = np.exp((m - 1) * np.log(p) + (n - 1) * np.log1p(-p) - betaln(m, n))
+    return np.asarray(4.0 * p * (1.0 - p) * slope**2)
