@@ -258,10 +258,12 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     return (warning(table.source, table.lines[row], text),)
 
 
-def met_pairs(results: Results) -> list[tuple[str, str]]:
-    """Return the names that played each other, each pair once for either order."""
-    pairs = np.unique(np.column_stack([results.player_a, results.player_b]), axis=0)
-    return [(results.players[a], results.players[b]) for a, b in pairs.tolist()]
+def met_pairs(results: Results) -> Iterator[tuple[str, str]]:
+    """Yield the names that played each other, each pair once for either order."""
+    many = max(len(results.players), 1)
+    ends = np.divmod(np.unique(results.player_a * many + results.player_b), many)
+    for a, b in zip(*(end.tolist() for end in ends), strict=True):
+        yield results.players[a], results.players[b]
 
 
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:

@@ -53,6 +53,9 @@ def clean_name(text: str) -> str:
     >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()"), clean_name("Bo\u202e")
     ('Zoë Kestleman', '=cmd()', 'Bo')
     """
+    # Nearly all names are printed as they are written, and a file holds each several times.
+    if text.isascii() and text.isprintable() and "'" not in text and text == " ".join(text.split()):
+        return text
     return undefused(" ".join(unicodedata.normalize("NFC", _HIDDEN.sub("", text)).split()))
 
 
@@ -245,6 +248,8 @@ class PlayerNames:
 
         An alias as written comes before one that differs in case or blanks.
         """
+        if not self._means:
+            return ""
         clean = clean_name(text)
         if clean in self._means:
             return self._means[clean]
@@ -268,8 +273,8 @@ def is_name(name: str) -> bool:
     >>> is_name("Zoë"), is_name("Bo\x07"), is_name("")
     (True, False, False)
     """
-    return 0 < len(name) <= LONGEST_NAME and not any(
-        unicodedata.category(letter) == "Cc" for letter in name
+    return 0 < len(name) <= LONGEST_NAME and (
+        name.isprintable() or not any(unicodedata.category(letter) == "Cc" for letter in name)
     )
 
 

@@ -13,6 +13,8 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
+import numpy as np
+
 from evenbreak.files.tables.problems import first_ones, quoted, warning
 from evenbreak.words import listed, say
 
@@ -36,11 +38,12 @@ _PLAIN = str.maketrans(
     {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
 )
 _UMLAUT = re.compile("([aou])e")
+_WORD = re.compile(r"[^\W_]+")
 _LONG = re.compile(rf"\S{{{SHORTEST_WORD},}}")
 
 
 def similar_names(
-    names: Iterable[str], met: Collection[tuple[str, str]] = ()
+    names: Iterable[str], met: Iterable[tuple[str, str]] = ()
 ) -> list[tuple[str, ...]]:
     """Return groups of different names that may mean one player.
 
@@ -70,7 +73,8 @@ def similar_names(
         set(_alike(bare, _given_name)),
         set(_a_slip_apart(words)),
     )
-    apart = {frozenset(pair) for pair in met}
+    doubted = {name for groups in kinds[1:] for group in groups for name in group}
+    apart = {frozenset(pair) for pair in met if doubted.issuperset(pair)} if doubted else set()
     ranked = [
         (kind, group)
         for kind, groups in enumerate(kinds)
@@ -110,10 +114,11 @@ def similar_name_warnings(
 def _words(name: str) -> Words:
     """Return the words of a name, given names first, without accents and in one case."""
     last, _, given = name.partition(",")
-    plain = f"{given} {last}".casefold().translate(_PLAIN)
-    letters = unicodedata.normalize("NFKD", plain)
-    bare = "".join(letter for letter in letters if not unicodedata.combining(letter))
-    return tuple(re.findall(r"[^\W_]+", bare))
+    bare = f"{given} {last}".casefold()
+    if not bare.isascii():
+        letters = unicodedata.normalize("NFKD", bare.translate(_PLAIN))
+        bare = "".join(letter for letter in letters if not unicodedata.combining(letter))
+    return tuple(_WORD.findall(bare))
 
 
 def _without_umlauts(word: str) -> str:
@@ -153,11 +158,15 @@ def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
     spelt: defaultdict[str, list[str]] = defaultdict(list)
     for name, split in words.items():
         spelt[" ".join(split)].append(name)
+    # Hardly any of the many keys is that of two names: a look at their hashes finds those.
+    numbers = [np.fromiter(map(hash, (text, *_slips(text))), dtype=np.int64) for text in spelt]
+    number, many = np.unique(np.concatenate([np.zeros(0, np.int64), *numbers]), return_counts=True)
+    shared = set(number[many > 1].tolist())
     alike: defaultdict[str, set[str]] = defaultdict(set)
-    for text in spelt:
-        alike[text].add(text)
-        for key in _slips(text):
-            alike[key].add(text)
+    for text, own in zip(spelt, numbers, strict=True):
+        if not shared.isdisjoint(own.tolist()):
+            for key in (text, *_slips(text)):
+                alike[key].add(text)
     for key, texts in alike.items():
         # A text without marks is the others with a letter left out, if it is a name itself.
         if len(texts) > 1 and (key in spelt or not MARKS.isdisjoint(key)):

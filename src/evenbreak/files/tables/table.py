@@ -264,8 +264,9 @@ def _columns(
             fit = [_fits(line, row, width, problems) for line, row in zip(lines, rows, strict=True)]
             lines, rows = list(compress(lines, fit)), list(compress(rows, fit))
         all_lines.extend(lines)
+        cells = list(zip(*rows, strict=False))
         for name, place in places.items():
-            codes[name].extend(map(numbers[name].__getitem__, map(itemgetter(place), rows)))
+            codes[name].extend(map(numbers[name].__getitem__, cells[place] if cells else ()))
     columns = {
         name: _stripped(list(numbers[name]), np.array(codes[name], dtype=np.int64))
         for name in places
