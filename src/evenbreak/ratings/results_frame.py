@@ -132,27 +132,30 @@ def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
     """Return names in one spelling of those that differ in case or blanks alone, with a warning."""
     counts = Counter(name for column in columns for name in column)
     spelling = usual_spellings(counts)
-    for name in sorted(counts):
-        usual = spelling[folded(name)]
+    meant = {name: spelling[folded(name)] for name in sorted(counts)}
+    for name, usual in meant.items():
         if usual != name:
             warnings.warn(
                 f"{name!r} is read as {usual!r}, as names that differ in case or blanks alone mean "
                 "one player",
                 stacklevel=4,
             )
-    return [[spelling[folded(name)] for name in column] for column in columns]
+    return [[meant[name] for name in column] for column in columns]
 
 
 def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str]) -> list[int]:
     """Return 1 where a column names player a, 2 where it names player b, 0 where neither."""
     sides = []
     for row, cell in enumerate(reader.cells(column)):
-        name = "" if cell is None else _name(cell) or ""
+        if cell is None:
+            sides.append(0)
+            continue
+        name = _name(cell) or ""
         either = {folded(a[row]): 1, folded(b[row]): 2, "a": 1, "b": 2, a[row]: 1, b[row]: 2}
         name = name if name in either else folded(name)
-        if cell is not None and name not in either:
+        if name not in either:
             reader.add(row, f"{column} is {cell!r}; give a, b or the name of one of the players")
-        sides.append(0 if cell is None else either.get(name, 0))
+        sides.append(either.get(name, 0))
     return sides
 
 
