@@ -12,7 +12,8 @@ from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.covariance import count_pairs
 from evenbreak.ratings.posterior import find_mode
-from evenbreak.ratings.validation.walk_forward import DailyRefit, even_races, walk_forward
+from evenbreak.ratings.validation.daily_refit import DailyRefit
+from evenbreak.ratings.validation.walk_forward import even_races, walk_forward
 from tiers import examples
 
 
