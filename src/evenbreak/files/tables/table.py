@@ -11,7 +11,6 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress, count
-from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
