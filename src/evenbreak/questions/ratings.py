@@ -76,8 +76,9 @@ class Assumed(Question):
             "or any list of rated players.",
             section=_RATING,
             more="See [the file](../files.md#ratings-to-begin-from). Ratings without a standard "
-            "error count as far as they help to predict; with `--prior POINTS` they are taken to "
-            "be off by half of what doubles the odds.",
+            "error count as far as they help to predict, those from more games more; with "
+            "`--prior POINTS` they are taken to be off by what their games leave open, or half of "
+            "what doubles the odds.",
         ),
     ] = None
 

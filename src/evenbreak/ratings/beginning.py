@@ -15,7 +15,9 @@ says about the skill θ what results with the information
 
 would: a likelihood proportional to exp(-J θ²/2 + Jx θ). That is what is carried over, so that the
 new season may have another prior, and so that old results fade with a half-life like any others.
-A rating that was not made from results has no such prior: J = 1/s².
+A rating that was not made from results has no such prior: J = 1/s². Of a list that states games and
+no errors, n games say J = n/4 (a game between equals says p (1 - p)); what such a list is off by
+besides is the same for all its ratings, b², so that J = 1/(b² + 4/n).
 """
 
 from __future__ import annotations
@@ -27,11 +29,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats, array_values
+from evenbreak.arrays import Bools, Floats, array_values
 from evenbreak.checks import column, names, number
 from evenbreak.errors import InputError
 from evenbreak.ratings.decay import day_of
 from evenbreak.ratings.results import Results
+from evenbreak.ratings.roster import error_of_games
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 
@@ -64,14 +67,15 @@ class Beginning:
     standard_error
         how far each rating may be off, in points. That of a difference is taken to be the root of
         the sum of two squares, so use quasi-standard errors where there are any. NaN where not
-        known: then `Levels.brought_sd` says it.
+        known: then the games and `Levels.brought_sd` say it.
     scale
         the scale of the ratings.
     prior_sd, prior_mean
         the prior with which they were made, in points: its standard deviation, NaN or None for
         ratings that were not made from results, and its means.
     games
-        the games behind each rating, for what newcomers lack; None: 0.
+        the games behind each rating, 0 where they are not known; None: 0. They say how far off it
+        may be where no standard error does, and what newcomers lack.
     as_of
         the day of the ratings; None: the day before the first result.
 
@@ -150,6 +154,11 @@ class Beginning:
         return self.centre(players) if counts and self.scale.same_points(scale) else None
 
     @property
+    def by_games(self) -> Bools:
+        """Which ratings state games, but not how far off they may be."""
+        return np.asarray(np.isnan(self.standard_error) & (self.games > 0.0))
+
+    @property
     def unknown_error(self) -> bool:
         """Whether some rating does not say how far off it may be."""
         return bool(np.isnan(self.standard_error).any())
@@ -162,16 +171,25 @@ class Beginning:
         players
             the names. Their skills are counted from `centre`.
         brought_sd
-            how far off ratings without a standard error are, in natural log-odds; 0: they are
-            not used.
+            how far off ratings without a standard error are, besides what their games leave open,
+            in natural log-odds; 0: they are not used.
+
+        >>> old = Beginning(["Ann"], [95], games=[200])
+        >>> old.known(["Ann"], brought_sd=0.1).information.round(1)
+        array([33.3])
         """
         unit = self.scale.log_odds(1.0)
         zero = self.centre(players)
         error = np.where(np.isnan(self.standard_error), np.nan, self.standard_error * unit)
         if brought_sd:
-            error = np.where(np.isnan(error), number(brought_sd, "brought_sd"), error)
+            besides = number(brought_sd, "brought_sd")
+            of_games = np.where(
+                self.by_games, unit * error_of_games(self.games, self.scale, np.inf), 0.0
+            )
+            error = np.where(np.isnan(error), np.hypot(besides, of_games), error)
         precision = np.nan_to_num(error**-2.0)
         prior = np.where(precision > 0.0, np.nan_to_num((self.prior_sd * unit) ** -2.0), 0.0)
+        precision += np.where(self.by_games, prior, 0.0)  # games alone say nothing of a prior
         pull = precision * (self.rating - zero) * unit - prior * (self.prior_mean - zero) * unit
         information = precision - prior
         # An error as large as the prior's says nothing.

@@ -39,6 +39,9 @@ OPENING = 28.0
 BROUGHT_SD = math.log(2.0) / 2.0
 """How far off a rating that players bring along is taken to be, if nothing says it."""
 
+BESIDES_GAMES = 0.05
+"""How far off it is taken to be if its games say it: that much more, for what they do not know."""
+
 GROUPS = {"team": ("team_a", "team_b"), "division": ("division", "division")}
 """The columns that hold the group of player a and of player b."""
 
@@ -66,7 +69,8 @@ class Levels:
         do not matter.
     brought_sd
         how far off ratings are that players bring along, where these do not say it themselves
-        (standard deviation); 0: those ratings are not used.
+        (standard deviation), besides what the games behind them leave open; 0: those ratings are
+        not used.
     beginning
         the ratings that players bring along; None: there are none.
 
@@ -104,10 +108,12 @@ def begun(beginning: Beginning | None) -> Levels:
     """Return what is known where nothing is estimated: the ratings that players bring along.
 
     Those that do not say how far off they may be are taken to be off by half of what doubles
-    the odds.
+    the odds, or, if all of them state games, by what these leave open.
     """
-    unknown = beginning is not None and beginning.unknown_error
-    return Levels(beginning=beginning, brought_sd=BROUGHT_SD if unknown else 0.0)
+    if beginning is None or not beginning.unknown_error:
+        return Levels(beginning=beginning)
+    all_by_games = (beginning.by_games | ~np.isnan(beginning.standard_error)).all()
+    return Levels(beginning=beginning, brought_sd=BESIDES_GAMES if all_by_games else BROUGHT_SD)
 
 
 def first_evenings(results: Results, levels: Levels) -> FirstEvenings:

@@ -47,7 +47,7 @@ FEWEST = 100
 """Games (or matches known by the winner alone) to predict before a width is chosen by them."""
 
 TRIED = {
-    "brought_sd": (0.1, 0.2, 0.4, 0.8),
+    "brought_sd": (0.05, 0.1, 0.2, 0.4, 0.8),
     "race": (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0),
     "division_sd": (0.1, 0.2, 0.4, 0.8),
     "team_sd": (0.1, 0.2, 0.4, 0.8),

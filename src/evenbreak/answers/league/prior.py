@@ -96,7 +96,9 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     have = "brings a rating" if known == 1 else "bring a rating"
     text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
     if beginning.unknown_error:
-        text += f", which is taken to be off by {_ONE(ratings.scale.points(off))} points or so"
+        points, by_games = _ONE(ratings.scale.points(off)), beginning.by_games.any()
+        open_ = f"what its games leave open, and another {points} points"
+        text += f", which is taken to be off by {open_ if by_games else f'{points} points or so'}"
     if 0 < len(others) <= _FEW:
         text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
     yield f"{text}."
