@@ -8,6 +8,8 @@ import pytest
 from evenbreak.answers.league.validate import remarks
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, scale_of, validate
+from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.validation.advantages import ByExperience
 from places import SHARED
 
 NPL = scale_of("npl")
@@ -67,6 +69,15 @@ def test_the_order_of_the_file_is_not_taken_for_an_advantage(sided, changed, wor
 def sided(play_season):
     """A season in which the first column has an advantage."""
     return validate(play_season(1, side=0.3, matches=600), prior_sd=0.5)
+
+
+def test_what_a_prior_does_to_newcomers_is_said_only_with_its_remedy(sided, chosen):
+    new = ByExperience(0, 0, 100, 900, 0.5, 0.38, Estimate(-0.5, -0.7, -0.3), 1.0)
+    text = said(dataclasses.replace(sided, experience=(new,)), "overrated before")
+    assert "38% of their games (50% predicted)" in text
+    assert "Leave {prior} out" in text
+    assert chosen.choice is not None
+    assert said(dataclasses.replace(chosen, experience=(new,)), "overrated before") is None
 
 
 @pytest.mark.slow

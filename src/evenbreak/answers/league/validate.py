@@ -29,7 +29,7 @@ from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.validation.advantages import FEWEST_ON_A_DATE
 from evenbreak.ratings.validation.validate import Validation
-from evenbreak.words import listed, say
+from evenbreak.words import joined, listed, say
 
 
 def validate_answer(
@@ -321,20 +321,28 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
 
 
 def _newcomers(found: Validation, scale: Scale) -> str:
-    """Return which players with little experience are overrated or underrated, '' if none are."""
+    """Return which players with little experience a given prior gets wrong, and the remedy, or ''.
+
+    Before their first game players are where the prior puts them, and soon after still near it. The
+    best prior comes with the best start for newcomers, so that it leaves nothing to be done.
+    """
+    if found.choice is not None:
+        return ""
     for one in found.experience:
         way = clearly_off(one.stronger, 0.0, tests=len(found.experience))
         if way and one.most is not None:
             who = "before their first game"
             if one.most:
                 who = f"after {one.fewest} to {one.most} games"
-            return (
+            text = (
                 f"Players are {'under' if way > 0 else 'over'}rated {who}: against more "
                 f"experienced opponents they won {percent(one.seen)} of their games "
                 f"({percent(one.predicted)} predicted), as if they were "
                 f"{abs(one.stronger.value) * scale.points_per_log_odds:.0f} points "
                 f"{'stronger' if way > 0 else 'weaker'} than rated."
             )
+            remedy = say("Leave {prior} out: the best one also finds where newcomers start.")
+            return joined([text, remedy])
     return ""
 
 
