@@ -10,6 +10,7 @@ from evenbreak.tournaments.clock.event_pace import event_pace
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Called, Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.settling import break_ties, tied_groups
 from places import ROOT
 
 SAVED = ROOT / "tests" / "files" / "saved"
@@ -64,6 +65,9 @@ def timed_night(events: list[Event], begins: str, slow: float = 1.0, seed: int =
                 score = score if rng.random() < 0.5 else score[::-1]
                 busy[table] = now + timedelta(seconds=round(60 * minutes)), name, score
                 playing |= {*pair}
+        if not busy and tied_groups(state):
+            found.append(Event(now.isoformat(), break_ties(state, rng).ranked))
+            continue
         if not busy:
             return found
         table = min(busy, key=lambda one: busy[one][0])

@@ -76,6 +76,7 @@ def usual(command: click.Command, name: str) -> str:
 NAMED_BY_THE_PAGE = {"form": "format"}
 ASKED_BY_BOTH = (
     *("form", "final", "qualifiers", "groups", "pod_size", "rounds", "third_place", "seeding"),
+    "knockout_size",
     *("losers_race", "final_race", "discipline", "scale"),
 )
 

@@ -100,6 +100,8 @@ class TournamentPlan(Format, Question):
                     formats=" or ".join(one.field.formats),
                     asked=self.form,
                 )
+        if self.knockout_size is not None and self.qualifiers is not None:
+            self.refuse("{qualifiers} is for each group, {knockout_size} for all; leave one out")
         if self.qualifiers is not None:
             self._check_qualifiers(self.qualifiers)
         elif "placement" in self.given:

@@ -2,6 +2,7 @@ from .brackets.bracket import Bracket as Bracket
 from .brackets.bracket import Group as Group
 from .brackets.bracket import Match as Match
 from .brackets.bracket import Place as Place
+from .brackets.bracket import RunnersUp as RunnersUp
 from .brackets.bracket import Source as Source
 from .brackets.double import double_elimination as double_elimination
 from .brackets.double import losers_qualifiers as losers_qualifiers

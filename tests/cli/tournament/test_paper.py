@@ -5,6 +5,8 @@ import shutil
 
 import pytest
 
+from evenbreak.files.store.tournament import read_tournament
+
 NAMES = ("Ann Lee", "Bo Diaz", "Cy Young", "Di Marsh", "Ed Poole")
 
 
@@ -92,3 +94,21 @@ def test_what_cannot_be_is_refused(run, file, words, what):
     result = run("tournament", *words, "--file", file)
     assert result.exit_code in (1, 2, 3)
     assert what in result.stderr.splitlines()[-1]
+
+
+def test_the_best_runner_up_is_seen_on_the_screen_and_in_print(run, tmp_path):
+    names = tmp_path / "names.csv"
+    names.write_text("player,rating\n" + "".join(f"P{k},{600 - 10 * k}\n" for k in range(1, 13)))
+    file = str(tmp_path / "cup.db")
+    asked = ("--format", "groups", "--groups", "3", "--knockout-size", "4", "--race", "3")
+    for words in (("new", str(names), *asked, "--out", file), ("draw", "--file", file)):
+        assert run("tournament", *words).exit_code == 0
+    assert "best 2nd" in run("tournament", "show", "--file", file).stdout
+    wall = tmp_path / "wall.html"
+    assert run("tournament", "show", "--file", file, "--out", str(wall)).exit_code == 0
+    assert "best 2nd" in wall.read_text()
+    paper = tmp_path / "wall.pdf"
+    made = run("tournament", "print", "bracket", "--file", file, "--out", str(paper))
+    assert (made.exit_code, paper.stat().st_size > 1000) == (0, True)
+    state = read_tournament(file)
+    assert (state.plan.knockout_size, state.bracket.runners_up.rank) == (4, 2)

@@ -16,7 +16,7 @@ from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import race_words
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.words import Sentence, say
+from evenbreak.words import Sentence, ordinal, say
 
 _MAIN = ("winners", "knock-out")
 """The sides that a final belongs to."""
@@ -299,8 +299,22 @@ def _from(slot: int | Source) -> str:
     return source_words(slot) if isinstance(slot, Source) else ""
 
 
-def source_words(slot: Source) -> Sentence:
+def group_words(name: str) -> Sentence | str:
+    """Return what a group is called, or the runners-up, of whom the best go on.
+
+    >>> group_words("A"), group_words("4")
+    ('A', 'best 4th')
+    """
+    return say("best {rank}", rank=ordinal(int(name))) if name.isdigit() else name
+
+
+def source_words(slot: Source) -> Sentence | str:
     """Return where a player comes from, such as 'winner of W1.2'."""
+    if isinstance(slot.outcome, int) and slot.match.isdigit():  # a runner-up
+        if slot.outcome == 1:
+            return group_words(slot.match)
+        rank = ordinal(int(slot.match))
+        return say("{nth} best {rank}", nth=ordinal(slot.outcome), rank=rank)
     if isinstance(slot.outcome, int):
         return say("number {n} of {group}", n=slot.outcome, group=slot.match)
     if slot.outcome == "winner":

@@ -359,6 +359,8 @@ def tie_words(found: TieBreak) -> list[Sentence]:
     said = [say("The order is {players}.", players=", ".join(found.ranked.order))]
     if found.by_lot:
         said.append(say("Drawn by lot: {players}.", players=", ".join(found.by_lot)))
+    elif found.ranked.group.isdigit():  # runners-up
+        said.append(say("Games won minus games lost, for each match, broke the ties."))
     else:
         said.append(say("Games won minus games lost broke the ties."))
     return said

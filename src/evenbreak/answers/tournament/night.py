@@ -11,6 +11,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import percent
+from evenbreak.answers.tournament.bracket_view import group_words
 from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament.odds import points_off
 from evenbreak.answers.tournament.prizes import Stake, stakes
@@ -166,16 +167,23 @@ def _what_is_next(
     words: list[str] = []
     found, calls = night.as_things_are, night.calls
     tables = _tables(night)
-    if tied:
-        words += [
+    if groups := [name for name in tied if not name.isdigit()]:
+        words.append(
             say_count(
                 "Group {groups} is tied.",
                 "Groups {groups} are tied.",
-                len(tied),
-                groups=listed(tied),
-            ),
-            _break_the_ties(),
-        ]
+                len(groups),
+                groups=listed(groups),
+            )
+        )
+    words += [
+        say(
+            "It is open who is the {runner_up}: some have won the same share of their matches.",
+            runner_up=group_words(runners_up),
+        )
+        for runners_up in tied[len(groups) :]
+    ]
+    words += [_break_the_ties()] if tied else []
     if can_draw(state):
         words.append(_draw_words(state))
     elif state.standing.to_play:
@@ -259,7 +267,7 @@ def waits_for(state: Evening, match: str) -> Sentence | str:
     seats = state.standing.seats[match]
     slots = state.bracket.match(match).slots
     sources = [
-        slot.match
+        group_words(slot.match) if isinstance(slot.outcome, int) else slot.match
         for slot, seat in zip(slots, seats, strict=True)
         if seat is None and isinstance(slot, Source)
     ]

@@ -169,6 +169,8 @@ def met_words(bracket: Bracket, slot: Slot) -> str:
     """Return whom a player meets who meets whoever is in a slot of a match."""
     if isinstance(slot, int) or slot.match == TO_DRAW or _of_swiss(bracket, slot):
         return slot_words(bracket, slot)
+    if isinstance(slot.outcome, int) and slot.match.isdigit():
+        return say("the {runner_up}", runner_up=source_words(slot))
     if isinstance(slot.outcome, int):
         return say("the number {n} of {group}", n=slot.outcome, group=slot.match)
     if slot.outcome == "winner":

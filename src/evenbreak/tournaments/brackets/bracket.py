@@ -110,6 +110,42 @@ class Group:
     places: tuple[Place | None, ...]
 
 
+@dataclass(frozen=True)
+class RunnersUp:
+    """The players of one rank in all groups, of whom the best go on.
+
+    They are compared by the share of matches won, which counts alike in groups of any size. Ties
+    are broken by lot.
+
+    Parameters
+    ----------
+    rank
+        the rank, from 1 on.
+    weights
+        the groups by name, and what a match won counts in each: the same for all shares.
+    places
+        the place of each, best first; None for those who go on.
+    settled
+        in a tournament under way: who has the rank in the groups that are over, and what that
+        player's matches won count.
+    """
+
+    rank: int
+    weights: tuple[tuple[str, int], ...]
+    places: tuple[Place | None, ...]
+    settled: tuple[tuple[str, int, int], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What a source calls them: the rank. Groups are named by letters."""
+        return str(self.rank)
+
+    @property
+    def going_on(self) -> int:
+        """How many of them go on."""
+        return self.places.count(None)
+
+
 class GoesOn(NamedTuple):
     """Whether a match's winner and loser have a next match, by the slot they come from."""
 
@@ -133,6 +169,8 @@ class Bracket:
         the groups, if there are any.
     byes
         (match, player) for each first match that is a bye, for the printed sheet.
+    runners_up
+        the players of one rank in the groups, if only the best of them go on.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> bracket = single_elimination(["Ann", "Bo", "Cy"])
@@ -149,6 +187,7 @@ class Bracket:
     matches: tuple[Match, ...]
     groups: tuple[Group, ...] = ()
     byes: tuple[tuple[str, int], ...] = field(default=(), compare=False)
+    runners_up: RunnersUp | None = None
 
     @cached_property
     def places(self) -> tuple[Place, ...]:
@@ -156,6 +195,7 @@ class Bracket:
         found = {match.winner_place for match in self.matches}
         found |= {match.loser_place for match in self.matches}
         found |= {place for group in self.groups for place in group.places}
+        found |= {*(self.runners_up.places if self.runners_up else ())}
         return tuple(
             sorted((place for place in found if place), key=lambda p: (p.event, p.first, p.last))
         )
@@ -166,7 +206,7 @@ class Bracket:
 
         A node is a match (with `side`, `round` and `slots`) or a group. An arc gives the slot
         that the winner or the loser goes to (`winner=2`, `loser=1`), or the slot for each rank
-        of a group (`ranks={1: 2}`).
+        of a group (`ranks={1: 2}`). A node named by a rank stands for the runners-up.
         """
         import networkx as nx
 
@@ -177,6 +217,10 @@ class Bracket:
             graph.add_node(match.name, side=match.side, round=match.round, slots=match.slots)
         for group in self.groups:
             graph.add_edges_from((name, group.name) for name in group.matches)
+        if self.runners_up:
+            name = self.runners_up.name
+            graph.add_node(name, side="group", round=0, slots=())
+            graph.add_edges_from((group.name, name) for group in self.groups)
         for match in self.matches:
             for number, slot in enumerate(match.slots, 1):
                 if isinstance(slot, int):
@@ -189,6 +233,16 @@ class Bracket:
                     arc.setdefault("ranks", {})[slot.outcome] = number
         frozen: nx.DiGraph[str] = nx.freeze(graph)
         return frozen
+
+    @cached_property
+    def outlets(self) -> dict[str, list[Source]]:
+        """The slots that wait for somebody from a match, a group or the runners-up, by its name."""
+        found: dict[str, list[Source]] = {}
+        for match in self.matches:
+            for slot in match.slots:
+                if isinstance(slot, Source):
+                    found.setdefault(slot.match, []).append(slot)
+        return found
 
     @cached_property
     def by_name(self) -> dict[str, Match]:

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from string import ascii_uppercase
 
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Place, Source
+from evenbreak.tournaments.brackets.bracket import (
+    Bracket,
+    Group,
+    Match,
+    Place,
+    RunnersUp,
+    Source,
+)
 from evenbreak.tournaments.brackets.drafts import (
     DraftSlot,
     bracket_of,
@@ -41,6 +49,7 @@ def groups_then_knockout(
     groups: int,
     *,
     qualifiers: int = 2,
+    knockout_size: int | None = None,
     times: int = 1,
     third_place: bool = False,
 ) -> Bracket:
@@ -48,7 +57,7 @@ def groups_then_knockout(
 
     Seeds are dealt to the groups in a snake: 1 to A, 2 to B, and so on, then back. A group
     winner first meets a runner-up of another group, and two qualifiers from one group are in
-    different halves of the knock-out.
+    different halves of the knock-out, except the best runners-up.
 
     Parameters
     ----------
@@ -58,6 +67,9 @@ def groups_then_knockout(
         the number of groups.
     qualifiers
         how many qualify from each group.
+    knockout_size
+        how many qualify in all, in place of that: as many from each group as can be, and the best
+        of the next rank by the share of matches won.
     times
         how often each pair in a group plays.
     third_place
@@ -68,6 +80,12 @@ def groups_then_knockout(
     InputError
         if a group would be too small, or only one player would qualify.
 
+    16 of 5 groups are the first three of each and the best of those who are fourth:
+
+    >>> groups_then_knockout(20, 5, knockout_size=16).runners_up.places
+    (None, Place(first=17, last=20, event=''), Place(first=17, last=20, event=''),
+     Place(first=17, last=20, event=''), Place(first=17, last=20, event=''))
+
     >>> bracket = groups_then_knockout(8, 2)
     >>> bracket.groups[0].members, bracket.match("K1.1").slots
     ((0, 3, 4, 7), (Source(match='A', outcome=1, via=None), Source(match='B', outcome=2, via=None)))
@@ -76,33 +94,41 @@ def groups_then_knockout(
     """
     names = checked_players(players)
     count = whole(groups, "groups", at_least=1)
-    going_on = whole(qualifiers, "qualifiers", at_least=1)
-    if len(names) // count < max(2, going_on):
+    going_on, best = whole(qualifiers, "qualifiers", at_least=1), 0
+    if knockout_size is not None:
+        size = whole(knockout_size, "knockout_size", at_least=2)
+        going_on, best = divmod(size, count)
+    fewest = max(2, going_on + (best > 0))
+    if len(names) // count < fewest:
         raise InputError(
             "{name} is {value!r} for {players} players; with fewer groups each has the "
             "{fewest} players it needs",
             name=Parameter("groups"),
             value=groups,
             players=len(names),
-            fewest=max(2, going_on),
+            fewest=fewest,
         )
-    if count * going_on < 2:
+    if count * going_on + best < 2:
         raise InputError(
             "{name} must be 2 or more if there is a single group", name=Parameter("qualifiers")
         )
     dealt = [_dealt(len(names), count, k) for k in range(count)]
-    places = _group_places([len(members) for members in dealt], going_on)
+    sizes = [len(members) for members in dealt]
+    places = _group_places(sizes, going_on, best)
+    runners_up = _runners_up(sizes, going_on, best, times) if best else None
     made = [
         _group(_letters(k), tuple(members), places[: len(members)], times)
         for k, members in enumerate(dealt)
     ]
-    drafts, ranks = knockout(_field(count, going_on), "K", "knock-out", third_place=third_place)
+    field = _field(count, going_on, best)
+    drafts, ranks = knockout(field, "K", "knock-out", third_place=third_place)
     later = bracket_of("", names, drafts, ranks).matches
     return Bracket(
         f"{count} groups, then knock-out",
         names,
         (*(match for _, matches in made for match in matches), *later),
         tuple(group for group, _ in made),
+        runners_up=runners_up,
     )
 
 
@@ -149,7 +175,17 @@ def _dealt(players: int, groups: int, number: int) -> list[int]:
     return [seat for seat in seats if seat < players]
 
 
-def _group_places(sizes: list[int], going_on: int) -> tuple[Place | None, ...]:
+def _runners_up(sizes: list[int], going_on: int, best: int, times: int) -> RunnersUp:
+    matches = [times * (size - 1) for size in sizes]
+    together = math.lcm(*matches)
+    weights = tuple((_letters(k), together // played) for k, played in enumerate(matches))
+    shared = Place(going_on * len(sizes) + best + 1, (going_on + 1) * len(sizes))
+    places = (*[None] * best, *[shared] * (len(sizes) - best))
+    return RunnersUp(going_on + 1, weights, places)
+
+
+def _group_places(sizes: list[int], going_on: int, best: int) -> tuple[Place | None, ...]:
+    going_on += best > 0
     places: list[Place | None] = [None] * going_on
     first = going_on * len(sizes) + 1
     for rank in range(going_on + 1, max(sizes) + 1):
@@ -159,10 +195,10 @@ def _group_places(sizes: list[int], going_on: int) -> tuple[Place | None, ...]:
     return tuple(places)
 
 
-def _field(groups: int, going_on: int) -> list[DraftSlot]:
+def _field(groups: int, going_on: int, best: int) -> list[DraftSlot]:
     """Return the lines of the knock-out."""
     first: list[DraftSlot] = [Source(_letters(k), 1) for k in range(groups)]
-    if going_on == 2 and groups & (groups - 1) == 0 and groups > 1:
+    if going_on == 2 and not best and groups & (groups - 1) == 0 and groups > 1:
         # Groups in pairs (A, B), (C, D): 1A-2B in the upper half, 1B-2A in the lower.
         order = [*range(0, groups, 2), *range(1, groups, 2)]
         half = groups // 2
@@ -175,7 +211,9 @@ def _field(groups: int, going_on: int) -> list[DraftSlot]:
             )
         ]
     seeds = [(_letters(k), rank) for rank in range(1, going_on + 1) for k in range(groups)]
-    seeds = apart_by_club(seeds, [letters for letters, _ in seeds])
+    seeds += [(str(going_on + 1), k) for k in range(1, best + 1)]
+    clubs = [None if letters.isdigit() else letters for letters, _ in seeds]
+    seeds = apart_by_club(seeds, clubs)
     return [None if k is None else Source(*seeds[k]) for k in seeded_lines(len(seeds))]
 
 

@@ -19,7 +19,8 @@ NOBODY = -1
 Results: TypeAlias = Mapping[str, str | Sequence[str]]
 """The winner of each decided match, by match name.
 
-For a group whose ties were broken by lot, also its players in final order, by group name.
+For a group whose ties were broken by lot, also its players in final order, by group name; so too
+for the runners-up, by their rank.
 """
 
 
@@ -65,7 +66,17 @@ class Standing:
             if match.name not in self.winners or self._open_group(match.name)
         )
         groups = tuple(group for group in self.bracket.groups if not self._settled(group))
-        return replace(self.bracket, matches=matches, groups=groups, byes=())
+        runners_up = self.bracket.runners_up
+        if runners_up is not None:
+            runners_up = replace(runners_up, settled=tuple(self.runners_up))
+            if Source(runners_up.name, 1) in self.sent:
+                runners_up = None
+        return replace(self.bracket, matches=matches, groups=groups, byes=(), runners_up=runners_up)
+
+    @cached_property
+    def runners_up(self) -> list[tuple[str, int, int]]:
+        """Of each group that is over the runner-up, by position, and what their wins count."""
+        return _runners_up(self.bracket, self.winners, self.sent)
 
     def _seated(self, match: Match) -> Match:
         slots = self._slot(match.slots[0]), self._slot(match.slots[1])
@@ -115,6 +126,7 @@ def standing(bracket: Bracket, results: Results | None = None) -> Standing:
         winners[match.name] = won
         if match.name in group_of:
             sent |= _settled_ranks(bracket, group_of[match.name], winners, given)
+            sent |= _best_runners_up(bracket, winners, sent, given)
         else:
             sent |= _outcomes(match.name, (one, other), won)
     return Standing(bracket, winners, seats, sent, assumed)
@@ -122,6 +134,7 @@ def standing(bracket: Bracket, results: Results | None = None) -> Standing:
 
 def _check_names(bracket: Bracket, results: dict[str, str | Sequence[str]]) -> None:
     known = {*bracket.by_name, *(group.name for group in bracket.groups)}
+    known |= {bracket.runners_up.name} if bracket.runners_up else set()
     for name in results:
         if name not in known:
             listed = some_of(list(bracket.by_name))
@@ -175,20 +188,66 @@ def _settled_ranks(
     if not all(name in winners for name in group.matches):
         return {}
     if group.name in given:
-        order = [bracket.player(name) for name in given[group.name]]
-        if sorted(order) != sorted(group.members):
-            raise InputError(
-                "results has {given!r} for group {group}; give its players in the order of "
-                "their ranks",
-                given=given[group.name],
-                group=group.name,
-            )
+        order = _in_given_order(bracket, group.name, group.members, given)
     else:
         places = ranked(group.members, group.pairs, [winners[name] for name in group.matches])
         if len(set(places)) < len(places):
             return {}
         order = [player for _, player in sorted(zip(places, group.members, strict=True))]
     return {Source(group.name, rank): player for rank, player in enumerate(order, 1)}
+
+
+def _in_given_order(
+    bracket: Bracket,
+    name: str,
+    members: Sequence[int],
+    given: dict[str, str | Sequence[str]],
+) -> list[int]:
+    """Return the final order of a group, or of the runners-up, that the results say."""
+    order = [bracket.player(player) for player in given[name]]
+    if sorted(order) != sorted(members):
+        raise InputError(
+            "results has {given!r} for group {group}; give its players in the order of their ranks",
+            given=given[name],
+            group=name,
+        )
+    return order
+
+
+def _runners_up(
+    bracket: Bracket, winners: Mapping[str, int], sent: Mapping[Source, int]
+) -> list[tuple[str, int, int]]:
+    if bracket.runners_up is None:
+        return []
+    weight, found = dict(bracket.runners_up.weights), []
+    for group in bracket.groups:
+        player = sent.get(Source(group.name, bracket.runners_up.rank))
+        if player is not None:
+            wins = sum(winners.get(name) == player for name in group.matches)
+            found.append((group.name, player, wins * weight[group.name]))
+    return found
+
+
+def _best_runners_up(
+    bracket: Bracket,
+    winners: Mapping[str, int],
+    sent: Mapping[Source, int],
+    given: dict[str, str | Sequence[str]],
+) -> dict[Source, int]:
+    """Return the order of the runners-up, or nothing while it is open who of them goes on."""
+    found = _runners_up(bracket, winners, sent)
+    if bracket.runners_up is None or len(found) < len(bracket.groups):
+        return {}
+    name, best = bracket.runners_up.name, bracket.runners_up.going_on
+    if name in given:
+        order = _in_given_order(bracket, name, [player for _, player, _ in found], given)
+    else:
+        ranking = sorted(found, key=lambda one: -one[2])
+        shares = [share for _, _, share in ranking]
+        if len(set(shares[: best + 1])) < len(shares[: best + 1]):
+            return {}
+        order = [player for _, player, _ in ranking]
+    return {Source(name, rank): player for rank, player in enumerate(order, 1)}
 
 
 # The ranking of a group: matches won, then matches won among tied players.

@@ -177,7 +177,11 @@ def waiting(bracket: Bracket, names: Collection[str], *, for_rounds: bool) -> Wa
     for match in matches:
         feeds: set[str] = set()
         for slot in match.slots:
-            if isinstance(slot, Source):
+            if not isinstance(slot, Source):
+                continue
+            if bracket.runners_up and slot.match == bracket.runners_up.name:
+                feeds |= {name for group in bracket.groups for name in group.matches}
+            else:
                 feeds |= set(groups[slot.match].matches if slot.match in groups else [slot.match])
         if for_rounds:
             feeds |= _rounds_before(bracket, match, feeds, rounds)

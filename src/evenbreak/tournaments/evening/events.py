@@ -40,8 +40,9 @@ class Plan(Format):
         how many a double elimination leads to, or how many go on from each group or pod.
     placement
         how qualifiers of a double elimination are paired: half shift or redraw.
-    groups, pod_size, rounds
-        how many groups, the lines of a pod, the rounds of a Swiss.
+    groups, knockout_size, pod_size, rounds
+        how many groups, how many go on from all of them together, the lines of a pod, the rounds
+        of a Swiss.
     third_place
         as in `single_elimination`.
     seeding

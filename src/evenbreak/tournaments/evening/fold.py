@@ -261,9 +261,11 @@ class Evening:
                 n: one.winner for n, one in counted.items()
             }
             now = standing(self.bracket, results)
-            results |= {n: one.order for n, one in self.ties.items() if _breaks_ties(now, one)}
-            if len(results) > len(counted):
-                now = standing(self.bracket, results)
+            for _ in ("groups", "the runners-up of them"):
+                broken = {n: one.order for n, one in self.ties.items() if _breaks_ties(now, one)}
+                if broken.keys() - results.keys():
+                    results |= broken
+                    now = standing(self.bracket, results)
             found = {}
             for name in now.to_play:
                 one, other = now.seats[name]
@@ -363,6 +365,11 @@ def tied_ranks(now: Standing, group: Group) -> list[int]:
 
 def _breaks_ties(now: Standing, tie: Ranked) -> bool:
     """Return whether a final order is one that the results of its group allow."""
+    if now.bracket.runners_up and tie.group == now.bracket.runners_up.name:
+        share = {now.bracket.players[player]: share for _, player, share in now.runners_up}
+        shares = [share.get(name, 0) for name in tie.order]
+        is_all = len(share) == len(now.bracket.groups) and sorted(share) == sorted(tie.order)
+        return is_all and shares == sorted(shares, reverse=True)
     for group in now.bracket.groups:
         names = [now.bracket.players[k] for k in group.members]
         if group.name != tie.group or not all(name in now.winners for name in group.matches):

@@ -142,6 +142,21 @@ class Format:
             formats=("groups",),
         ),
     ] = None
+    knockout_size: Annotated[
+        Few | None,
+        Field(
+            _PLAYERS,
+            "How many players of all groups together go on.",
+            usual="as many as those from each group",
+            metavar="M",
+            label=say("Players advancing from all groups together (blank: as many from each)"),
+            section=_FORMAT,
+            formats=("groups",),
+            more="16 from 5 groups are the first three of each group and the best of those who are "
+            "fourth: by the share of their matches won, then by games won minus games lost for "
+            "each match, and then by lot.",
+        ),
+    ] = None
     pod_size: Annotated[
         Few,
         Field(

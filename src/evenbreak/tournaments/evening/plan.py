@@ -146,7 +146,9 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
             return pods(order, size=plan.pod_size, qualifiers=each, drops=pattern, lines=lines)
         case "groups":
             many = groups_of(plan, len(order))
-            return groups_then_knockout(order, many, qualifiers=plan.qualifiers or 2)
+            return groups_then_knockout(
+                order, many, qualifiers=plan.qualifiers or 2, knockout_size=plan.knockout_size
+            )
         case "round-robin":
             return round_robin(order)
         case "swiss":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -78,14 +79,26 @@ def stand(state: Evening, match: str) -> list[Result]:
 
 
 def tied_groups(state: Evening) -> list[str]:
-    """Return the groups that are played out and tied, so that it is open who goes on."""
-    return [
+    """Return the groups that are played out and tied, so that it is open who goes on.
+
+    The runners-up count as a group, named by their rank, as soon as all groups are settled.
+    """
+    found = [
         group.name
         for group in state.bracket.groups
         if None in group.places
         and all(name in state.counted for name in group.matches)
         and Source(group.name, 1) not in state.standing.sent
     ]
+    return [*found, *_tied_runners(state)]
+
+
+def _tied_runners(state: Evening) -> list[str]:
+    """Return what the runners-up are called if it is open who of them goes on."""
+    runners_up, now = state.bracket.runners_up, state.standing
+    if runners_up is None or len(now.runners_up) < len(state.bracket.groups):
+        return []
+    return [] if Source(runners_up.name, 1) in now.sent else [runners_up.name]
 
 
 class TieBreak(NamedTuple):
@@ -110,7 +123,8 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
     """Break the ties of a round robin that is played out.
 
     Players who are level in matches won, also among themselves, are ranked by games won minus
-    games lost in all their matches, and then by lot.
+    games lost in all their matches, and then by lot. Runners-up of several groups who are level in
+    the share of matches won are ranked by the same for each match, and then by lot.
 
     Parameters
     ----------
@@ -126,7 +140,8 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
     InputError
         if there is no tie.
     """
-    broken = []
+    runners_up = state.bracket.runners_up
+    broken = [runners_up.name] if runners_up and runners_up.name in state.results else []
     for group in state.bracket.groups:
         if group.name in state.ties and group.name in state.results:
             broken.append(group.name)
@@ -134,6 +149,8 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
             ahead = tied_ranks(state.standing, group)
             if len(set(ahead)) < len(ahead):
                 return _broken(state, group, ahead, rng, only_lots=only_lots)
+    for name in _tied_runners(state):
+        return _runners_broken(state, name, rng, only_lots=only_lots)
     if broken:
         raise InputError(
             "the ties are already broken; to take that back: {undo}",
@@ -146,17 +163,48 @@ def _broken(
     state: Evening, group: Group, ahead: list[int], rng: np.random.Generator, *, only_lots: bool
 ) -> TieBreak:
     names = [state.order[k] for k in group.members]
-    difference = dict.fromkeys(names, 0)
+    difference = _differences(state, group)
+    key: dict[str, tuple[float, float]] = {
+        name: (rank, 0 if only_lots else -difference[name])
+        for name, rank in zip(names, ahead, strict=True)
+    }
+    return _by_key(group.name, key, difference, rng)
+
+
+def _runners_broken(
+    state: Evening, name: str, rng: np.random.Generator, *, only_lots: bool
+) -> TieBreak:
+    groups = {group.name: group for group in state.bracket.groups}
+    difference: dict[str, int] = {}
+    key: dict[str, tuple[float, float]] = {}
+    for letters, seat, share in state.standing.runners_up:
+        group, player = groups[letters], state.order[seat]
+        difference[player] = _differences(state, group)[player]
+        played = 2 * len(group.matches) / len(group.members)
+        key[player] = -share, 0 if only_lots else -difference[player] / played
+    return _by_key(name, key, difference, rng)
+
+
+def _differences(state: Evening, group: Group) -> dict[str, int]:
+    """Return the games won minus those lost of each player of a group."""
+    difference = dict.fromkeys((state.order[k] for k in group.members), 0)
     for match in group.matches:
         result = state.counted[match]
         one, other = result.players
         difference[one] += result.score[0] - result.score[1]
         difference[other] += result.score[1] - result.score[0]
-    key = {
-        name: (rank, 0 if only_lots else -difference[name])
-        for name, rank in zip(names, ahead, strict=True)
-    }
+    return difference
+
+
+def _by_key(
+    group: str,
+    key: Mapping[str, tuple[float, float]],
+    difference: dict[str, int],
+    rng: np.random.Generator,
+) -> TieBreak:
+    """Return the players in the order of a key, those who are level in it by lot."""
+    names = list(key)
     lots = dict(zip(names, rng.permutation(len(names)).tolist(), strict=True))
     order = tuple(sorted(names, key=lambda name: (key[name], lots[name])))
     drawn = tuple(name for name in order if list(key.values()).count(key[name]) > 1)
-    return TieBreak(Ranked(group.name, order), difference, drawn)
+    return TieBreak(Ranked(group, order), difference, drawn)

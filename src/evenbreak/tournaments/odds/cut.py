@@ -61,6 +61,7 @@ def exact_starts(bracket: Bracket, early: frozenset[str], most_states: float) ->
             bracket,
             matches=tuple(match for match in bracket.matches if match.name in names),
             groups=tuple(group for group in bracket.groups if group.name in names),
+            runners_up=None,
         )
         first_only = all(isinstance(slot, int) for m in start.matches for slot in m.slots)
         if large & names or (first_only and not start.groups):
@@ -79,7 +80,9 @@ def _to_come(bracket: Bracket) -> dict[str, int]:
             if isinstance(slot, Source):
                 longest[slot.match] = max(longest.get(slot.match, 0), longest[match.name])
     top = max(longest.values(), default=0) + 1
-    return longest | dict.fromkeys([*grouped, *(group.name for group in bracket.groups)], top)
+    first = [*grouped, *(group.name for group in bracket.groups)]
+    first += [bracket.runners_up.name] if bracket.runners_up else []
+    return longest | dict.fromkeys(first, top)
 
 
 def _cut_at(bracket: Bracket, to_come: Mapping[str, int], height: int) -> Cut:

@@ -104,14 +104,11 @@ def _built(
 ) -> Plan | None:
     if any(len(group.matches) > MOST_MATCHES for group in bracket.groups):
         return None
+    if bracket.runners_up is not None:  # they join all groups: far too many states
+        return None
     order = elimination_order(bracket)
     if order.states > _PESSIMISM * most_states:
         return None
-    outlets: dict[str, list[Source]] = {}
-    for match in bracket.matches:
-        for slot in match.slots:
-            if isinstance(slot, Source):
-                outlets.setdefault(slot.match, []).append(slot)
     groups = {group.name: group for group in bracket.groups}
     results = dict(assumed)
     nobody = len(bracket.players)
@@ -121,7 +118,7 @@ def _built(
     for name in order.names:
         step: Step
         if name in groups:
-            step = _group_step(groups[name], outlets.get(name, []))
+            step = _group_step(groups[name], bracket.outlets.get(name, []))
         else:
             match = bracket.by_name[name]
             tables = _tables(match, home)
@@ -129,7 +126,8 @@ def _built(
             total += states
             if states > most_states or total > 3.0 * most_states:
                 return None
-            step = match_step(match, tables, outlets.get(name, []), nobody, results.get(name))
+            outlets = bracket.outlets.get(name, [])
+            step = match_step(match, tables, outlets, nobody, results.get(name))
         table = Table(len(steps), step.size, dict(zip(step.slots, step.columns, strict=True)))
         home.update(dict.fromkeys(step.slots, table))
         steps.append(step)

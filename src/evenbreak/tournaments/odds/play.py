@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +29,8 @@ class PlayedOut:
     sent
         who came out of each match or group to each slot that waits for them.
     order
-        for each group, the players in the order of their ranks, shape (runs, members).
+        for each group, the players in the order of their ranks, shape (runs, members); so too
+        for the runners-up.
     """
 
     first: Mapping[str, Players]
@@ -80,18 +81,22 @@ def play_out(
     first_won: dict[str, NDArray[np.bool_]] = {}
     sent: dict[Source, Players] = {}
     order: dict[str, Players] = {}
-    outlets: dict[str, list[Source]] = {}
-    for match in bracket.matches:
-        for slot in match.slots:
-            if isinstance(slot, Source):
-                outlets.setdefault(slot.match, []).append(slot)
-    last_of_group = {group.matches[-1]: group for group in bracket.groups if group.matches}
 
     def seated(slot: Slot) -> Players:
         if isinstance(slot, Source):
             return sent[slot]
         return np.full(runs, slot if slot >= 0 else nobody, dtype=np.int16)
 
+    groups = _Groups(bracket, runs)
+
+    def rank(after: str) -> None:
+        """Send those on whose rank in a group, or among the runners-up, a match has decided."""
+        for name, ordered in groups.ranked(after, first_won, rng):
+            order[name] = ordered
+            for slot in bracket.outlets.get(name, ()):
+                sent[slot] = ordered[:, int(slot.outcome) - 1]
+
+    rank("")
     for match in bracket.matches:
         luck = stratified_uniforms(rng, runs)
         if only is not None and match.name not in only:
@@ -102,13 +107,9 @@ def play_out(
         else:
             won = luck < chances.each(match.name, one, other)
         first[match.name], second[match.name], first_won[match.name] = one, other, won
-        for slot in outlets.get(match.name, ()):
+        for slot in bracket.outlets.get(match.name, ()):
             sent[slot] = _sent_on(slot, one, other, won, nobody)
-        if match.name in last_of_group:
-            group = last_of_group[match.name]
-            order[group.name] = _ordered(group, first_won, rng)
-            for slot in outlets.get(group.name, ()):
-                sent[slot] = order[group.name][:, int(slot.outcome) - 1]
+        rank(match.name)
     return PlayedOut(first, second, first_won, sent, order)
 
 
@@ -129,11 +130,41 @@ def stratified_uniforms(rng: np.random.Generator, runs: int) -> Floats:
     return luck
 
 
+class _Groups:
+    """The groups, and the runners-up of those that are over in each run."""
+
+    def __init__(self, bracket: Bracket, runs: int) -> None:
+        self.last = {group.matches[-1]: group for group in bracket.groups if group.matches}
+        self.runners_up = bracket.runners_up
+        settled = self.runners_up.settled if self.runners_up else ()
+        self.who = [np.full(runs, player, dtype=np.int16) for _, player, _ in settled]
+        self.share = [np.full(runs, share) for _, _, share in settled]
+
+    def ranked(
+        self, match: str, first_won: dict[str, NDArray[np.bool_]], rng: np.random.Generator
+    ) -> Iterator[tuple[str, Players]]:
+        """Yield the groups, and the runners-up of all, whose order a match has decided."""
+        runners_up, group = self.runners_up, self.last.get(match)
+        if group is not None:
+            order, wins = _ordered(group, first_won, rng)
+            yield group.name, order
+            if runners_up is not None:
+                weight = dict(runners_up.weights)[group.name]
+                self.who.append(order[:, runners_up.rank - 1])
+                self.share.append(wins[:, runners_up.rank - 1].astype(int) * weight)
+        if runners_up is not None and len(self.who) == len(runners_up.weights):
+            share = np.stack(self.share, axis=1)
+            best_first = np.argsort(rng.random(share.shape) - share, axis=1)  # the rest by lot
+            yield runners_up.name, np.take_along_axis(np.stack(self.who, axis=1), best_first, 1)
+            self.runners_up = None
+
+
 def _ordered(
     group: Group,
     first_won: dict[str, NDArray[np.bool_]],
     rng: np.random.Generator,
-) -> Players:
+) -> tuple[Players, NDArray[np.int16]]:
+    """Return the players of a group in the order of their ranks, and their matches won."""
     seat = {player: k for k, player in enumerate(group.members)}
     runs = len(first_won[group.matches[0]])
     beats = np.zeros((runs, len(seat), len(seat)), dtype=np.int16)
@@ -143,5 +174,6 @@ def _ordered(
         beats[:, other, one] += ~first_won[name]
     lots = players_ahead(beats) + rng.random((runs, len(seat)))
     members = np.array(group.members, dtype=np.int16)
-    ordered: Players = members[np.argsort(lots, axis=1)]
-    return ordered
+    by_rank = np.argsort(lots, axis=1)
+    wins = np.take_along_axis(beats.sum(axis=2, dtype=np.int16), by_rank, axis=1)
+    return members[by_rank], wins

@@ -282,6 +282,10 @@ def settled_ranks(now: Standing) -> dict[str, Floats]:
             ranks = range(1, len(group.members) + 1)
             order = [now.sent[Source(group.name, rank)] for rank in ranks]
             found[group.name] = np.equal.outer(group.members, order).astype(float)
+    runners_up = now.bracket.runners_up
+    if runners_up and Source(runners_up.name, 1) in now.sent:
+        order = [now.sent[Source(runners_up.name, k + 1)] for k, _ in enumerate(runners_up.places)]
+        found[runners_up.name] = np.equal.outer(range(len(now.bracket.players)), order) * 1.0
     return found
 
 
@@ -315,7 +319,8 @@ def place_odds(
     meetings
         the meetings of the matches to take into account.
     ranks
-        for each group to take into account, ranks[i, k] = P(member i has rank k, from 0 on).
+        for each group to take into account, ranks[i, k] = P(member i has rank k, from 0 on);
+        so too for the runners-up, where i is any player.
     """
     column = {place: k for k, place in enumerate(bracket.places)}
     samples = [part.probability.shape[1:] for part in meetings.values()]
@@ -332,6 +337,12 @@ def place_odds(
                 share = ranks[group.name][:, rank]
                 more = share.shape[1:] or (1,) * len(shape)
                 odds[list(group.members), column[place]] += share.reshape(len(share), *more)
+    runners_up = bracket.runners_up
+    if runners_up and runners_up.name in ranks:
+        for rank, place in enumerate(runners_up.places):
+            if place is not None:
+                share = ranks[runners_up.name][:, rank]
+                odds[:, column[place]] += share.reshape(len(share), *(1,) * len(shape))
     return odds
 
 

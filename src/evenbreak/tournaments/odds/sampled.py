@@ -194,6 +194,11 @@ class _Sampler:
                 if place is not None:
                     who = played.order[group.name][:, rank]
                     batch.places[rows, who, self.column[place]] = 1.0
+        runners_up = self.bracket.runners_up
+        for rank, place in enumerate(runners_up.places if runners_up else ()):
+            if runners_up and place is not None:
+                who = played.order[runners_up.name][:, rank]
+                batch.places[rows, who, self.column[place]] = 1.0
 
     def _rest(self, batch: _Batch, played: PlayedOut, rows: slice) -> None:
         """Add the later rounds, which are exact given the first."""
@@ -271,6 +276,9 @@ def early_places(
 def who_can_sit(bracket: Bracket) -> tuple[dict[str, Players], dict[str, Players]]:
     """Return the players who can be in slot 1 and in slot 2 of each match, ascending."""
     sent = {group.name: sum(1 << player for player in group.members) for group in bracket.groups}
+    if bracket.runners_up:
+        settled = sum(1 << player for _, player, _ in bracket.runners_up.settled)
+        sent[bracket.runners_up.name] = sum(sent.values()) | settled
     sides: tuple[dict[str, Players], dict[str, Players]] = ({}, {})
     for match in bracket.matches:
         masks = [_mask(slot, sent) for slot in match.slots]

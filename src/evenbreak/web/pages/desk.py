@@ -12,6 +12,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
+from evenbreak.answers.tournament.bracket_view import group_words
 from evenbreak.answers.tournament.moves import (
     draw_words,
     event_words,
@@ -78,7 +79,7 @@ async def desk(request: Request) -> Response:
             for name in dict.fromkeys(one.match for one in sent)
             if name in state.standing.to_play
         }
-        shown["tied"] = tied_groups(state)
+        shown["tied"] = [group_words(name) for name in tied_groups(state)]
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows
         shown["warnings"] = known.data.get("warnings", []) if known else []

@@ -66,6 +66,7 @@ NOT_WITH_FORMAT = {
     "losers_race": say("This format has no losers' side. Leave its race blank."),
     "final_race": say("This format has no final. Leave its race blank."),
     "groups": say("This format has no groups. Leave their number blank."),
+    "knockout_size": say("This format has no groups. Leave the number advancing from them blank."),
     "pod_size": say("This format has no pods. Leave their size at 8."),
     "qualifiers": say(
         "In this format nobody qualifies. Leave the number of players advancing blank."
