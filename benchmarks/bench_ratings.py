@@ -1,10 +1,18 @@
 """Ratings of 5,000 players from a million games, beside a bare Newton-CG on the games.
 
-Two leagues: well mixed, and in divisions of a hundred with a thousand games across.
+Two leagues: well mixed, and in divisions of a hundred with a thousand games across. And a
+federation by size, with other packages beside:
+
+    python -m pip install -e . pytest-benchmark evalica choix glicko2
+    PYTHONPATH=benchmarks python -m pytest -q -s benchmarks/bench_ratings.py -k federation
+
+A package that is absent, or whose work or memory grows too fast for a size, is left out there.
 """
 
 from __future__ import annotations
 
+import importlib.util
+import time
 from collections.abc import Callable
 from functools import cache
 from typing import Any
@@ -14,6 +22,7 @@ import pandas as pd
 import pytest
 from scipy.optimize import minimize
 from scipy.special import expit
+from synthetic_seasons import federation
 
 from evenbreak.ratings import Results, fit
 
@@ -119,3 +128,94 @@ def test_results_from_a_frame(benchmark: Any, rows: int) -> None:
         {"player_a": a.astype(str), "player_b": (a + 1).astype(str), "score_a": 7, "score_b": a % 7}
     )
     assert len(benchmark(Results.from_frame, frame)) == rows
+
+
+WIDTH = 0.5
+"""The standard deviation of the prior in the federation, in log-odds."""
+
+
+def by_evalica(results: Results) -> None:
+    """Maximum likelihood; keeps a table of all pairs."""
+    import evalica
+
+    winner, loser = winners_and_losers(results)
+    won = [evalica.Winner.X] * len(winner)
+    evalica.bradley_terry(winner.tolist(), loser.tolist(), won, limit=10_000)
+
+
+def by_choix(results: Results) -> None:
+    """The same mode as ours; its Hessian is dense, and made game by game."""
+    import choix
+
+    games = list(zip(*map(np.ndarray.tolist, winners_and_losers(results)), strict=True))
+    alpha = 0.5 * WIDTH**-2
+    choix.opt_pairwise(len(results.players), games, alpha=alpha, method="Newton-CG", tol=1e-9)
+
+
+def by_glicko(results: Results) -> None:
+    """A pass through the weeks, each a rating period."""
+    import glicko2
+
+    player = [glicko2.Player() for _ in results.players]
+    assert results.date is not None
+    for day in np.unique(results.date):
+        week = results.select(results.date == day)
+        winner, loser = winners_and_losers(week)
+        me, other = np.concatenate([winner, loser]), np.concatenate([loser, winner])
+        order = np.argsort(me, kind="stable")
+        before = np.array([(one.rating, one.rd) for one in player])
+        who, first = np.unique(me[order], return_index=True)
+        for k, games in zip(who.tolist(), np.split(order, first[1:]), strict=True):
+            ratings, deviations = before[other[games]].T.tolist()
+            player[k].update_player(ratings, deviations, (games < len(winner)).tolist())
+
+
+PEERS = {
+    "evalica": (by_evalica, 100_000),
+    "choix": (by_choix, 10_000),
+    "glicko2": (by_glicko, 10**7),
+}
+"""How each package rates, and the most matches that it is given."""
+
+
+def winners_and_losers(results: Results) -> tuple[np.ndarray, np.ndarray]:
+    """Return who won and who lost each game."""
+    a, b, won, lost = results.player_a, results.player_b, results.score_a, results.score_b
+    winner = np.concatenate([np.repeat(a, won), np.repeat(b, lost)])
+    return winner, np.concatenate([np.repeat(b, won), np.repeat(a, lost)])
+
+
+def processor_seconds(action: Callable[[], Any]) -> float:
+    begin = time.process_time()
+    action()
+    return time.process_time() - begin
+
+
+@pytest.mark.parametrize("matches", [10_000, 100_000, 1_000_000])
+def test_a_federation_by_size(matches: int) -> None:
+    results, _ = federation(matches, matches // 10)
+    games = int(results.score_a.sum() + results.score_b.sum())
+    print(f"\n{matches:,} matches, {len(results.players):,} players, {games:,} games")
+    begin = time.process_time()
+    ratings = fit(results, prior_sd=WIDTH)
+    fitted = time.process_time() - begin
+    errors = processor_seconds(lambda: ratings.standard_error)
+    sample = np.random.default_rng(1).choice(len(ratings.players), 200, replace=False)
+    # Each variance of these is a linear system, solved to 1e-12.
+    covariance = ratings.covariance([ratings.players[k] for k in sample])
+    off = ratings.standard_error[sample] / np.sqrt(np.diagonal(covariance)) - 1.0
+    largest = np.quantile(np.abs(off), 0.95)
+    print(f"evenbreak: fit {fitted:.2f} s, standard errors {errors:.2f} s; of 200 of them 95% are")
+    print(f"within {largest:.2%}, all from {off.min():+.2%} to {off.max():+.2%}")
+    assert largest < 0.03
+    assert off.min() > -0.05
+    for name, (rate, most) in PEERS.items():
+        if importlib.util.find_spec(name) is None:
+            print(f"{name}: not installed")
+        elif matches > most:
+            print(f"{name}: no more than {most:,} matches")
+        else:
+            try:
+                print(f"{name}: {processor_seconds(lambda rate=rate: rate(results)):.2f} s")
+            except ArithmeticError as error:  # ratings that run away
+                print(f"{name}: {error}")

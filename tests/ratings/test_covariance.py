@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import covariance
+from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.covariance import Curvature, count_pairs, sums_by_player
 
 LOW, HIGH = np.array([0, 0, 1, 2]), np.array([1, 2, 3, 3])
@@ -46,6 +47,35 @@ def test_covariances_of_a_contrast(bordered):
 
 def test_without_an_advantage_there_is_no_variance_of_it():
     assert Curvature(4, LOW, HIGH, WEIGHT, 0.7).border_variance is None
+
+
+@pytest.mark.parametrize("route", ["factorised", "iterated"])
+def test_what_levels_add_to_the_covariance(monkeypatch, route):
+    if route == "iterated":
+        monkeypatch.setattr(covariance, "_DENSE_UP_TO", 0)
+    design = np.array([[0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [-0.5, 0.5]])
+    means = PriorMeans(np.zeros(4), design, np.array([0.3, 0.6]))
+    curvature = Curvature(4, LOW, HIGH, WEIGHT, 0.7, means=means)
+    # Levels integrated out, the prior's covariance is σ²I + ZSZᵀ.
+    laplacian = curvature.matrix.toarray() - 0.7 * np.eye(4)
+    prior = np.eye(4) / 0.7 + design @ np.diag(means.level_sd**2) @ design.T
+    exact = np.linalg.inv(laplacian + np.linalg.inv(prior))
+    np.testing.assert_allclose(curvature.variances(), np.diagonal(exact), rtol=1e-10)
+    group = np.array([0, 0, 0, 0])
+    np.testing.assert_allclose(curvature.with_means(group), exact.mean(1), rtol=1e-9)
+
+
+def test_covariances_with_the_means_of_groups(monkeypatch):
+    """Two groups that never met, whom the break advantage and the levels link."""
+    monkeypatch.setattr(covariance, "_DENSE_UP_TO", 0)
+    design = np.array([[1.0], [0.2], [-0.4], [0.0]])
+    means = PriorMeans(np.zeros(4), design, np.array([0.5]))
+    pairs = np.array([0, 2]), np.array([1, 3]), np.array([2.0, 3.0])
+    curvature = Curvature(4, *pairs, 0.7, BORDER, CORNER, means=means)
+    exact = np.column_stack([curvature.times(row) for row in np.eye(4)])
+    group = np.array([1, 1, 2, 2])
+    same = (group[:, None] == group) / 2.0
+    np.testing.assert_allclose(curvature.with_means(group), (exact * same).sum(1), rtol=1e-9)
 
 
 def test_a_newton_step_solves_the_whole_system(bordered):

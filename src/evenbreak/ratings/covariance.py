@@ -30,6 +30,7 @@ from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import PriorMeans
+from evenbreak.ratings.conjugate_gradients import solve_columns
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
@@ -128,8 +129,14 @@ class Curvature:
     def _with_levels(self) -> Floats:
         """The covariance of every rating and level with each level, the advantage known."""
         levels = len(self._levels)
-        wanted = np.eye(levels, self.size + levels, self.size)
-        return np.reshape([self._solve(row) for row in wanted], wanted.shape).T
+        if self.size + levels <= _DENSE_UP_TO:
+            return np.asarray(
+                cho_solve(self._factor, np.eye(self.size + levels, levels, -self.size))
+            )
+        matrix = sparse.csr_array(self.matrix)
+        follow = solve_columns(matrix, self._diagonal, -self._across, 1e-12)
+        own = np.linalg.inv(self._levels + self._across.T @ follow)
+        return np.vstack([follow @ own, own])
 
     @cached_property
     def level_covariance(self) -> Floats:

@@ -61,11 +61,11 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Inverse
     Returns
     -------
     InverseDiagonal
-        n values, with a relative error near rounding. For a matrix of 2,000 rows or more
-        that fills in they come from the cavity approximation (see `approximate_diagonal`)
-        where that is within 0.2% at worst, 1e-5 as a rule; failing that, for up to 5,000 rows,
-        from single precision where the condition number is below 1000: within a few 1e-6 as a
-        rule, and 1e-4 at worst. For more than 5,000 rows they are sampled, with the error stated.
+        n values, with a relative error near rounding. For a matrix of 2,000 rows or more that
+        fills in they come from the cavity approximation (see the module) where that is within
+        0.2% at worst, 1e-5 as a rule. Failing that, for up to 5,000 rows they come from single
+        precision where the condition number is below 1000: within a few 1e-6 as a rule, and 1e-4
+        at worst. For more than 5,000 rows they are sampled, with the error stated.
 
     Raises
     ------
@@ -76,10 +76,20 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Inverse
     >>> inverse_diagonal(path, 1.0).value
     array([0.625, 0.5  , 0.625])
     """
-    fronts = fronts_of(matrix) if matrix.shape[0] >= _LARGE else []
-    if not fronts:
-        return approximate_diagonal(matrix, row_sum)
-    return InverseDiagonal(_come_back(fronts, *_eliminate(matrix, fronts)))
+    size = matrix.shape[0]
+    if size < _LARGE:
+        return InverseDiagonal(_in_double_precision(matrix))
+    league = None if row_sum is None else _Levelled.of(matrix, row_sum)
+    if league is not None and (well_mixed := _by_cavities(league)) is not None:
+        return InverseDiagonal(league.whole(well_mixed))
+    fronts = fronts_of(matrix)
+    if fronts:
+        return InverseDiagonal(_come_back(fronts, *_eliminate(matrix, fronts)))
+    if size > _DENSE_UP_TO:
+        return sampled_diagonal(matrix, row_sum)
+    if league is not None and (single := _in_single_precision(league)) is not None:
+        return InverseDiagonal(league.whole(single))
+    return InverseDiagonal(_in_double_precision(matrix))
 
 
 def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floats], list[Floats]]:
@@ -172,21 +182,6 @@ squares, no such sum is then above .015, and every round comes 60 times nearer."
 _ROUNDS = 6
 
 
-def approximate_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
-    """Return the diagonal of the inverse; parameters and errors of `inverse_diagonal`."""
-    size = matrix.shape[0]
-    if size >= _LARGE and row_sum is not None:
-        league = _Levelled.of(matrix, row_sum)
-        whole = [_in_single_precision] if size <= _DENSE_UP_TO else []
-        for diagonal_of in (_by_cavities, *whole):
-            diagonal = diagonal_of(league)
-            if diagonal is not None:
-                return InverseDiagonal(diagonal * league.scale**2 + league.level)
-    if size > _DENSE_UP_TO:
-        return sampled_diagonal(matrix, row_sum)
-    return InverseDiagonal(_in_double_precision(matrix))
-
-
 @dataclass(frozen=True, eq=False)
 class _Levelled:
     """S (H + αuuᵀ) S = I - W, where W is `pull` - r rᵀ off the diagonal and 0 on it."""
@@ -207,15 +202,15 @@ class _Levelled:
         level = alpha / (row_sum * (row_sum + alpha * size))
         return cls(sparse.csc_array(pull), np.sqrt(alpha) * scale, scale, level)
 
+    def whole(self, diagonal: Floats) -> Floats:
+        """Return the diagonal of H⁻¹, from that of (I - W)⁻¹."""
+        return diagonal * self.scale**2 + self.level
+
 
 def _by_cavities(league: _Levelled) -> Floats | None:
     """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
-    w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)
-    start = np.cos(np.arange(size))
-    largest = eigsh(w, 1, which="LM", tol=0.01, v0=start, return_eigenvectors=False)
-    radius = 1.05 * abs(float(largest[0]))  # Lanczos comes from below
     squares = pull.multiply(pull) - 2.0 * (sparse.diags_array(r) @ pull @ sparse.diags_array(r))
 
     def squared(v: Floats) -> Floats:
@@ -223,6 +218,12 @@ def _by_cavities(league: _Levelled) -> Floats | None:
         return product
 
     total = float(squared(np.ones(size)).max())
+    if 2.0 * total**1.5 > _WELL_MIXED:  # whatever ρ is: ρ² is at least that
+        return None
+    w = LinearOperator((size, size), lambda v: pull @ v - r * (r @ v) + rr * v, dtype=np.float64)
+    start = np.cos(np.arange(size))
+    largest = eigsh(w, 1, which="LM", tol=0.01, v0=start, return_eigenvectors=False)
+    radius = 1.05 * abs(float(largest[0]))  # Lanczos comes from below
     unknown = 2.0 * radius * total / (1.0 - radius**2) if radius < 0.5 else 1.0
     if unknown > _WELL_MIXED * (1.0 - total / (1.0 - radius)):
         return None

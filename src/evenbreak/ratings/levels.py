@@ -275,12 +275,17 @@ def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[
     return tuple(name for name, says_it in says.items() if says_it)
 
 
+MOST_SHARES = 20_000_000
+"""Players times groups, from which groups are too many to estimate: 200 of 100,000 players."""
+
+
 def has_groups(results: Results, kind: str) -> bool:
-    """Return whether results name two teams, or two divisions, at least."""
+    """Return whether results name two teams, or two divisions, at least, and not too many."""
     columns = [getattr(results, name) for name in GROUPS[kind]]
     if any(column is None for column in columns):
         return False
-    return len({text for column in columns for text in column.tolist()} - {""}) > 1
+    groups = len({text for column in columns for text in column.tolist()} - {""})
+    return 1 < groups <= MOST_SHARES // len(results.players)
 
 
 def games_of(results: Results) -> Floats:
