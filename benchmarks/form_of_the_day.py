@@ -16,7 +16,8 @@ from scipy.special import betainc, expit, gammaln, log_expit, logit, logsumexp
 from evenbreak.arrays import Bools, Floats
 from evenbreak.files import read_results
 from evenbreak.matches.form import centre_of_form
-from evenbreak.ratings import Forecasts, Levels, day_form, fit, walk_forward
+from evenbreak.ratings import Forecasts, Levels, fit, walk_forward
+from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.validation.within_matches import score_shapes
 
 
@@ -29,11 +30,12 @@ def main(path: str, width: float, newcomers: float, date: str | None = None) -> 
         day = np.datetime64(date)
         known = results.select(np.asarray(results.date < day))
         rows &= walk.results.date >= day
-    form = day_form(known, fit(known, **how))
+    form = with_form(known, fit(known, **how)).form
     if form is None:
         raise SystemExit("too few matches")
+    formed_walk = walk_forward(results, **how, form=form.sd)
     print(f"form {form.sd:.3f} ± {form.sd_error:.3f}; {rows.sum():,} matches predicted")
-    plain, formed = (predicted(walk, rows, sd) for sd in (0.0, form.sd))
+    plain, formed = predicted(walk, rows), predicted(formed_walk, rows)
     for what in ("score", "winner"):
         saved = formed[what] - plain[what]
         error = over_dates(saved, walk.date_of[rows])
@@ -48,13 +50,13 @@ def main(path: str, width: float, newcomers: float, date: str | None = None) -> 
         print(f"slope of the winner's chances {name} form: {slope(one['p_win'], a > b):.2f}")
 
 
-def predicted(walk: Forecasts, rows: Bools, form: float) -> dict[str, Floats]:
+def predicted(walk: Forecasts, rows: Bools) -> dict[str, Floats]:
     """Return the log-likelihood of each score and winner, and what is said of deciders."""
     points, weights = np.polynomial.hermite_e.hermegauss(41)
     weights /= weights.sum()
     sd = walk.sd[rows]
-    x = centre_of_form(walk.difference[rows], sd, form)[:, None]
-    x = x + np.hypot(sd, form)[:, None] * points
+    x = centre_of_form(walk.difference[rows], sd, walk.form)[:, None]
+    x = x + np.hypot(sd, walk.form)[:, None] * points
     a, b = walk.results.score_a[rows, None], walk.results.score_b[rows, None]
     m, n = walk.race_a[rows, None], walk.race_b[rows, None]
     orders = gammaln(a + b) - gammaln(np.maximum(a, b)) - gammaln(np.minimum(a, b) + 1)

@@ -29,7 +29,8 @@ def season(points: int) -> Results:
 
 def of_match_form(results: Results) -> int:
     walk = walk_forward(results, prior_sd=0.5)
-    found = match_form(walk, walk.date_of, np.random.default_rng(1))
+    form = day_form(results, fit(results, prior_sd=0.5))
+    found = match_form(walk, form, walk.date_of, np.random.default_rng(1))
     assert found is not None
     return found.races
 

@@ -31,6 +31,7 @@ from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.conjugate_gradients import solve_columns
+from evenbreak.ratings.drawn_differences import drawn_difference_variances
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
@@ -198,8 +199,13 @@ class Curvature:
     def difference_variances(self, first: Places, second: Places) -> Floats:
         """Return the variance of the difference of the ratings of each pair, all at once.
 
-        For up to 2,000 players, as the whole covariance is formed.
+        For up to 2,000 players the whole covariance is formed; for more, they are drawn.
         """
+        if len(self._levels) + self.size > _DENSE_UP_TO:
+            beforehand = np.asarray(self.matrix.sum(axis=1), dtype=np.float64)
+            given_levels = drawn_difference_variances(self.matrix, beforehand, first, second)
+            shared = self._shared[first] - self._shared[second]
+            return np.asarray(given_levels + (shared**2).sum(1))
         covariance = np.asarray(cho_solve(self._factor, np.eye(len(self._whole))))
         if self._with_border is not None and self.border_variance is not None:
             covariance += np.outer(self._with_border, self._with_border) * self.border_variance
@@ -320,11 +326,6 @@ class PairCounts:
     def graph(self) -> sparse.csr_array:
         """Who met whom: shape (players, players), upper triangular."""
         return self.games
-
-    @property
-    def amount(self) -> float:
-        """How many games there are."""
-        return float(self.games.sum())
 
     def curvature(
         self,

@@ -4,12 +4,14 @@ In match i the log-odds of every game are c + e, where e, the same in all games 
 normal. Its variance is v more than that of the ratings' difference, and c is such that the chance
 of a game is as the ratings say (see `evenbreak.matches.form`). v is estimated by maximum
 likelihood, with e and the uncertainty of the ratings integrated out; its standard error is the
-sandwich's.
+sandwich's. Where v is established, ratings are fitted with it (see
+`evenbreak.ratings.form_weights`), and v is estimated once more from these.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +24,10 @@ from evenbreak.ratings.decay import until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.estimates import Estimate, with_error
-from evenbreak.ratings.fit import weights_of
+from evenbreak.ratings.fit import fit, weights_of
 from evenbreak.ratings.fitted import DayForm, Ratings
+from evenbreak.ratings.form_weights import games_weight
+from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.results import Results
 
 NODES = 15
@@ -41,8 +45,11 @@ FEWEST_DAYS = 20
 FEWEST = 100
 """Matches from which the variance is estimated."""
 
-MOST_PLAYERS = 2000
-"""Players up to which each match is compared with the ratings from all others."""
+MOST = 20_000
+"""Matches that are looked at: of more a random sample, which shows v to within 0.01."""
+
+SEED = 1
+"""Of the sample, so that the same results always have the same answer."""
 
 _STEP = 1e-3
 
@@ -62,7 +69,7 @@ def form_variance(
     cluster
         matches with the same number may depend on each other.
     """
-    points, weights = normal_nodes()
+    points, weights = normal_nodes(NODES)
 
     def log_likelihood(v: float) -> Floats:
         x = log_odds_of(difference, sd, v)[:, None] + np.sqrt(sd**2 + v)[:, None] * points
@@ -86,16 +93,12 @@ def log_odds_of(difference: Floats, sd: Floats, v: float) -> Floats:
     return centre_of_form(difference, sd, math.sqrt(v))
 
 
-def normal_nodes() -> tuple[Floats, Floats]:
-    """Return the nodes and weights of the rule that integrates over strengths."""
-    points, weights = np.polynomial.hermite_e.hermegauss(NODES)
-    return points, weights / math.sqrt(2.0 * math.pi)
-
-
 def day_form(results: Results, ratings: Ratings) -> DayForm | None:
     """Return the form of the day in the results that a league was rated by.
 
-    Each match is compared with the ratings that all other matches give.
+    Each match is compared with the ratings that all other matches give. Scores that can hardly be
+    games are left out, of the ratings too: counted as games they make their players' ratings wrong
+    and seem sure.
 
     Parameters
     ----------
@@ -105,36 +108,82 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
     Returns
     -------
     DayForm or None
-        None with fewer than 100 matches of two games or more whose scores are known, with more than
-        2,000 players, or where the break matters.
+        None with fewer than 100 matches of two games or more whose scores are known, or where the
+        break matters.
 
     Notes
     -----
     The ratings without a match are one Newton step from those with it. With V the variance of the
-    difference d, and w of n games won, which have the curvature k = n p (1 - p), it is
+    difference d, and w of n games won, which have the weight g and so the curvature
+    k = g n p (1 - p), it is
 
-        d - V (w - n p) / (1 - V k),    with the variance V / (1 - V k).
+        d - V g (w - n p) / (1 - V k),    with the variance V / (1 - V k).
     """
     check_results(results)
-    if len(ratings.players) > MOST_PLAYERS or ratings.break_advantage is not None:
+    if ratings.break_advantage is not None:
         return None
+    doubtful = doubtful_scores(results)
+    if doubtful.any():
+        results = results.select(~doubtful)
+        ratings = _alike(ratings, results, ratings.match_form)
     in_time = results if ratings.as_of is None else results.select(until(results, ratings.as_of))
     played = in_time.played().results
     weight, _ = weights_of(played, in_time.won_only(), ratings.half_life, ratings.as_of)
     games = played.score_a + played.score_b
-    counted = (games > 1) & (games <= LONGEST) & ~doubtful_scores(played)
-    if counted.sum() < FEWEST:
+    counted = np.flatnonzero((games > 1) & (games <= LONGEST))
+    if len(counted) < FEWEST:
         return None
-    scored, weight = played.select(counted), weight[counted]
+    if len(counted) > MOST:
+        drawn = np.random.default_rng(SEED).choice(len(counted), MOST, replace=False)
+        counted = counted[np.sort(drawn)]
+    scored, weight, games = played.select(counted), weight[counted], games[counted]
     a, b = scored.player_a, scored.player_b
     difference = ratings.scale.log_odds(ratings.rating[a] - ratings.rating[b])
+    weight = weight * games_weight(difference, games, ratings.match_form)
     variance = ratings.difference_variances(a, b)
-    won, lost = scored.score_a.astype(float), scored.score_b.astype(float)
     p = expit(difference)
-    left = 1.0 - np.minimum(variance * weight * (won + lost) * p * (1.0 - p), 0.99)
-    without = difference - variance * weight * (won - (won + lost) * p) / left
+    left = 1.0 - np.minimum(variance * weight * games * p * (1.0 - p), 0.99)
+    without = difference - variance * weight * (scored.score_a - games * p) / left
+    won, lost = scored.score_a.astype(float), scored.score_b.astype(float)
     varies = form_variance(without, np.sqrt(variance / left), won, lost, _clusters(scored))
     return DayForm(varies, len(scored))
+
+
+def with_form(results: Results, ratings: Ratings) -> Ratings:
+    """Return ratings that allow for the form of the day, where it is established.
+
+    Parameters
+    ----------
+    results, ratings
+        the results, and what `fit` made of them.
+
+    >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5])
+    >>> with_form(season, fit(season)).form is None
+    True
+    """
+    form = day_form(results, ratings)
+    if form is None or not form.established:
+        return replace(ratings, form=form)
+    # Ratings without form are surer than they ought to be, so the first v is slightly high.
+    form = day_form(results, _alike(ratings, results, form.used, ratings))
+    if form is None or not form.established:
+        return replace(ratings, form=form)
+    return replace(_alike(ratings, results, form.used, ratings), form=form)
+
+
+def _alike(ratings: Ratings, results: Results, form: float, near: Ratings | None = None) -> Ratings:
+    return fit(
+        results,
+        prior_sd=ratings.prior_sd,
+        scale=ratings.scale,
+        anchor=dict(ratings.named) or ratings.anchor,
+        half_life=ratings.half_life,
+        as_of=ratings.as_of,
+        levels=ratings.levels,
+        provisional=ratings.least_games,
+        form=form,
+        near=near,
+    )
 
 
 def _clusters(results: Results) -> NDArray[np.int64]:

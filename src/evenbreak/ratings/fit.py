@@ -13,11 +13,13 @@ from scipy.sparse.csgraph import connected_components
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number
 from evenbreak.errors import InputError
+from evenbreak.matches.form import form_of
 from evenbreak.ratings.beginning import Beginning, PriorMeans
 from evenbreak.ratings.covariance import PairCounts, count_pairs
 from evenbreak.ratings.decay import day_of, match_weights, until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.form_weights import form_weights
 from evenbreak.ratings.levels import Levels, means_of
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
 from evenbreak.ratings.posterior import find_mixed_mode, find_mode
@@ -56,13 +58,16 @@ def fit(
     break_advantage: float | str | None = None,
     levels: Levels | None = None,
     provisional: int | None = None,
+    form: float = 0.0,
+    near: Ratings | None = None,
 ) -> Ratings:
     """Return the ratings that are most likely a posteriori, given the games of `results`.
 
-    Every game counts alike: a match is so many games won and lost, whatever the race. A
-    match known by its winner alone counts by its race (see `race_slopes`). Forfeits and 0-0
-    are left out, and the answer says how many there were. The prior keeps the rating of a
-    player who won (or lost) every game finite.
+    Every game counts alike: a match is so many games won and lost, whatever the race, unless
+    players vary from match to match (see `evenbreak.ratings.form_weights`). A match known by its
+    winner alone counts by its race (see `race_slopes`). Forfeits and 0-0 are left out, and the
+    answer says how many there were. The prior keeps the rating of a player who won (or lost)
+    every game finite.
 
     Parameters
     ----------
@@ -92,13 +97,18 @@ def fit(
     provisional
         ratings from fewer games than this have no place in lists (see `Ratings.provisional`);
         None: 200, or a third of what the league's regulars have if that is less.
+    form
+        how much players vary from match to match: the standard deviation of a game's log-odds.
+    near
+        ratings of the same results, at which the weights with form are worked out; None: those
+        without form.
 
     Raises
     ------
     InputError
-        if prior_sd is not in 0.001 to 100, an anchor is not finite or names an unknown
-        player, half_life is not above 0, a date is missing where dates are needed, a score
-        is negative, or the two players of a match are the same (see `find_problems`).
+        if prior_sd is not in 0.001 to 100, form not in 0 to 3, an anchor is not finite or names
+        an unknown player, half_life is not above 0, a date is missing where dates are needed, a
+        score is negative, or the two players of a match are the same (see `find_problems`).
     AccuracyError
         if the mode is not found to rounding.
 
@@ -119,6 +129,19 @@ def fit(
     check_results(results)
     prior_sd = checked_prior(prior_sd)
     scale = scale_of(scale)
+    form = form_of(form)
+    if form and near is None:
+        near = fit(
+            results,
+            prior_sd=prior_sd,
+            scale=scale,
+            anchor=anchor,
+            half_life=half_life,
+            as_of=as_of,
+            break_advantage=break_advantage,
+            levels=levels,
+            provisional=provisional,
+        )
     if anchor is None and levels and levels.beginning is not None:
         anchor = levels.beginning.anchor(results.players, scale, brought=levels.brought_sd > 0.0)
     centre, named = _anchors(anchor, scale, results.players)
@@ -137,12 +160,19 @@ def fit(
     if means is not None and levels and levels.beginning is not None:
         means = means.faded(levels.beginning.kept(half_life, in_time, day))
     players = len(results.players)
-    if not len(won_only) and half_life is None and break_advantage is None and means is None:
+    weights = weights_of(scored, won_only, half_life, day)
+    weight = float(weights[0] @ (scored.score_a + scored.score_b) + weights[1].sum())
+    start = None
+    if form and near is not None:
+        start = near.scale.log_odds(near.rating - near.anchor)
+        by_form = form_weights(scored, won_only, start, form)
+        weights = weights[0] * by_form[0], weights[1] * by_form[1]
+    plain = not len(won_only) and half_life is None and break_advantage is None and means is None
+    if plain and not form:
         mode = find_mode(pairs, prior_sd**-2)
     else:
         breaks = break_advantage is not None
         known_break = known_advantage(break_advantage, scale) if breaks else 0.0
-        weights = weights_of(scored, won_only, half_life, day)
         played = terms = likelihood_terms(scored, won_only, weights, breaks=breaks)
         break_games = terms.games_with_breaker if breaks else 0.0
         break_precision = BREAK_SD**-2 if known_break is None and break_games else None
@@ -152,6 +182,7 @@ def fit(
             advantage=known_break or 0.0,
             break_precision=break_precision,
             means=means,
+            start=start,
         )
         advantage = float(mode.point[-1]) if break_games else None
     skill = mode.point[:players]
@@ -176,6 +207,8 @@ def fit(
         empty=empty,
         races_won=races_won,
         races_lost=races_lost,
+        weight=weight,
+        match_form=form,
         named=tuple(named.items()),
         half_life=None if half_life is None else float(half_life),
         as_of=day,

@@ -73,6 +73,11 @@ class DayForm:
         middle = (self.variance.high + self.variance.low) / 2.0
         return middle - (self.variance.high - middle) * 2.576 / 1.960 > 0.0
 
+    @property
+    def used(self) -> float:
+        """The standard deviation rounded as in lists of ratings; 0 where it is not established."""
+        return round(self.sd, 4) if self.established else 0.0
+
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
@@ -108,8 +113,13 @@ class Ratings:
     break_games, levels
         the games, by weight, whose breaker is known, if the break matters; how much newcomers,
         teams and divisions differ beforehand.
+    weight
+        how many games, and matches known by their winner alone, there are, by their age.
+    match_form
+        how much players vary from match to match, as far as it is taken into account: the standard
+        deviation of a game's log-odds. Then what a match says is less than its games would.
     form
-        how much players vary from match to match, if that was estimated (see `day_form`).
+        how that was estimated, if it was (see `day_form`).
     games_behind
         the games that each rating rests on: those played, what matches known by their winner alone
         are worth in games, and those behind a rating that was brought along.
@@ -134,6 +144,8 @@ class Ratings:
     _: KW_ONLY
     races_won: Ints
     races_lost: Ints
+    weight: float
+    match_form: float = 0.0
     named: tuple[tuple[str, float], ...] = ()
     half_life: float | None = None
     as_of: np.datetime64 | None = None
@@ -211,19 +223,9 @@ class Ratings:
         )
 
     @property
-    def match_form(self) -> float:
-        """The established `form`, or 0: the standard deviation, rounded as in lists of ratings."""
-        return round(self.form.sd, 4) if self.form is not None and self.form.established else 0.0
-
-    @property
     def idle(self) -> Bools:
         """Which players have no result that counts: theirs is the prior's rating."""
         return np.asarray(self.games + self.races_won + self.races_lost == 0)
-
-    @property
-    def weight(self) -> float:
-        """How many games, and matches known by their winner alone, there are, by weight."""
-        return self._played.amount
 
     @cached_property
     def standard_error(self) -> Floats:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Literal
 
 from evenbreak.ratings.beginning import Beginning
-from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.decay import day_of, until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, fit
@@ -81,7 +80,7 @@ def usual_ratings(
         half_life=choice.half_life if choice else days,
         levels=choice.levels if choice else begun(beginning),
     )
-    return replace(ratings, form=day_form(results, ratings)), choice
+    return with_form(results, ratings), choice
 
 
 def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratings]:
@@ -111,6 +110,7 @@ def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratin
             half_life=ratings.half_life,
             levels=ratings.levels,
             as_of=day,
+            form=ratings.match_form,
         )
 
     return again

@@ -5,11 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from evenbreak.answers.league.validate import verdict
+from evenbreak.answers.league.validate import validate_answer, verdict
+from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.matches import race_win_probability
 from evenbreak.ratings import Results, scale_of, validate
-from evenbreak.ratings.estimates import Estimate
-from evenbreak.ratings.fitted import DayForm
 
 
 def said(results, **options):
@@ -62,18 +61,21 @@ def test_few_matches_are_too_few(play_season):
     assert "too few matches" in said(results, prior_sd=0.3)
 
 
-def test_good_and_bad_days_make_chances_of_matches_unreliable(play_season):
-    assert said(play_season(7, days=1.0), prior_sd=0.5).startswith("Do not")
+def test_form_of_the_day_is_allowed_for(play_season):
+    found = validate(play_season(7, days=0.7), prior_sd=0.5)
+    assert found.forecasts.form == found.ratings.match_form > 0.5
+    assert found.dispersion.p_value > 0.01
+    file = ResultsFile(found.forecasts.results, "r.csv", (), (), "")
+    text = " ".join(validate_answer(file, found, scale_of("npl")).sentences)
+    assert text.startswith("You can trust")
+    assert "Form of the day is allowed for" in text
 
 
-@pytest.mark.parametrize("established", [True, False])
-def test_what_is_corrected_is_said_where_chances_of_matches_are_off(demo, established):
-    form = DayForm(Estimate(0.1, 0.05 if established else -0.1, 0.15), 300)
+def test_what_no_form_explains_makes_chances_of_matches_unreliable(demo):
     spread = demo.dispersion._replace(seen=2.0 * demo.dispersion.by_chance, p_value=0.0)
-    found = dataclasses.replace(demo, form=form, dispersion=spread)
-    text = verdict(found, scale_of("npl"))
+    text = verdict(dataclasses.replace(demo, dispersion=spread), scale_of("npl"))
     assert text.startswith("Do not rely")
-    assert ("single games are not corrected" in text) == established
+    assert text.endswith("No command corrects this.")
 
 
 def test_ratings_that_underrate_those_who_give_games_are_found(demo):

@@ -365,8 +365,8 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
     Form of the day: from match to match the strength difference of two players varies by 15
     points, give or take 2, so sweeps are likelier and hill-hill games rarer than ratings alone
-    would say. This list of ratings states it (0.35 in log-odds), and odds, fair, live and
-    matchups allow for it.
+    would say. This list of ratings states it (0.35 in log-odds); its errors, and odds, fair, live
+    and matchups, allow for it.
     """
     if form is None or not form.established:
         return
@@ -375,7 +375,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
         f"Form of the day: from match to match the strength difference of two players varies by "
         f"{points:.0f} points, give or take {error:.0f}, so sweeps are likelier and hill-hill "
         "games rarer than ratings alone would say. This list of ratings states it "
-        f"({form.sd:.2f} in log-odds), and odds, fair, live and matchups allow for it."
+        f"({form.sd:.2f} in log-odds); its errors, and odds, fair, live and matchups, allow for it."
     )
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.league.prior import evidence_rows, levels_data
 from evenbreak.answers.league.validate_findings import details, findings_table
@@ -64,6 +65,7 @@ def validate_answer(
     chart = chart or LeagueChart()
     text = verdict(found, scale, chart)
     parts: list[Part] = [text, _games(found), *remarks(found, scale, chart)]
+    parts += filter(None, [form_used_words(found.forecasts.form, scale)])
     return Answer(
         _heading(file, found),
         parts,
@@ -181,7 +183,7 @@ def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
     if spread is not None and spread.p_value < UNLIKELY:
         times = spread.seen / spread.by_chance
         if times > TOO_SPREAD:
-            return f"{_good_and_bad_days(times)} {_corrected(found)}"
+            return f"{_good_and_bad_days(times)} {_NOT_CORRECTED}"
     default = _default_is_wrong(found, scale)
     if faults:
         held = f"You can trust the ratings for single games, but {listed(faults)}."
@@ -243,18 +245,10 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
     if not found.choice.learnt:
         even = "and there are too few results to choose a better prior"
     text = f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
-    return f"{text} {_corrected(found)}"
+    return f"{text} {_NOT_CORRECTED}"
 
 
-def _corrected(found: Validation) -> str:
-    """Return what the other commands correct where chances are off, and what they do not."""
-    if found.form is None or not found.form.established:
-        return "No command corrects this."
-    return (
-        "In the chances of matches and in fair races, report allows for good and bad days, and so "
-        "do odds, fair, live and matchups with the ratings that rate writes. The chances of single "
-        "games are not corrected."
-    )
+_NOT_CORRECTED = "No command corrects this."
 
 
 def _good_and_bad_days(times: float) -> str:

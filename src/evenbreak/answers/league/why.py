@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -299,8 +299,7 @@ def one_more_match(
         a_first = score if winner == 0 else score[::-1]
         dates = None if day is None or results.date is None else np.array([day])
         match = Results(results.players, *np.array([[*pair, *a_first]]).T, date=dates)
-        again = refit(results.joined(match))
-        then = replace(again, form=ratings.form)
+        then = refit(results.joined(match))
         found.append(
             OneMore(
                 ratings.players[pair[winner]],

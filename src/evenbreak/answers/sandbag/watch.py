@@ -12,7 +12,7 @@ from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of, percent, race, some_of
 from evenbreak.league.sandbag_watch import PlayedNight, Watched
-from evenbreak.ratings.day_form import day_form
+from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
@@ -145,11 +145,11 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
     []
     """
     ratings = fit(results, scale=scale)
-    form = day_form(results, ratings) if ratings.matches else None
-    if form is None or not form.established:
+    form = with_form(results, ratings).match_form if ratings.matches else 0.0
+    if not form:
         return []
     # Two players' forms, alike and independent, make up that of their difference.
-    points = scale_of(scale).points(form.sd) / math.sqrt(2.0)
+    points = scale_of(scale).points(form) / math.sqrt(2.0)
     return [
         say(
             "honest players are taken to play at the same strength every day, but in these results "

@@ -3,7 +3,9 @@
 A prediction is p, the chance of a player to win a game (or a match), for `games` games of
 which they won `won`. In a race the number of games depends on how they went, but w - p n
 still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: when a
-race stops depends on the past only.
+race stops depends on the past only. With form of the day it does not have mean zero, as the
+bad days of favorites last longer, but nearly so if matches weigh as they do in the ratings
+(see `evenbreak.ratings.form_weights`). So whether chances are right is judged by weight.
 """
 
 from __future__ import annotations
@@ -12,10 +14,12 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import xlog1py, xlogy
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, logistic_coefficient, wilson
+from evenbreak.ratings.form_weights import games_weight
 from evenbreak.ratings.validation.walk_forward import Forecasts
 
 TOSS_UP = 1e-9
@@ -69,7 +73,13 @@ def brier(p: Floats, won: Floats, games: Floats) -> Floats:
 
 
 def calibration(
-    p: Floats, won: Floats, games: Floats, *, bins: int = 10, worth: float = 1.0
+    p: Floats,
+    won: Floats,
+    games: Floats,
+    *,
+    bins: int = 10,
+    worth: float = 1.0,
+    weight: ArrayLike = 1.0,
 ) -> list[CalibrationBin]:
     """Return how often favourites won, by their predicted chance from 0.5 to 1.
 
@@ -84,6 +94,8 @@ def calibration(
     worth
         how many independent games a game is worth: below 1 where the games of a match vary
         together.
+    weight
+        of each match in the two shares.
 
     >>> rows = calibration(np.array([0.62, 0.39]), np.array([7.0, 3.0]), np.array([12.0, 10.0]))
     >>> [(r.p_from, r.games, round(r.predicted, 3), round(r.seen, 3)) for r in rows]
@@ -92,6 +104,7 @@ def calibration(
     a_leads = p > 0.5
     chance = np.where(a_leads, p, 1.0 - p)
     wins = np.where(a_leads, won, games - won)
+    weight = np.asarray(weight)
     edges = np.linspace(0.5, 1.0, bins + 1)
     place = np.minimum(np.searchsorted(edges, chance, side="right") - 1, bins - 1)
     filled = []
@@ -100,9 +113,10 @@ def calibration(
         n = float(games[rows].sum())
         if n == 0.0:
             continue
-        seen = float(wins[rows].sum()) / n
+        weighed = (weight * games)[rows]
+        share = (weight * wins)[rows].sum() / weighed.sum()
+        seen, predicted = float(share), float(chance[rows] @ weighed / weighed.sum())
         low, high = wilson(seen, n * worth)
-        predicted = float((chance[rows] * games[rows]).sum()) / n
         first, last = round(float(edges[k]), 6), round(float(edges[k + 1]), 6)
         matches = int(rows.sum())
         filled.append(CalibrationBin(first, last, matches, round(n), predicted, seen, low, high))
@@ -171,6 +185,8 @@ class Predictions:
     p, won, trials
         the chance of player a, what a won, and how many games (or races) there were, by
         match; no trials where there is no race.
+    weight
+        of each trial where it is judged whether chances are right.
     """
 
     of: Of
@@ -179,6 +195,7 @@ class Predictions:
     p: Floats
     won: Floats
     trials: Floats
+    weight: Floats
 
     @classmethod
     def of_walk(cls, walk: Forecasts, of: Of, how: How) -> Predictions:
@@ -187,12 +204,14 @@ class Predictions:
         if of == "game":
             p = walk.p_game if plain else walk.p_game_integrated
             won, trials = walk.results.score_a.astype(float), walk.games.astype(float)
+            weight = games_weight(walk.difference, trials, walk.form)
         else:
             raced = walk.race_a > 0
             p = np.where(raced, walk.p_match if plain else walk.p_match_integrated, 0.5)
             won, trials = np.where(raced, walk.won, 0.0), raced.astype(float)
+            weight = np.ones(len(walk))
         # Nothing is certain: the loss of a chance that rounds to 1 would be infinite.
-        return cls(of, how, walk, np.clip(p, SUREST, 1.0 - SUREST), won, trials)
+        return cls(of, how, walk, np.clip(p, SUREST, 1.0 - SUREST), won, trials, weight)
 
     @property
     def losses(self) -> Floats:
@@ -207,7 +226,8 @@ class Predictions:
     def scored(self, cluster: Ints, rng: np.random.Generator) -> Scored:
         """Return how good they were; `rng` resamples matches by their `cluster`."""
         x = np.log(self.p) - np.log1p(-self.p)
-        slope = logistic_coefficient(x, self.won, self.trials, cluster)
+        by_weight = self.weight * self.won, self.weight * self.trials
+        slope = logistic_coefficient(x, *by_weight, cluster)
         favourites = int((self.trials > 0).sum()) - self.toss_ups
         if favourites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
             slope = None

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from evenbreak.checks import seed_of
 from evenbreak.ratings.beginning import Beginning
+from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, wilson
 from evenbreak.ratings.fit import PRIOR_SD, fit
@@ -38,7 +39,7 @@ from evenbreak.ratings.validation.calibration import (
     calibration,
 )
 from evenbreak.ratings.validation.starts import Starts, starts
-from evenbreak.ratings.validation.walk_forward import Forecasts, walk_forward
+from evenbreak.ratings.validation.walk_forward import Forecasts, in_order, walk_forward
 from evenbreak.ratings.validation.within_matches import (
     Dispersion,
     MatchForm,
@@ -290,25 +291,20 @@ def validate(
     choice = None
     half_lives: tuple[HalfLifeGain, ...] = ()
     never = None if half_life == "best" else half_life
-    walk = usual_walk = walk_forward(
-        results,
-        prior_sd=PRIOR_SD if prior_sd is None else prior_sd,
-        half_life=never,
-        levels=None if prior_sd is None else begun(beginning),
-        progress=next(parts),
-    )
+    usual_walk: Forecasts | None = None
+    usual_way: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": never, "levels": Levels()}
+    way = {**usual_way, "prior_sd": prior_sd, "levels": begun(beginning)}
+    season, _ = in_order(results)
     dated = results.select(~np.isnat(np.asarray(results.date)))
     if prior_sd is None:
+        usual_walk = walk_forward(results, **usual_way, progress=next(parts))
         choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=next(parts))
         half_lives = _tested(choice)
-        if (choice.prior_sd, choice.half_life, choice.levels) != (PRIOR_SD, never, Levels()):
-            walk = walk_forward(
-                results,
-                prior_sd=choice.prior_sd,
-                half_life=choice.half_life,
-                levels=choice.levels,
-                progress=next(parts),
-            )
+        way = {name: getattr(choice, name) for name in way}
+    ratings = with_form(season, fit(season, **way))
+    walk = usual_walk
+    if walk is None or ratings.match_form or way != usual_way:
+        walk = walk_forward(results, **way, form=ratings.match_form, progress=next(parts))
     if half_life == "best" and not half_lives:
         half_lives = half_life_gains(dated, walk.prior_sd, progress=next(parts))
     progress(100 * many, 100 * many)
@@ -322,7 +318,7 @@ def validate(
     cluster = walk.date_of if by_dates else np.arange(len(walk))
     spread = dispersion(walk, rng)
     usual: tuple[Scored, ...] = ()
-    if prior_sd is None:
+    if usual_walk is not None:
         own_rng = np.random.default_rng(seed)
         usual = tuple(
             Predictions.of_walk(usual_walk, of, "integrated").scored(cluster, own_rng)
@@ -330,9 +326,7 @@ def validate(
         )
     return Validation(
         forecasts=walk,
-        ratings=fit(
-            walk.results, prior_sd=walk.prior_sd, half_life=walk.half_life, levels=walk.levels
-        ),
+        ratings=ratings,
         prior_sd=walk.prior_sd,
         choice=choice,
         scored=tuple(predicted.scored(cluster, rng) for predicted in made.values()),
@@ -352,7 +346,7 @@ def validate(
         matches=_calibrated(Predictions.of_walk(walk, "match", "integrated")),
         matches_plug_in=_calibrated(Predictions.of_walk(walk, "match", "plug-in")),
         toss_ups={of: made[of, "integrated"].toss_ups for of in of_all},
-        form=match_form(walk, cluster, np.random.default_rng(seed)),
+        form=match_form(walk, ratings.form, cluster, np.random.default_rng(seed)),
         dispersion=spread,
         streaks=streaks(walk),
         side=side_advantage(walk),
@@ -393,5 +387,12 @@ def _calibrated(
     # Games of a match share what the ratings do not know, so each is worth less than one.
     worth = 1.0 if spread is None else min(1.0, 1.0 / spread.seen)
     return tuple(
-        calibration(predictions.p, predictions.won, predictions.trials, bins=BINS, worth=worth)
+        calibration(
+            predictions.p,
+            predictions.won,
+            predictions.trials,
+            bins=BINS,
+            worth=worth,
+            weight=predictions.weight,
+        )
     )

@@ -17,9 +17,11 @@ from scipy.special import expit
 from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.checks import number
 from evenbreak.errors import InputError
+from evenbreak.matches.form import centre_of_form, form_of
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
+from evenbreak.ratings.form_weights import games_weight
 from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.levels import Knowledge, Levels
 from evenbreak.ratings.results import Results
@@ -52,10 +54,11 @@ class Forecasts:
         the race: as stated, or else an even race to the winner's games (see
         `even_races`); 0 where there is none.
     p_match, p_match_integrated
-        P(a wins the match), likewise; NaN where there is no race.
+        P(a wins the match), likewise; NaN where there is no race. Integrated over form of the day
+        too, as games of a match share it; the chance of a single game is the same with it.
     won
         1 where a won the race, 0 where b did, NaN where there is none.
-    prior_sd, half_life, levels
+    prior_sd, half_life, levels, form
         what the ratings were fitted with.
     undated, forfeits, empty, unscored
         rows left out because they have no date, are forfeits, stand at 0-0, or state only
@@ -78,6 +81,7 @@ class Forecasts:
     prior_sd: float
     half_life: float | None
     levels: Levels
+    form: float
     undated: int
     forfeits: int
     empty: int
@@ -106,6 +110,7 @@ def walk_forward(
     prior_sd: float = PRIOR_SD,
     half_life: float | None = None,
     levels: Levels | None = None,
+    form: float = 0.0,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Forecasts:
     """Predict every dated match of `results` from the matches of earlier dates alone.
@@ -121,6 +126,8 @@ def walk_forward(
     levels
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
         players bring along.
+    form
+        how much players vary from match to match: the standard deviation of a game's log-odds.
     progress
         called with how many dates are done, and of how many.
 
@@ -144,10 +151,11 @@ def walk_forward(
     """
     check_results(results)
     precision = checked_prior(prior_sd) ** -2
+    form = form_of(form)
     if half_life is not None:
         wanted = "a number from 0.01 to 1,000,000, in days"
         half_life = number(half_life, "half_life", low=0.01, high=1e6, wanted=wanted)
-    season, left_out = _in_order(results)
+    season, left_out = in_order(results)
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
     if len(days) < 2:
         raise InputError(
@@ -173,7 +181,9 @@ def walk_forward(
         league.begin_day(knowledge.means() if levels else None)
         difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
         variance[rows] = league.difference_variance(a[rows], b[rows])
-        league.learn(rows, season.score_a[rows], season.score_b[rows])
+        won, lost = season.score_a[rows], season.score_b[rows]
+        worth = games_weight(difference[rows], won + lost, form)
+        league.learn(rows, worth * won, worth * lost)
         knowledge.play(rows)
         progress(day + 1, len(days))
     return _forecasts(
@@ -184,6 +194,7 @@ def walk_forward(
         prior_sd=float(prior_sd),
         half_life=half_life,
         levels=levels,
+        form=form,
         **left_out,
     )
 
@@ -211,8 +222,14 @@ def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
     return np.where(raced, race_a, 0), np.where(raced, race_b, 0), won
 
 
-def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
-    """Return the played matches with a date, by date, and how many rows were left out."""
+def in_order(results: Results) -> tuple[Results, dict[str, int]]:
+    """Return the played matches with a date, by date, and how many rows were left out.
+
+    Raises
+    ------
+    InputError
+        if no row could have a date.
+    """
     played, forfeits, empty = results.played()
     dates = played.date
     if dates is None:
@@ -229,7 +246,7 @@ def _in_order(results: Results) -> tuple[Results, dict[str, int]]:
 
 
 def _forecasts(
-    season: Results, date_of: Ints, difference: Floats, sd: Floats, **rest: Any
+    season: Results, date_of: Ints, difference: Floats, sd: Floats, *, form: float, **rest: Any
 ) -> Forecasts:
     race_a, race_b, won = even_races(season)
     raced = race_a > 0
@@ -238,8 +255,9 @@ def _forecasts(
     needs = np.maximum(race_a, 1), np.maximum(race_b, 1)
     p_match = np.where(raced, race_win_probability(p_game, *needs), np.nan)
     p_game_integrated, p_match_integrated = np.zeros(len(season)), np.zeros(len(season))
+    centre, spread = centre_of_form(difference, sd, form), np.hypot(sd, form)
     for point, weight in zip(*normal_nodes(), strict=True):
-        p = expit(difference + sd * point)
+        p = expit(centre + spread * point)
         p_game_integrated += weight * p
         p_match_integrated += weight * race_win_probability(p, *needs)
     known_a, known_b = _known_before(season, date_of)
@@ -258,6 +276,7 @@ def _forecasts(
         # Rounding of the weights may take a sum above 1.
         p_match_integrated=np.where(raced, np.minimum(p_match_integrated, 1.0), np.nan),
         won=won,
+        form=form,
         **rest,
     )
 

@@ -3,10 +3,7 @@
 From scores alone: do they vary about the predictions as much as they should? From racks: do
 wins come in streaks?
 
-What form of the day means for deciders, sweeps and games is compared with what is seen. Its
-variance (see `evenbreak.ratings.day_form`) is estimated here from forecasts, which know the past
-only. So whatever else they miss, such as players who improve, is in it too, and so is that their
-standard errors take the games of a match for independent.
+What form of the day means for deciders, sweeps and games is compared with what is seen.
 """
 
 from __future__ import annotations
@@ -20,10 +17,12 @@ import numpy as np
 from scipy.special import expit
 
 from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.ratings.day_form import FEWEST, LONGEST, form_variance, log_odds_of, normal_nodes
+from evenbreak.matches.form import centre_of_form
+from evenbreak.ratings.day_form import FEWEST, LONGEST, NODES, log_odds_of
 from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, two_sided
 from evenbreak.ratings.fitted import DayForm
+from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.validation.walk_forward import Forecasts
 
 REPLICAS = 300
@@ -45,7 +44,7 @@ class Dispersion(NamedTuple):
         the sum over races of (games won - p games)², over the sum of p (1 - p) games.
     by_chance
         its mean over seasons simulated from the model, each match at a rating difference
-        drawn from its posterior: the uncertainty of ratings spreads scores too.
+        drawn from its posterior and with its own form: both spread scores too.
     p_value
         P(a simulated season is as far from `by_chance` as the real one), two-sided.
     races
@@ -83,8 +82,8 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
     """Compare the spread of scores about the predictions with that of simulated seasons.
 
     None where there is no race to 1,000 games or less after the first date. More spread than
-    by chance points to good and bad days, or to ratings that lag behind; less, to matches that
-    are kept close.
+    by chance points to good and bad days that `form` does not hold, or to ratings that lag behind;
+    less, to matches that are kept close.
     """
     longest = np.maximum(forecasts.race_a, forecasts.race_b)
     rows = (longest > 0) & (longest <= LONGEST_SIMULATED) & (forecasts.date_of > 0)
@@ -94,9 +93,11 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
     p = forecasts.p_game_integrated[rows]
     m, n = forecasts.race_a[rows], forecasts.race_b[rows]
     seen = _spread(forecasts.results.score_a[rows], forecasts.games[rows], p)
+    sd, form = forecasts.sd[rows], forecasts.form
+    centre, around = centre_of_form(forecasts.difference[rows], sd, form), np.hypot(sd, form)
     played = np.empty(min(REPLICAS, MOST_SIMULATED // len(p) + 2))
     for k in range(len(played)):
-        drawn = expit(forecasts.difference[rows] + forecasts.sd[rows] * rng.standard_normal(len(p)))
+        drawn = expit(centre + around * rng.standard_normal(len(p)))
         won, games = play_races(drawn, m, n, rng)
         played[k] = _spread(won, games, p)
     mean = float(played.mean())
@@ -185,27 +186,29 @@ class MatchForm(DayForm):
     shapes: tuple[ScoreShape, ...]
 
 
-def match_form(forecasts: Forecasts, cluster: Ints, rng: np.random.Generator) -> MatchForm | None:
-    """Return form of the day; None with fewer than 100 races of two games or more.
+def match_form(
+    forecasts: Forecasts, form: DayForm | None, cluster: Ints, rng: np.random.Generator
+) -> MatchForm | None:
+    """Return what form of the day means for scores; None if it was not estimated.
+
+    None with fewer than 100 races of two games or more, too.
 
     Parameters
     ----------
     forecasts
         a walk through a season; its first date is left out.
+    form
+        as estimated from the whole season (see `evenbreak.ratings.day_form`).
     cluster
         matches of one cluster, such as those of a date, may depend on each other.
     rng
         resamples them.
     """
     rows = _judged(forecasts)
-    if rows.sum() < FEWEST:
+    if form is None or rows.sum() < FEWEST:
         return None
-    difference, sd = forecasts.difference[rows], forecasts.sd[rows]
-    won = forecasts.results.score_a[rows].astype(float)
-    lost = forecasts.results.score_b[rows].astype(float)
-    variance = form_variance(difference, sd, won, lost, cluster[rows])
-    shapes = _shapes(forecasts, rows, variance.value, cluster[rows], rng)
-    return MatchForm(variance, int(rows.sum()), tuple(shapes))
+    shapes = _shapes(forecasts, rows, form.variance.value, cluster[rows], rng)
+    return MatchForm(form.variance, form.races, tuple(shapes))
 
 
 def _judged(forecasts: Forecasts) -> Bools:
@@ -225,7 +228,7 @@ def _shapes(
     difference, sd = forecasts.difference[rows], forecasts.sd[rows]
     for row, extra in enumerate((0.0, v)):
         mean, spread = log_odds_of(difference, sd, extra), np.sqrt(sd**2 + extra)
-        for point, weight in zip(*normal_nodes(), strict=True):
+        for point, weight in zip(*normal_nodes(NODES), strict=True):
             p = expit(mean + spread * point)
             said[row] += weight * score_shapes(p, m, n).mean(1)
     ones = np.ones(len(m))
