@@ -15,13 +15,14 @@ p(e)^i (1 - p(e))^j φ(e / f), normalised.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import expit, logit, roots_hermitenorm
+from scipy.special import betainc, expit, log_expit, logit, logsumexp, roots_hermitenorm
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import number
@@ -118,6 +119,43 @@ def _game(mean: Floats, sd: Floats) -> tuple[Floats, Floats]:
         chance += weight * p
         slope += weight * p * (1.0 - p)
     return chance, slope
+
+
+_FARTHEST, _GRID = 20.0, 801  # log-odds beyond which a game is won for sure, and places up to them
+
+
+@lru_cache(maxsize=256)
+def chance_in_form(
+    needs: tuple[int, int], form: float, score: tuple[int, int] = (0, 0)
+) -> Callable[[ArrayLike], Floats]:
+    """Return a function from the log-odds of a game to P(player 1 wins a race).
+
+    It is the same as averaging each of many chances over form, to 1e-6, but takes no longer than
+    without form.
+
+    Parameters
+    ----------
+    needs
+        the games that both players need in all.
+    form
+        the standard deviation of form, more than 0.
+    score
+        the games played, which show some of it.
+
+    >>> chance_in_form((5, 5), 0.5)([0.0, 1.0]).round(4)
+    array([0.5   , 0.9291])
+    """
+    at = np.linspace(-_FARTHEST, _FARTHEST, _GRID)
+    nodes, weights = normal_rule(form, sum(needs), MOST_NODES)
+    days = centre_of_form(at, 0.0, form)[:, None] + form * nodes
+    won, lost = score
+    log = np.log(weights) + won * log_expit(days) + lost * log_expit(-days)
+    likely = np.exp(log - logsumexp(log, axis=1, keepdims=True))
+    chance = (betainc(needs[0] - won, needs[1] - lost, expit(days)) * likely).sum(1)
+    from scipy.interpolate import CubicSpline  # takes long to load
+
+    curve = CubicSpline(at, chance)
+    return lambda log_odds: np.clip(curve(np.clip(log_odds, -_FARTHEST, _FARTHEST)), 0.0, 1.0)
 
 
 def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:

@@ -39,6 +39,8 @@ class Meeting:
         who names first, or `SEALED`.
     count
         what decides the night.
+    form
+        how much the log-odds of a game vary from set to set (standard deviation).
     """
 
     ours: Roster
@@ -49,6 +51,7 @@ class Meeting:
     sizes: tuple[int, ...]
     order: str
     count: Count = "sets"
+    form: float = 0.0
 
     def night(self, order: str | None = None) -> TeamNight:
         """Return the night as a game, in another order if one is given."""
@@ -71,6 +74,7 @@ class Meeting:
                 count=self.count,
                 size=size,
                 skills=(skills[0], skills[1]) if skills else None,
+                form=self.form,
             )
             for size in set(self.sizes)
         }
@@ -88,7 +92,9 @@ class Meeting:
     ) -> Floats:
         """Return what a set between two picks can bring from a score on; see `law_in_play`."""
         mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
-        return law_in_play(mine, others, self.race, score, scale=self.scale, count=self.count)
+        return law_in_play(
+            mine, others, self.race, score, scale=self.scale, count=self.count, form=self.form
+        )
 
     def mirrored(self) -> Meeting:
         """Return the same meeting as the other team sees it.

@@ -20,7 +20,7 @@ from scipy.stats.qmc import MultivariateNormalQMC
 from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.gap import averaging_rule
+from evenbreak.handicaps.charts.gap import Gap, averaging_rule
 from evenbreak.handicaps.charts.race_of_pair import Race
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
@@ -103,6 +103,7 @@ def round_law(
     race: Race | None = None,
     everybody: bool = False,
     scale: Scale | str | float = "fargo",
+    form: float = 0.0,
 ) -> RoundLaw:
     """Return the law of our lead in games at the end of a round.
 
@@ -117,6 +118,8 @@ def round_law(
         whether each of our players meets each of theirs; else the first meets the first, and so on.
     scale
         the scale of the ratings.
+    form
+        how much the log-odds of a game vary from match to match (standard deviation).
 
     Raises
     ------
@@ -145,9 +148,11 @@ def round_law(
 
     def law(skills: tuple[Floats, Floats] | None) -> Floats:
         if race is None:
-            laws = _single_games(ours, theirs, int(games or 1), scale, skills)
+            laws = _single_games(ours, theirs, int(games or 1), scale, skills, form)
         else:
-            found = set_laws(ours, theirs, race, scale=scale, count="games", skills=skills)
+            found = set_laws(
+                ours, theirs, race, scale=scale, count="games", skills=skills, form=form
+            )
             laws = found.sum(axis=2)
         lead = np.ones(1)
         for pair in met:
@@ -168,11 +173,13 @@ def _single_games(
     games: int,
     scale: Scale,
     skills: tuple[Floats, Floats] | None,
+    form: float,
 ) -> Floats:
     """Return the law of the lead after single games: shape (ours, theirs, 2 games + 1)."""
     points, errors = rating_differences(ours, theirs)
     if skills is not None:
         points, errors = skills[0][:, None] - skills[1], np.zeros(points.shape)
+    points, errors = Gap(points, errors, scale, form).normal
     nodes, weights = averaging_rule(float(errors.max()), games, scale)
     p = scale.win_probability(points + nodes[:, None, None] * errors)
     law = np.zeros((*points.shape, 2 * games + 1))

@@ -14,7 +14,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
-from evenbreak.handicaps.charts.gap import averaging_rule
+from evenbreak.handicaps.charts.gap import Gap, averaging_rule
 from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
 from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.roster import Roster
@@ -67,6 +67,7 @@ def set_laws(
     count: Count = "sets",
     size: int = 1,
     skills: tuple[ArrayLike, ArrayLike] | None = None,
+    form: float = 0.0,
 ) -> Floats:
     """Return what each of our picks can bring against each of theirs.
 
@@ -85,6 +86,8 @@ def set_laws(
         1, or 2 for doubles: a pair plays like a player with the mean of the two ratings.
     skills
         how our players and theirs really play, where it is not as their ratings say.
+    form
+        how much the log-odds of a game vary from set to set (standard deviation).
 
     Returns
     -------
@@ -116,6 +119,7 @@ def set_laws(
         mine, others = (floats(each, "skills") for each in skills)
         points = _of_picks(mine, size)[:, None] - _of_picks(others, size)
         errors = np.zeros(points.shape)
+    points, errors = Gap(points, errors, scale, form).normal
     reach = _reach(needs_1, needs_2, count)
     law = np.zeros((*points.shape, 2, 2 * reach + 1))
     for m, n in set(zip(needs_1.ravel().tolist(), needs_2.ravel().tolist(), strict=True)):
@@ -137,6 +141,7 @@ def law_in_play(
     *,
     scale: Scale | str | float = "fargo",
     count: Count = "sets",
+    form: float = 0.0,
 ) -> Floats:
     """Return what a match that is being played can bring, from its score on.
 
@@ -144,7 +149,7 @@ def law_in_play(
     ----------
     ours, theirs
         who plays it: one player, or two for doubles, with their ratings.
-    race, scale, count
+    race, scale, count, form
         as for `set_laws`.
     score
         the games that we and they have won.
@@ -161,7 +166,7 @@ def law_in_play(
 
     Notes
     -----
-    Where the ratings have errors, the score says something about them (Bayes).
+    Where the ratings have errors, or there is form, the score says something about them (Bayes).
 
     >>> law = law_in_play(Roster(["Ann"], [600]), Roster(["Cy"], [560]), 5, (3, 4))
     >>> law.sum(axis=1).round(3)
@@ -175,6 +180,7 @@ def law_in_play(
         raise InputError(
             "{a}:{b} ends a race {m}:{n}; enter the score of a match in play", a=a, b=b, m=m, n=n
         )
+    points, errors = Gap(points, errors, scale, form).normal
     nodes, weights = averaging_rule(float(errors[0, 0]), m + n, scale)
     p = scale.win_probability(points[0, 0] + nodes * errors[0, 0])
     weights = weights * p**a * (1.0 - p) ** b

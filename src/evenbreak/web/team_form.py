@@ -15,7 +15,7 @@ from evenbreak.answers.league.prior import starters_words
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.files.lists.teams import TeamList, read_team
+from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup
@@ -81,6 +81,7 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         at_most=rules["at_most"],
         times=rules["times"],
         scale=scale.text,
+        match_form=form_of_lists(one.file.form for one in lists),
     )
     warnings = [
         line for name, one in zip(names, lists, strict=True) for line in warnings_of(one.file, name)
@@ -117,7 +118,9 @@ def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
     for k, name in enumerate(roster.players):
         if np.isnan(rating[k]) and (known := league.known(name)):
             _, rating[k], error[k] = known
-    return replace(read, file=replace(read.file, roster=Roster(roster.players, rating, error)))
+    form = read.file.form or league.sheet.ratings.match_form
+    filled = Roster(roster.players, rating, error)
+    return replace(read, file=replace(read.file, roster=filled, form=form))
 
 
 def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:

@@ -11,7 +11,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import error_of_share, luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
-from evenbreak.answers.kit.scales import scale_words
+from evenbreak.answers.kit.scales import form_used_words, scale_words
 from evenbreak.answers.kit.wording import percent
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
 from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills
@@ -93,7 +93,8 @@ def lineup_answer(
             details.append(_orders(meeting, solution))
     else:
         details = []
-    parts += filter(None, [_sure_words(found, sure, draws)])
+    form = form_used_words(meeting.form, meeting.scale)
+    parts += filter(None, [form, _sure_words(found, sure, draws)])
     return Answer(
         _heading(meeting, found),
         parts,

@@ -175,6 +175,8 @@ class LeagueRules:
         what is played in each set, and the scale of the ratings.
     sets, order
         how many sets a night has, and who names first.
+    form
+        of the day, by the list.
     """
 
     rosters: Mapping[str, Roster]
@@ -184,6 +186,7 @@ class LeagueRules:
     scale: Scale
     sets: int
     order: str
+    form: float = 0.0
 
     @property
     def capped(self) -> bool:
@@ -202,7 +205,7 @@ class LeagueRules:
 
         @cache
         def law(i: int, j: int) -> Floats:
-            return set_laws(rosters[i], rosters[j], self.race, scale=self.scale)
+            return set_laws(rosters[i], rosters[j], self.race, scale=self.scale, form=self.form)
 
         return law
 

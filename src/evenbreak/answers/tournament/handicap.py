@@ -82,7 +82,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         raise InputError("even races have no handicap to make fairer; give the handicapped ones")
     if tournament.to_draw or exact_plan(bracket) is None:
         raise InputError("fairer races are found for brackets with exact odds that are drawn")
-    asked: Any = {"scale": tournament.scale}
+    asked: Any = {"scale": tournament.scale, "form": tournament.file.form}
     today = tournament_fairness(bracket, tournament.ratings, races, **asked)
     sides = {match.side for match in bracket.matches}
     found = fairest_races(
@@ -129,6 +129,7 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
         },
         games_mean=(fewest, most),
         scale=tournament.scale,
+        form=tournament.file.form,
     )
     if not fewest <= best.found.games_mean <= most:
         return []

@@ -10,6 +10,7 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
 from evenbreak.answers.tournament.tournament import Tournament
@@ -100,7 +101,8 @@ def tournament_odds_answer(
         parts += fairer_races(tournament)
     unrated = tournament.unrated_words(spread=not sure)
     how = how_words(plug_in, odds, walkovers, tournament.to_draw)
-    parts += filter(None, [tournament.byes, unrated, how])
+    form = form_used_words(tournament.file.form, tournament.scale)
+    parts += filter(None, [tournament.byes, unrated, form, how])
     return Answer(
         tournament.heading,
         parts,
@@ -299,7 +301,10 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
     bracket = tournament.bracket
     errors = np.nan_to_num(tournament.roster.standard_error)
     uncertain = bool(errors.any()) and not sure
-    win_of = chances_given(bracket, tournament.ratings, tournament.races, scale=tournament.scale)
+    form = tournament.file.form
+    win_of = chances_given(
+        bracket, tournament.ratings, tournament.races, scale=tournament.scale, form=form
+    )
     asked: Any = {"walkovers": walkovers, "rng": np.random.default_rng(seed)}
     if not tournament.to_draw:
         if not uncertain:

@@ -140,13 +140,12 @@ def tournament_time_answer(
     It ends at about 22:26; eight times out of ten between 21:37 and 23:28.
     """
     asked: Any = {"pace": event_pace(pace, earlier), "turnover": turnover, "seed": seed}
-    form = tournament.file.form
-    laws_now = tournament.laws_of(tournament.races, form=form)
+    laws_now = tournament.laws
     found = finish(tournament.bracket, laws_now, tables=tables, **asked)
     show = clock if start is None else (lambda minutes: time_of_day(start + minutes))
 
     def ask(tables: int, races: Races) -> Finish:
-        laws = laws_now if races is tournament.races else tournament.laws_of(races, form=form)
+        laws = laws_now if races is tournament.races else tournament.laws_of(races)
         return finish(tournament.bracket, laws, tables=tables, **asked)
 
     changes = what_if(found, ask, tournament.bracket, tables, tournament.races)
@@ -159,7 +158,7 @@ def tournament_time_answer(
     assumed = assumed_words(tables, pace, turnover)
     learned = venue_words(pace, earlier) if isinstance(pace, str) else ""
     unrated = tournament.unrated_words(spread=False)
-    form_words = form_used_words(form, tournament.scale)
+    form_words = form_used_words(tournament.file.form, tournament.scale)
     lines = [tournament.byes, unrated, learned, assumed, form_words, finish_luck(found.finishes)]
     parts += filter(None, lines)
     return Answer(

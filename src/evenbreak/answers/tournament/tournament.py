@@ -61,8 +61,9 @@ class Tournament:
         """Who wins each match in how many games, if the ratings are right."""
         return self.laws_of(self.races)
 
-    def laws_of(self, races: Races, *, form: float = 0.0) -> dict[str, PairOdds]:
-        """Return the same for other races, or with form of the day."""
+    def laws_of(self, races: Races) -> dict[str, PairOdds]:
+        """Return the same for other races."""
+        form = self.file.form
         return pair_odds(self.bracket, self.ratings, races, scale=self.scale, form=form)
 
     @property

@@ -10,6 +10,7 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.chips import chip_time_answer
 from evenbreak.answers.tournament.night import begun_at, heading
@@ -82,6 +83,8 @@ def odds_under_way(
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)
         parts.append(how_words(plug_in, odds, outlook.walkovers, _to_draw(state)))
+    if form := form_used_words(state.plan.match_form, state.scale):
+        parts.append(form)
     if odds is not plug_in and outlook.games:
         parts.append(
             "Tonight's games are taken into account: they move the ratings and narrow their errors."

@@ -18,6 +18,7 @@ from evenbreak.cli.kit.systems import (
     with_starters,
 )
 from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale
 from evenbreak.words import Parameter
@@ -52,7 +53,12 @@ def round_(asked: Round) -> Answer:
     if (pairs := len(rosters[0]) * len(rosters[1])) > MOST_PAIRS:
         refuse(f"the files have {pairs:,} pairs of players; name the players of one round only")
     law = teams.round_law(
-        rosters[0], rosters[1], games=games, race=race, everybody=asked.everybody, scale=scale
+        *rosters,
+        games=games,
+        race=race,
+        everybody=asked.everybody,
+        scale=scale,
+        form=form_of_lists(each.file.form for each in lists),
     )
     for each, roster in zip(lists, rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
@@ -97,6 +103,7 @@ def caps(asked: Caps) -> Answer:
         scale,
         sets,
         teams.order_of(asked.order, sets),
+        form_of_lists(one.file.form for one in lists.values()),
     )
     return team_rules_answer(rules, source=asked.roster, warnings=warnings)
 

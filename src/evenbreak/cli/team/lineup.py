@@ -7,6 +7,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.team.league import race_of, refuse_without_level, two_teams
+from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.handicaps.charts.race_of_pair import games_needed
 from evenbreak.questions.teams import InPlay, Lineup
@@ -35,6 +36,7 @@ def command(asked: Lineup) -> Answer:
         race=race_of(asked),
         scale=scale,
         sets=asked.sets or min(len(each) for each in rosters) * asked.times,
+        form=form_of_lists(each.file.form for each in lists),
     )
     begun = {"used", "score", "playing", "named", "last"} & asked.given.keys()
     point = _point(asked, meeting) if begun else None

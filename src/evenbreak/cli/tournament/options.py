@@ -91,6 +91,7 @@ def entered_in(asked: NewTournament | OfEntrants) -> Entered:
         starter_error=points.points_per_doubling if asked.starter_sd is None else asked.starter_sd,
         chips=None if asked.chips is None else chip_chart_of(asked.chips),
         earlier=earlier,
+        match_form=file.form,
     )
     return Entered(plan, races, file, roster, points, warnings)
 

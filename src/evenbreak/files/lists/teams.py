@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
 from pathlib import Path
@@ -124,6 +125,16 @@ class TeamList:
         """A player for whom there is nothing to count; '' if there is none."""
         unknown = np.isnan(self.weights)
         return self.file.roster.players[int(unknown.argmax())] if unknown.any() else ""
+
+
+def form_of_lists(forms: Iterable[float]) -> float:
+    """Return the form of the day of teams whose lists state it: the mean, as of two who meet.
+
+    >>> form_of_lists([0.3, 0.0]), round(form_of_lists([0.3, 0.4]), 3), form_of_lists([0.0])
+    (0.3, 0.354, 0.0)
+    """
+    stated = [form**2 for form in forms if form]
+    return math.sqrt(sum(stated) / len(stated)) if stated else 0.0
 
 
 def read_team(path: str | Path) -> TeamList:

@@ -122,8 +122,8 @@ class Gap:
         return replace(self, form=0.0).win(1, 1)
 
     @cached_property
-    def _normal(self) -> tuple[Floats, Floats]:
-        """The differences and errors that stand for the error and form of the day together.
+    def normal(self) -> tuple[Floats, Floats]:
+        """The differences and errors, in points, that stand for error and form of the day together.
 
         Both are normal, so their variances add up. The chance of a game stays what it is without
         form.
@@ -136,7 +136,7 @@ class Gap:
 
     def _rule(self, longest: int) -> tuple[Floats, Floats]:
         """Return nodes and weights that average W of races of so many games over the errors."""
-        _, around = self._normal
+        _, around = self.normal
         return averaging_rule(float(around.max(initial=0.0)), longest, self.scale)
 
     def win(self, m: ArrayLike, n: ArrayLike) -> Any:
@@ -161,7 +161,7 @@ class Gap:
         [0.5, 0.6485]
         """
         together(difference=self.difference, m=m, n=n)
-        centre, around, m, n = np.broadcast_arrays(*self._normal, m, n)
+        centre, around, m, n = np.broadcast_arrays(*self.normal, m, n)
         nodes, weights = self._rule(int(np.max(m + n, initial=2)))
         chance = np.zeros(centre.shape)
         for node, weight in zip(nodes, weights, strict=True):
@@ -180,7 +180,7 @@ class Gap:
         (array([5.75, 7.25]), array([9, 9]))
         """
         m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
-        centre, around = self._normal
+        centre, around = self.normal
         nodes, weights = self._rule(m + n)
         games = np.arange(min(m, n), m + n)
         total: Floats = np.zeros((*centre.shape, len(games)))
@@ -224,7 +224,7 @@ class Gap:
             )
         if not self.error and not self.form:
             return match_odds(with_rack(match, Rack(self.scale.win_probability(difference))))
-        centre, around = self._normal
+        centre, around = self.normal
         nodes, weights = rule_for(match, self.scale.log_odds(float(around)))
         many = with_rack(match, Rack(self.scale.win_probability(centre + nodes * around)))
         return mixed_odds(many, given_score(many, weights) if self.form else weights)
@@ -266,7 +266,7 @@ class Gap:
         low, high = longest_matches(games, race_to)
         if race_to is not None:
             return self._fairest_race_to(low, target)
-        centre, around = (part.reshape(-1) for part in self._normal)
+        centre, around = (part.reshape(-1) for part in self.normal)
         nodes, weights = self._rule(high + 1)
         m, longest = np.empty(centre.size, dtype=np.int64), np.empty(centre.size, dtype=np.int64)
         step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
@@ -283,7 +283,7 @@ class Gap:
         The stronger player's chance rises with the games that the other needs, so the nearest to
         the target is found by bisection.
         """
-        centre, around = self._normal
+        centre, around = self.normal
         ahead = centre >= 0.0
         wanted = np.where(ahead, target, 1.0 - target)
         stronger = Gap(np.abs(centre), around, self.scale)

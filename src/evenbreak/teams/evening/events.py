@@ -14,6 +14,7 @@ from evenbreak.checks import Between, made, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
+from evenbreak.matches.form import MOST_FORM
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.teams.meeting import SEALED, Meeting
@@ -85,6 +86,8 @@ class NightPlan:
         how often a player may be put up.
     scale
         of the ratings, as `scale_of` reads it.
+    match_form
+        the form of the day of the ratings: how much the log-odds of a game vary from set to set.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -99,6 +102,7 @@ class NightPlan:
     at_most: tuple[int, float] | None = None
     times: Annotated[int, Between(1, 100)] = 1
     scale: str = "fargo"
+    match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
 
 
 @lru_cache(maxsize=8)
@@ -125,6 +129,7 @@ def meeting_of(plan: NightPlan) -> Meeting:
         race=_race(plan),
         scale=scale_of(plan.scale),
         sets=plan.sets,
+        form=plan.match_form,
     )
 
 
@@ -153,6 +158,7 @@ def meeting_by(
     race: Race,
     scale: Scale,
     sets: int,
+    form: float = 0.0,
 ) -> Meeting:
     """Return the meeting of two rosters by the rules of a night.
 
@@ -168,6 +174,8 @@ def meeting_by(
         what is played in each set, and the scale of the ratings.
     sets
         how many are played.
+    form
+        how much the log-odds of a game vary from set to set.
 
     Raises
     ------
@@ -195,6 +203,7 @@ def meeting_by(
         tuple(2 if k in rules.doubles else 1 for k in range(1, sets + 1)),
         order if order == SEALED else order_of(rules.order, sets),
         count,
+        form,
     )
 
 

@@ -12,6 +12,7 @@ from typing import Annotated, Any, TypeAlias
 from evenbreak.checks import Between, made
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.matches.form import MOST_FORM
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
@@ -69,6 +70,8 @@ class Plan(Format):
         the chips that players of a chip tournament start with.
     earlier
         the nights before at this venue: they set the pace.
+    match_form
+        form of the day, by the list of ratings: how much the log-odds of a game vary.
     """
 
     form: str
@@ -85,6 +88,7 @@ class Plan(Format):
     by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
     chips: ChipChart | None = field(default=None, hash=False)
     earlier: tuple[EarlierNight, ...] = ()
+    match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import betainc
 
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
@@ -31,7 +30,14 @@ from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.odds.draws import redraw_odds, swiss_odds
 from evenbreak.tournaments.odds.leverage import Leverage, leverages
-from evenbreak.tournaments.odds.races import PairOdds, Races, chances_given, from_score, pair_odds
+from evenbreak.tournaments.odds.races import (
+    PairOdds,
+    Races,
+    chances_given,
+    from_score,
+    pair_odds,
+    race_chance,
+)
 from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
 from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
 
@@ -93,10 +99,10 @@ class Outlook:
     def laws_of(self, races: Races) -> dict[str, PairOdds]:
         """Return the same with other races in the matches that have not begun."""
         state = self.state
-        laws = pair_odds(state.whole, state.ratings, races, scale=state.scale)
+        laws = self._pair_odds(races)
         begun = {**state.on_tables, **state.live}
         if races is not state.races and begun:
-            usual = pair_odds(state.whole, state.ratings, state.races, scale=state.scale)
+            usual = self._pair_odds(state.races)
             laws |= {name: usual[name] for name in begun}
         if state.dropped:
             made = {id(law): self._without_dropped(law) for law in laws.values()}
@@ -104,8 +110,13 @@ class Outlook:
         for name, seats, needs, score in self._in_score:
             one, other = seats
             p = float(state.scale.win_probability(state.ratings[one] - state.ratings[other]))
-            laws[name] = from_score(laws[name], seats, needs, score, p)
+            laws[name] = from_score(laws[name], seats, needs, score, p, state.plan.match_form)
         return laws
+
+    def _pair_odds(self, races: Races) -> dict[str, PairOdds]:
+        state = self.state
+        form = state.plan.match_form
+        return pair_odds(state.whole, state.ratings, races, scale=state.scale, form=form)
 
     def _without_dropped(self, law: PairOdds) -> PairOdds:
         """Return the odds of a match that players who have dropped out lose without a game."""
@@ -186,7 +197,8 @@ class Outlook:
     def chances(self) -> Callable[[Floats], dict[str, Floats]]:
         """The chances of the matches from here on, given the players' skills."""
         state, walkovers, in_score = self.state, self.walkovers, self._in_score
-        usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale)
+        form = state.plan.match_form
+        usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale, form=form)
 
         gone = [state.order.index(name) for name in state.dropped]
         begun = [(name, *self._seats(name)) for name in state.on_tables]
@@ -218,9 +230,8 @@ class Outlook:
                 for name, one, other in begun:
                     settle(name, one, other, float(played[name][one, other]))
             for name, (one, other), needs, score in in_score:
-                p = state.scale.win_probability(skills[one] - skills[other])
-                left = needs[0] - score[0], needs[1] - score[1]
-                settle(name, one, other, float(betainc(*left, p)))
+                gap = state.scale.log_odds(skills[one] - skills[other])
+                settle(name, one, other, float(race_chance(gap, needs, form, score)))
             return tables
 
         return chances

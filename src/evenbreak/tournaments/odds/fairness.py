@@ -87,6 +87,7 @@ def tournament_fairness(
     *,
     scale: Scale | str | float = "fargo",
     break_advantage: float = 0.0,
+    form: float = 0.0,
 ) -> Fairness:
     """Return how fair the races of a tournament are to its players.
 
@@ -94,7 +95,7 @@ def tournament_fairness(
     ----------
     bracket
         the tournament, with the players on their lines.
-    ratings, races, scale, break_advantage
+    ratings, races, scale, break_advantage, form
         as in `pair_odds`.
 
     >>> from evenbreak.tournaments import double_elimination
@@ -104,7 +105,7 @@ def tournament_fairness(
     """
     plan = races if isinstance(races, Races) else Races(races)
     rated = column(ratings, "ratings", len(bracket.players), "players")
-    laws = pair_odds(bracket, rated, plan, scale=scale, break_advantage=break_advantage)
+    laws = pair_odds(bracket, rated, plan, scale=scale, break_advantage=break_advantage, form=form)
     return fairness_of(bracket, rated, plan, laws)
 
 
@@ -126,13 +127,14 @@ def fairest_races(
     *,
     scale: Scale | str | float = "fargo",
     break_advantage: float = 0.0,
+    form: float = 0.0,
     most_games: float | None = None,
 ) -> list[Fairness]:
     """Return all combinations of races by side, the fairest tournament first.
 
     Parameters
     ----------
-    bracket, ratings, scale, break_advantage
+    bracket, ratings, scale, break_advantage, form
         as in `tournament_fairness`.
     winners, losers, final
         the races to choose from on each side; None: as on the winners' side.
@@ -161,7 +163,9 @@ def fairest_races(
             most_choices=_MOST_CHOICES,
         )
     found = [
-        tournament_fairness(bracket, ratings, races, scale=scale, break_advantage=break_advantage)
+        tournament_fairness(
+            bracket, ratings, races, scale=scale, break_advantage=break_advantage, form=form
+        )
         for races in combinations
     ]
     kept = [one for one in found if most_games is None or one.games_mean <= most_games]
@@ -215,12 +219,13 @@ def fairest_rounds(
     games_mean: tuple[float, float],
     tries: int = 300,
     scale: Scale | str | float = "fargo",
+    form: float = 0.0,
 ) -> FairestRounds:
     """Return races by round that make a tournament fairer, found by changing one or two at a time.
 
     Parameters
     ----------
-    bracket, ratings, scale
+    bracket, ratings, scale, form
         as in `tournament_fairness`.
     games
         where to begin: the games that the stronger player needs in each round.
@@ -244,7 +249,7 @@ def fairest_rounds(
     >>> best.games, round(best.found.spread, 3)
     ({('winners', 1): 6, ('final', 1): 6}, 0.049)
     """
-    search = _Search(bracket, ratings, scale, whole(tries, "tries", at_least=1), games_mean)
+    search = _Search(bracket, ratings, scale, whole(tries, "tries", at_least=1), games_mean, form)
     missing = {round_of(match) for match in bracket.matches} - set(games) & set(lengths)
     if missing:
         raise InputError("{games} has no race for {missing}", missing=min(missing))
@@ -306,8 +311,9 @@ class _Search:
         scale: Scale | str | float,
         tries: int,
         games_mean: tuple[float, float],
+        form: float,
     ) -> None:
-        self.bracket, self.scale, self.tries = bracket, scale, tries
+        self.bracket, self.scale, self.tries, self.form = bracket, scale, tries, form
         self.ratings = column(ratings, "ratings", len(bracket.players), "players")
         self.games_mean = games_mean
         self.laws: dict[int, PairOdds] = {}
@@ -337,6 +343,8 @@ class _Search:
     def _law(self, games: int) -> PairOdds:
         if games not in self.laws:
             first = self.bracket.matches[0].name
-            found = pair_odds(self.bracket, self.ratings, Fairest(games), scale=self.scale)
+            found = pair_odds(
+                self.bracket, self.ratings, Fairest(games), scale=self.scale, form=self.form
+            )
             self.laws[games] = found[first]
         return self.laws[games]

@@ -12,18 +12,27 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import betainc
+from scipy.special import betainc, expit
 
 from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.checks import column, number
 from evenbreak.errors import InputError
 from evenbreak.games.breaks import BreakFormat, alternate_breaks
+from evenbreak.games.race import Race as RaceOfGames
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.race_of_pair import Fairest as Fairest
 from evenbreak.handicaps.charts.race_of_pair import Race as Race
 from evenbreak.handicaps.charts.race_of_pair import games_needed as games_needed
 from evenbreak.matches.endings import race_endings
-from evenbreak.matches.form import MOST_NODES, centre_of_form, form_of, normal_rule
+from evenbreak.matches.form import (
+    MOST_NODES,
+    centre_of_form,
+    chance_in_form,
+    form_of,
+    normal_rule,
+    on_days,
+)
+from evenbreak.matches.parameters import rack_in
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Match
 
@@ -153,6 +162,7 @@ def from_score(
     needs: tuple[int, int],
     score: tuple[int, int],
     p: float,
+    form: float = 0.0,
 ) -> PairOdds:
     """Return the odds of a match in play, for the two who play it.
 
@@ -168,6 +178,8 @@ def from_score(
         the games that each has won.
     p
         P(the first player wins a game).
+    form
+        as in `pair_odds`; the score shows some of it.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> start = pair_odds(single_elimination(2), [500, 500], 5)["F"]
@@ -175,7 +187,14 @@ def from_score(
     np.float64(0.75)
     """
     one, other = players
-    won, lost = race_endings(needs[0] - score[0], needs[1] - score[1], Rack(p), None, 1)
+    rack, weights = Rack(np.array([p])), np.ones(1)
+    if form:
+        days, weights = on_days(RaceOfGames(*needs, Rack(p), score=score), form)
+        rack = rack_in(days)
+    won, lost = (
+        ends @ weights
+        for ends in race_endings(needs[0] - score[0], needs[1] - score[1], rack, None, 1)
+    )
     played = sum(score)
     ends = law.ends.copy()
     ends[one, other] = ends[other, one] = 0.0
@@ -192,6 +211,7 @@ def chances_given(
     scale: Scale | str | float = "fargo",
     break_advantage: float = 0.0,
     breaks: BreakFormat = alternate_breaks,
+    form: float = 0.0,
 ) -> Callable[[Floats], dict[str, Floats]]:
     """Return a function from players' skills to the chances of each match, for `over_ratings`.
 
@@ -199,8 +219,8 @@ def chances_given(
 
     Parameters
     ----------
-    bracket, ratings, races, scale, break_advantage, breaks
-        as in `pair_odds`.
+    bracket, ratings, races, scale, break_advantage, breaks, form
+        as in `pair_odds`; with a break advantage there is no form.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> chances = chances_given(single_elimination(2), [600, 500], 3)
@@ -218,11 +238,36 @@ def chances_given(
         if advantage:
             tables = {k: _ends(gaps, n, scale, advantage, breaks).win for k, n in needs.items()}
         else:
-            p = scale.win_probability(gaps)
-            tables = {k: np.asarray(betainc(m, n, p), dtype=float) for k, (m, n) in needs.items()}
+            log_odds = np.asarray(scale.log_odds(gaps))
+            tables = {k: _won(log_odds, *n, form) for k, n in needs.items()}
         return {name: tables[_key(race)] for name, race in race_of.items()}
 
     return chances
+
+
+def _won(log_odds: Floats, m: Ints, n: Ints, form: float) -> Floats:
+    """Return P(i beats j) in races of m to n games, given the log-odds of a game."""
+    if form == 0.0:
+        return np.asarray(betainc(m, n, expit(log_odds)), dtype=float)
+    won = np.zeros(log_odds.shape)
+    for needs in set(zip(m.ravel().tolist(), n.ravel().tolist(), strict=True)):
+        alike = (m == needs[0]) & (n == needs[1])
+        won[alike] = race_chance(log_odds[alike], needs, form)
+    return won
+
+
+def race_chance(
+    log_odds: Floats, needs: tuple[int, int], form: float, score: tuple[int, int] = (0, 0)
+) -> Floats:
+    """Return P(player 1 wins a race from its score on), given the log-odds of a game.
+
+    >>> race_chance(np.array([0.0, 1.0]), (5, 5), 0.0, (4, 4)).round(4)
+    array([0.5   , 0.7311])
+    """
+    if form == 0.0:
+        m, n = needs[0] - score[0], needs[1] - score[1]
+        return np.asarray(betainc(m, n, expit(log_odds)), dtype=float)
+    return chance_in_form(needs, form, score)(log_odds)
 
 
 def _checked(

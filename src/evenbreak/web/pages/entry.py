@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from datetime import datetime
 from typing import Any, NamedTuple
 
@@ -176,6 +177,8 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
     earlier = earlier_nights([site.path] if site.night.exists else [])
     plan, rows = _plan(form, scale, earlier), _entrants(filled, league)
+    known_form = 0.0 if league is None or league.sheet is None else league.sheet.ratings.match_form
+    plan = replace(plan, match_form=file.form or known_form)
     known = league is not None
     doubts = (
         []
