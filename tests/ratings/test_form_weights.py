@@ -10,7 +10,7 @@ from scipy.stats import binom
 
 from evenbreak.matches import race_win_probability
 from evenbreak.matches.form import centre_of_form, normal_rule
-from evenbreak.ratings import Results, fit, walk_forward
+from evenbreak.ratings import Beginning, Levels, Results, fit, walk_forward
 from evenbreak.ratings.form_weights import form_weights, games_weight
 from ratings.validation.test_within_matches import league
 
@@ -115,6 +115,27 @@ def test_without_form_nothing_changes():
     assert (fit(season, form=0.0).rating == fit(season).rating).all()
     plain, same = walk_forward(season), walk_forward(season, form=0.0)
     assert (plain.p_match_integrated == same.p_match_integrated).all()
+
+
+def test_form_in_ratings_brought_along_is_not_counted_twice():
+    """Half a season after ratings from the other half is as the whole season at once."""
+    season = league(0.5, 3, days=60)
+    early = np.arange(len(season)) < len(season) // 2
+    for form in (0.0, 0.5):
+        before = fit(season.select(early), prior_sd=0.5, form=form)
+        brought = Beginning(
+            before.players,
+            before.rating,
+            before.quasi_error,
+            scale=before.scale,
+            prior_sd=before.scale.points(0.5),
+            prior_mean=before.anchor,
+        )
+        later = season.select(~early)
+        rated = fit(later, prior_sd=0.5, form=form, levels=Levels(beginning=brought))
+        whole = fit(season, prior_sd=0.5, form=form)
+        assert rated.quasi_error == pytest.approx(whole.quasi_error, rel=0.02)
+        assert rated.rating == pytest.approx(whole.rating, abs=1.5)
 
 
 def test_a_walk_is_as_uncertain_as_the_fit():
