@@ -25,7 +25,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "words",
         "errors arrays",
         "checks",
-        "fields",
+        "fields workers",
         "game",
         "games chains stats physics",
         "matches",

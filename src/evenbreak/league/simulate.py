@@ -29,7 +29,7 @@ from evenbreak.checks import seed_of, whole
 from evenbreak.league.counting import ALONE
 from evenbreak.league.many_seasons import run_chunk
 from evenbreak.league.season import Season, Tally
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 
 if TYPE_CHECKING:
     import distributed

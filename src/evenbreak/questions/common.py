@@ -8,7 +8,7 @@ from typing import Annotated, Any, TypeAlias
 
 from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, TwoWhole, Whole
+from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, Text, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
 from evenbreak.tournaments.evening.format import LONGEST_RACE
@@ -96,6 +96,24 @@ Jobs: TypeAlias = Annotated[
         metavar="J",
     ),
 ]
+Dask: TypeAlias = Annotated[
+    str | None,
+    Field(
+        Text("ADDRESS"),
+        "Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
+        more="Needs the extra `evenbreak[dask]`.",
+    ),
+]
+
+
+def refuse_workers(asked: Any) -> None:
+    """Refuse two kinds of workers at once, and a cluster without an address."""
+    if asked.dask is not None and asked.jobs > 1:
+        asked.refuse("{dask} and {jobs} cannot be combined; the cluster has workers of its own")
+    if asked.dask is not None and not asked.dask.strip():
+        asked.refuse("{dask} is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
+
+
 FormOfDay: TypeAlias = Annotated[
     float | None,
     Field(

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from evenbreak.fields.kinds import File, Flag, Number, Text, Whole
+from evenbreak.fields.kinds import File, Flag, Number, Whole
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import (
     RACE_TO,
     ChartName,
+    Dask,
     EntrantsFile,
     FormOfDay,
     Jobs,
@@ -18,6 +19,7 @@ from evenbreak.questions.common import (
     ScaleOf,
     Seed,
     Starters,
+    refuse_workers,
 )
 from evenbreak.questions.pace import MINUTES, Pace, Turnover
 from evenbreak.questions.results import ON_STDIN, ROSTER
@@ -203,15 +205,7 @@ class Simulate(BySystem):
     ] = False
     seed: Annotated[Seed, Says("The same seed gives the same files.", section=_WORK)] = 1
     jobs: Annotated[Jobs, Says(section=_WORK)] = 1
-    dask: Annotated[
-        str | None,
-        Field(
-            Text("ADDRESS"),
-            "Use the dask cluster whose scheduler is at ADDRESS, such as tcp://10.0.0.5:8786.",
-            section=_WORK,
-            more="Needs the extra `evenbreak[dask]`.",
-        ),
-    ] = None
+    dask: Annotated[Dask, Says(section=_WORK)] = None
 
     def check(self) -> None:
         """Refuse options that exclude each other or are empty."""
@@ -224,11 +218,6 @@ class Simulate(BySystem):
             self.refuse(
                 "{schedule} and {matches} cannot be combined; the schedule sets the matches"
             )
-        if self.dask is not None and self.jobs > 1:
-            self.refuse("{dask} and {jobs} cannot be combined; the cluster has workers of its own")
-        if self.dask is not None and not self.dask.strip():
-            self.refuse(
-                "{dask} is empty; give the scheduler's address, such as tcp://10.0.0.5:8786"
-            )
+        refuse_workers(self)
         if [self.roster, self.schedule, self.chart].count("-") > 1:
             self.refuse(ON_STDIN)

@@ -12,13 +12,16 @@ from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.questions.common import (
     NPL,
     ChartName,
+    Dask,
     EntrantsFile,
+    Jobs,
     Lengths,
     OnScale,
     OutFolder,
     PlotFile,
     ScaleOf,
     Seed,
+    refuse_workers,
 )
 from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, Day, Reading, Results
 from evenbreak.questions.systems import SystemOf
@@ -266,6 +269,12 @@ class Validate(Results, Assumed):
             more="The predicted chances against how often favorites won, with 95% intervals.",
         ),
     ] = None
+    jobs: Annotated[Jobs, Says(section="The work")] = 1
+    dask: Annotated[Dask, Says(section="The work")] = None
+
+    def check(self) -> None:
+        """Refuse two kinds of workers at once."""
+        refuse_workers(self)
 
 
 def title_in(text: str) -> str:

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import time
+from itertools import pairwise
 
 import click
 import pytest
@@ -70,7 +71,7 @@ def test_with_a_known_total_the_time_left_is_shown_in_one_line(monkeypatch):
         "500 of 10,000 seasons (5%), about 38 min left",
         "2,000 of 10,000 seasons (20%), about 1 h 20 min left",
     ]
-    assert shown[-1][1:] == (2000, 10_000)
+    assert shown[-1][1:] == (200, 1_000)
 
 
 def test_the_bar_is_as_long_as_what_is_done_and_fits_a_terminal(monkeypatch):
@@ -89,8 +90,58 @@ def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
     assert counted(monkeypatch, io.StringIO(), 0.0) == ""
 
 
+class Clock:
+    """A clock that the work moves."""
+
+    def __init__(self, monkeypatch):
+        self.seconds = 1000.0
+        monkeypatch.setattr(module.time, "monotonic", lambda: self.seconds)
+
+
+def long_work(monkeypatch, hours=0.1):
+    """Return the lines about work of 400 dates, the last of which take longest, by their time."""
+    screen, clock = io.StringIO(), Clock(monkeypatch)
+    monkeypatch.setattr(sys, "stderr", screen)
+    said = []
+    with Progress("dates") as progress:
+        for date in range(1, 401):
+            part = (date / 400) ** 2
+            clock.seconds = 1000.0 + 3600.0 * hours * part
+            progress(date, 400, part)
+            if len(new := screen.getvalue().splitlines()) > len(said):
+                said.append((clock.seconds - 1000.0, new[-1]))
+    return said
+
+
+def test_a_file_has_a_line_after_ten_seconds_and_then_every_thirty(monkeypatch):
+    times = [seconds for seconds, _ in long_work(monkeypatch)]
+    assert 10.0 <= times[0] < 12.0
+    assert all(30.0 <= later - earlier < 35.0 for earlier, later in pairwise(times))
+    assert times[-1] > 320.0
+
+
+def test_a_day_of_work_fills_no_file(monkeypatch):
+    times = [seconds for seconds, _ in long_work(monkeypatch, hours=24.0)]
+    assert len(times) < 90
+    assert 3600.0 * 24.0 - times[-1] < 3600.0 * 3.0
+
+
+def test_the_time_left_is_that_of_the_work_and_not_of_the_dates(monkeypatch):
+    """By the dates alone the first lines would say half of what is left, or less."""
+    for seconds, line in long_work(monkeypatch):
+        minutes, left = re.search(r"about (?:(\d+) min|(\d+) s) left", line).groups()
+        said = 60.0 * float(minutes) if minutes else float(left)
+        assert abs(said - (360.0 - seconds)) <= 30.0, line
+
+
+def test_the_line_says_how_many_and_how_much_of_the_work(monkeypatch):
+    assert long_work(monkeypatch)[0][1] == (
+        "67 of 400 dates (2% of the work), about 6 min left ..."
+    )
+
+
 @pytest.mark.parametrize("stderr", [io.StringIO(), Screen()], ids=["file", "dumb terminal"])
-def test_long_work_prints_one_plain_line_where_there_is_no_bar(monkeypatch, stderr):
+def test_long_work_prints_a_plain_line_where_there_is_no_bar(monkeypatch, stderr):
     monkeypatch.setenv("TERM", "dumb")
     monkeypatch.setattr(module, "PATIENCE_IN_A_FILE", 0.0)
     assert counted(monkeypatch, stderr, 0.0) == "1 charts designed so far ...\n"

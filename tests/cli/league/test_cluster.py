@@ -13,7 +13,7 @@ import pytest
 from evenbreak.cli.league import simulate as module
 from evenbreak.cli.league.simulate import cluster_at
 from evenbreak.errors import InputError, WorkerError
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 
 distributed = pytest.importorskip("distributed", reason="the extra evenbreak[dask] is missing")
 

@@ -111,11 +111,18 @@ def test_a_slope_of_a_few_matches_is_withheld():
     assert all(row.slope is None for row in found.scored)
 
 
-def test_progress_is_reported():
+@pytest.mark.parametrize("prior_sd", [None, 0.6])
+def test_progress_is_reported(prior_sd):
+    """Of the walks and the search, each through all dates; the part done never goes back."""
     steps = []
-    validate(season(0.6, matches=90), progress=lambda *step: steps.append(step))
+    found = validate(
+        season(0.6, matches=90), prior_sd=prior_sd, progress=lambda *step: steps.append(step)
+    )
+    dates = int(found.forecasts.date_of[-1]) + 1
+    parts = 3 if prior_sd is None else 2
     assert steps == sorted(steps)
-    assert steps[-1] == (400, 400)
+    assert steps[-1] == (parts * dates, parts * dates, 1.0)
+    assert [part for _, _, part in steps] == sorted(part for _, _, part in steps)
     assert len(steps) >= 4
 
 

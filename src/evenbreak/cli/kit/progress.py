@@ -1,6 +1,6 @@
 """A bar on a terminal that shows how far long work is, or only that it goes on.
 
-A terminal that cannot move its cursor, and a file, get one plain line instead.
+A terminal that cannot move its cursor, and a file, get a plain line now and then instead.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ PATIENCE = 1.0
 """Seconds before work that is counted shows its bar."""
 
 PATIENCE_IN_A_FILE = 10.0
-"""Seconds before stderr says once that the work goes on, where it has no bar."""
+"""Seconds before stderr says how far the work is, where it has no bar."""
+
+BETWEEN_LINES = 30.0
+"""Seconds until it says so again; of work that takes long, a tenth of the time so far."""
 
 _lock = threading.Lock()
 _bar: RichProgress | None = None
@@ -110,6 +113,8 @@ class Progress:
     ...     progress(1)
     >>> with Progress("seasons") as progress:
     ...     progress(250, 1000)
+    >>> with Progress("dates") as progress:
+    ...     progress(100, 400, 0.04)
     """
 
     def __init__(self, what: str) -> None:
@@ -118,19 +123,25 @@ class Progress:
         self._has_bar = _has_bar()
         self._next = self._begun + (PATIENCE if self._has_bar else PATIENCE_IN_A_FILE)
 
-    def __call__(self, count: int, total: int | None = None) -> None:
-        """Show how many are done and, if the total is known, how long the rest will take."""
+    def __call__(self, count: int, total: int | None = None, part: float | None = None) -> None:
+        """Show how many are done and, if the total is known, how long the rest will take.
+
+        `part` says what part of the work they are, where some take longer than others.
+        """
         seconds = time.monotonic() - self._begun
         if self._begun + seconds < self._next:
             return
         line = f"{count:,} {self._what} so far"
+        done = 0.0
         if total is not None:
-            line = f"{count:,} of {total:,} {self._what} ({100 * count // total}%)"
-            line += f", {_left(seconds, count, total)}"
+            done = count / total if part is None else part
+            of = "" if part is None else " of the work"
+            line = f"{count:,} of {total:,} {self._what} ({math.floor(100 * done + 1e-9)}%{of})"
+            line += f", {_left(seconds, done)}"
         if self._has_bar:
-            _show(self._begun, line, count, total)
+            _show(self._begun, line, round(1000 * done), None if total is None else 1000)
         else:
-            self._next = math.inf
+            self._next = self._begun + seconds + max(BETWEEN_LINES, seconds / 10.0)
             click.echo(f"{line} ...", err=True)
 
     def __enter__(self) -> Self:
@@ -146,15 +157,15 @@ class Progress:
         erase()
 
 
-def _left(seconds: float, count: int, total: int) -> str:
+def _left(seconds: float, done: float) -> str:
     """Say how long the rest takes at the pace so far.
 
-    >>> _left(20.0, 250, 1000), _left(1200.0, 2, 16), _left(3.0, 0, 9)
+    >>> _left(20.0, 0.25), _left(1200.0, 0.125), _left(3.0, 0.0)
     ('about 60 s left', 'about 2 h 20 min left', 'time left not yet known')
     """
-    if not count:
+    if done <= 0.0:
         return "time left not yet known"
-    left = math.ceil(seconds / count * (total - count))
+    left = math.ceil(round(seconds * (1.0 - done) / done, 6))
     if left < 100:
         return f"about {left} s left"
     minutes = round(left / 60)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -164,13 +165,15 @@ def validate(asked: Validate) -> Answer:
     prior_sd = prior_in_log_odds(asked, asked.scale) if isinstance(asked.prior, float) else None
     file = files.read_seasons(asked.results, **asked.reading)
     try:
-        with Progress("steps") as progress:
+        with _workers(asked) as client, Progress("dates") as progress:
             validation = validated(
                 file.results,
                 prior_sd=prior_sd,
                 half_life=_half_life(asked),
                 beginning=_beginning(asked, file, asked.scale),
                 seed=asked.seed,
+                executor=client,
+                jobs=asked.jobs,
                 progress=progress,
             )
     except InputError as error:  # the options have been checked, so it is the data
@@ -181,6 +184,15 @@ def validate(asked: Validate) -> Answer:
         write_plot(draw_calibration(validation), asked.plot)
     chart = handicaps.league_chart(file.results)
     return answers.validate_answer(file, validation, asked.scale, seed=asked.seed, chart=chart)
+
+
+def _workers(asked: Validate) -> AbstractContextManager[Any]:
+    """Connect to the cluster that is asked for, if there is one."""
+    if asked.dask is None:
+        return nullcontext()
+    from evenbreak.cli.league.simulate import cluster_at
+
+    return cluster_at(asked.dask)
 
 
 # How to rate, as `report` does too.

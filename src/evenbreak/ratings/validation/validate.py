@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -16,7 +14,7 @@ from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, wilson
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
-from evenbreak.ratings.levels import Levels, begun
+from evenbreak.ratings.levels import Levels, begun, known_levels
 from evenbreak.ratings.prior import HalfLifeGain, PriorChoice, best_prior, half_life_gains
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.validation.advantages import (
@@ -39,7 +37,7 @@ from evenbreak.ratings.validation.calibration import (
     calibration,
 )
 from evenbreak.ratings.validation.starts import Starts, starts
-from evenbreak.ratings.validation.walk_forward import Forecasts, in_order, walk_forward
+from evenbreak.ratings.validation.walk_forward import Forecasts, Progress, in_order, walk_forward
 from evenbreak.ratings.validation.within_matches import (
     Dispersion,
     MatchForm,
@@ -48,6 +46,12 @@ from evenbreak.ratings.validation.within_matches import (
     match_form,
     streaks,
 )
+from evenbreak.workers import Share, crew
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import distributed
 
 
 class HandicapFairness(NamedTuple):
@@ -247,7 +251,9 @@ def validate(
     half_life: float | Literal["best"] | None = "best",
     beginning: Beginning | None = None,
     seed: int | np.random.Generator = 1,
-    progress: Callable[[int, int], None] = lambda _done, _all: None,
+    executor: Executor | distributed.Client | None = None,
+    jobs: int = 1,
+    progress: Progress = lambda *_: None,
 ) -> Validation:
     """Predict a season date by date, and return how good the predictions were.
 
@@ -265,13 +271,19 @@ def validate(
         ratings that players bring along; None: there are none.
     seed
         of the bootstrap and of the simulated seasons: a whole number, or a generator.
+    executor, jobs
+        who works: any executor of `concurrent.futures` or a `distributed.Client`; None: as many
+        processes as `jobs` says. The answer is the same.
     progress
-        called with how much is done, and of how much.
+        called with how many dates have been predicted, of how many in all ways to rate, and what
+        part of the work that is.
 
     Raises
     ------
     InputError
         as `walk_forward` does.
+    WorkerError
+        if a worker process ends before its work is done.
 
     Notes
     -----
@@ -286,28 +298,10 @@ def validate(
     """
     check_results(results)
     seed = seed_of(seed)
-    many = 4 if prior_sd is None else 2
-    parts = _parts(progress, many)
-    choice = None
-    half_lives: tuple[HalfLifeGain, ...] = ()
-    never = None if half_life == "best" else half_life
-    usual_walk: Forecasts | None = None
-    usual_way: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": never, "levels": Levels()}
-    way = {**usual_way, "prior_sd": prior_sd, "levels": begun(beginning)}
-    season, _ = in_order(results)
-    dated = results.select(~np.isnat(np.asarray(results.date)))
-    if prior_sd is None:
-        usual_walk = walk_forward(results, **usual_way, progress=next(parts))
-        choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=next(parts))
-        half_lives = _tested(choice)
-        way = {name: getattr(choice, name) for name in way}
-    ratings = with_form(season, fit(season, **way))
-    walk = usual_walk
-    if walk is None or ratings.match_form or way != usual_way:
-        walk = walk_forward(results, **way, form=ratings.match_form, progress=next(parts))
-    if half_life == "best" and not half_lives:
-        half_lives = half_life_gains(dated, walk.prior_sd, progress=next(parts))
-    progress(100 * many, 100 * many)
+    with crew(executor=executor, jobs=jobs) as share:
+        choice, half_lives, ratings, usual_walk, walk = _walked(
+            results, prior_sd, half_life, beginning, progress, share
+        )
     rng = np.random.default_rng(seed)
     raced = bool(walk.race_a.any())
     of_all: tuple[Of, ...] = ("game", "match") if raced else ("game",)
@@ -371,14 +365,82 @@ def _tested(choice: PriorChoice) -> tuple[HalfLifeGain, ...]:
     )
 
 
-def _parts(progress: Callable[[int, int], None], many: int) -> Iterator[Callable[[int, int], None]]:
-    """Yield for each part of the work what shows its progress, as hundredths of a part."""
+def _walked(
+    results: Results,
+    prior_sd: float | None,
+    half_life: float | Literal["best"] | None,
+    beginning: Beginning | None,
+    progress: Progress,
+    share: Share | None,
+) -> tuple[PriorChoice | None, tuple[HalfLifeGain, ...], Ratings, Forecasts | None, Forecasts]:
+    """Return how the prior was chosen, ratings with it, and walks with the usual one and with it.
 
-    def show(part: int, done: int, total: int) -> None:
-        progress(100 * part + 100 * done // total, 100 * many)
+    There is no walk with the usual prior where another was given.
+    """
+    season, _ = in_order(results)
+    dated = results.select(~np.isnat(np.asarray(results.date)))
+    never = None if half_life == "best" else half_life
+    sizes = len(known_levels(dated, beginning)) + (half_life == "best")
+    searches = SEARCH * (sizes + 2 if prior_sd is None else half_life == "best")
+    dates = len(np.unique(np.asarray(season.date)))
+    done = _Done(progress, dates, (float(prior_sd is None), searches, 1.0))
+    choice = None
+    half_lives: tuple[HalfLifeGain, ...] = ()
+    usual_walk: Forecasts | None = None
+    usual_way: dict[str, Any] = {"prior_sd": PRIOR_SD, "half_life": never, "levels": Levels()}
+    way = {**usual_way, "prior_sd": prior_sd, "levels": begun(beginning)}
+    if prior_sd is None:
+        usual_walk = walk_forward(results, **usual_way, progress=done.part(0), share=share)
+        choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=done.part(1))
+        half_lives = _tested(choice)
+        way = {name: getattr(choice, name) for name in way}
+    if half_life == "best" and not half_lives:
+        half_lives = half_life_gains(dated, way["prior_sd"], progress=done.part(1))
+    ratings = with_form(season, fit(season, **way))
+    walk = usual_walk
+    if walk is None or ratings.match_form or way != usual_way:
+        form, shown = ratings.match_form, done.part(2)
+        walk = walk_forward(results, **way, form=form, progress=shown, share=share)
+    done.end()
+    return choice, half_lives, ratings, usual_walk, walk
 
-    for part in range(many):
-        yield partial(show, part)
+
+SEARCH = 0.25
+"""What one step of the search for a prior takes, in walks through the season."""
+
+
+class _Done:
+    """How far a validation is, from how far its parts are.
+
+    Parameters
+    ----------
+    progress
+        what is called with it.
+    dates
+        how many there are; each part goes through all of them.
+    work
+        how long each part takes, in walks through the season; 0 for what there is none of.
+    """
+
+    def __init__(self, progress: Progress, dates: int, work: tuple[float, ...]) -> None:
+        self._progress, self._dates, self._work = progress, dates, work
+        self._all = dates * sum(one > 0.0 for one in work)
+
+    def part(self, number: int) -> Progress:
+        """Return what is called with how far a part is."""
+
+        def show(done: int, total: int, share: float | None = None) -> None:
+            part = done / total if share is None else share
+            before = sum(work > 0.0 for work in self._work[:number])
+            work = sum(self._work[:number]) + part * self._work[number]
+            dates = before * self._dates + round(self._dates * done / total)
+            self._progress(dates, self._all, min(work / sum(self._work), 1.0))
+
+        return show
+
+    def end(self) -> None:
+        """Say that everything is done, also what there was no need for."""
+        self._progress(self._all, self._all, 1.0)
 
 
 def _calibrated(

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import expit
 
 from evenbreak.arrays import Bools, Floats, Ints, own_arrays
@@ -26,6 +27,7 @@ from evenbreak.ratings.integrated import normal_nodes
 from evenbreak.ratings.levels import Knowledge, Levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.validation.daily_refit import DailyRefit
+from evenbreak.workers import Share
 
 
 @own_arrays
@@ -111,7 +113,8 @@ def walk_forward(
     half_life: float | None = None,
     levels: Levels | None = None,
     form: float = 0.0,
-    progress: Callable[[int, int], None] = lambda _done, _all: None,
+    progress: Progress = lambda *_: None,
+    share: Share | None = None,
 ) -> Forecasts:
     """Predict every dated match of `results` from the matches of earlier dates alone.
 
@@ -129,7 +132,10 @@ def walk_forward(
     form
         how much players vary from match to match: the standard deviation of a game's log-odds.
     progress
-        called with how many dates are done, and of how many.
+        called with how many dates are done, of how many, and what part of the work that is.
+    share
+        what gives spans of dates to other processes (see `evenbreak.workers`), for the same
+        answer; None: there is only this one.
 
     Raises
     ------
@@ -164,28 +170,15 @@ def walk_forward(
             n_days=len(days),
             what="s" * (len(days) != 1),
         )
-    a, b = season.player_a, season.player_b
     levels = levels or Levels()
-    knowledge = Knowledge(season, levels)
-    league = DailyRefit(len(season.players), a, b, precision, knowledge.means())
-    if levels.beginning is not None:
-        league.fade(levels.beginning.kept(half_life, season, days[0]))
-    difference, variance = np.zeros(len(season)), np.zeros(len(season))
-    starts = np.searchsorted(date_of, np.arange(len(days) + 1))
-    for day, (start, end) in enumerate(pairwise(starts)):
-        rows = slice(start, end)
-        if half_life is not None and day:
-            passed = (days[day] - days[day - 1]).astype(int)
-            league.fade(0.5 ** (float(passed) / half_life))
-        knowledge.see(rows)
-        league.begin_day(knowledge.means() if levels else None)
-        difference[rows] = league.skill[a[rows]] - league.skill[b[rows]]
-        variance[rows] = league.difference_variance(a[rows], b[rows])
-        won, lost = season.score_a[rows], season.score_b[rows]
-        worth = games_weight(difference[rows], won + lost, form)
-        league.learn(rows, worth * won, worth * lost)
-        knowledge.play(rows)
-        progress(day + 1, len(days))
+    walk = _Walk(season, days, date_of, precision, half_life, levels, form)
+    spans = walk.spans()
+    parts = [_walked(walk, span, progress) for span in spans] if share is None else []
+    if share is not None:
+        for span, part in zip(spans, share(_walked, walk, spans), strict=True):
+            parts.append(part)
+            progress(span[1], len(days), walk.done[span[1]])
+    difference, variance = (np.concatenate(part) for part in zip(*parts, strict=True))
     return _forecasts(
         season,
         date_of,
@@ -197,6 +190,114 @@ def walk_forward(
         form=form,
         **left_out,
     )
+
+
+Progress: TypeAlias = Callable[..., None]
+"""Called with how many dates are done, of how many, and what part of the work that is."""
+
+SPANS, LEAST_DATES = 12, 25
+"""Into how many spans a season is cut at most, and how many dates each of them has at least."""
+
+OF_MODE = 25
+"""Finding a date's mode takes about as long as the variances of so many matches."""
+
+
+class _Walk(NamedTuple):
+    """A season to be walked through, from any date on.
+
+    Attributes
+    ----------
+    season
+        the matches, in the order of their dates.
+    days, date_of
+        the dates, and the number of each match's.
+    precision, half_life, levels, form
+        how it is rated.
+    """
+
+    season: Results
+    days: NDArray[np.datetime64]
+    date_of: Ints
+    precision: float
+    half_life: float | None
+    levels: Levels
+    form: float = 0.0
+
+    @property
+    def starts(self) -> Ints:
+        """The first match of each date, and the number of all."""
+        return np.searchsorted(self.date_of, np.arange(len(self.days) + 1))
+
+    @property
+    def done(self) -> Floats:
+        """What part of the work is done before each date, and at the end: later ones take longer.
+
+        What a date takes grows with the pairs that have met, and with its matches.
+        """
+        a, b = self.season.player_a, self.season.player_b
+        pairs = np.minimum(a, b) * len(self.season.players) + np.maximum(a, b)
+        first = np.unique(pairs, return_index=True)[1]
+        met = np.searchsorted(np.sort(first), self.starts[:-1])
+        work = (1_000.0 + met) * (OF_MODE + np.diff(self.starts))
+        return np.append(0.0, np.cumsum(work) / work.sum())
+
+    def spans(self) -> list[tuple[int, int]]:
+        """Return the spans of dates, about equally much work each, that are walked on their own.
+
+        Each begins with a fit of all that came before, so that who walks it makes no difference.
+        """
+        many = max(min(SPANS, len(self.days) // LEAST_DATES), 1)
+        cuts = np.searchsorted(self.done[1:-1], np.arange(1, many) / many)
+        ends = np.unique([0, *(cuts + 1).tolist(), len(self.days)])
+        return list(pairwise(ends.tolist()))
+
+
+def _walked(
+    walk: _Walk, span: tuple[int, int], progress: Progress = lambda *_: None
+) -> tuple[Floats, Floats]:
+    """Return the differences and variances before each match of a span of dates."""
+    season, days, half_life, levels = walk.season, walk.days, walk.half_life, walk.levels
+    a, b, starts = season.player_a, season.player_b, walk.starts
+    first, last = span
+    knowledge = Knowledge(season, levels)
+    league = DailyRefit(len(season.players), a, b, walk.precision, knowledge.means())
+    if levels.beginning is not None:
+        league.fade(levels.beginning.kept(half_life, season, days[0]))
+    if first:
+        before = slice(0, starts[first])
+        kept = np.ones(len(days))
+        if half_life is not None:
+            kept = np.exp2((days - days[first - 1]).astype(float) / half_life)
+            league.fade(float(kept[0]))
+        weight = kept[walk.date_of[before]]
+        won, lost = weight * season.score_a[before], weight * season.score_b[before]
+        league.learn(before, won, lost)
+        knowledge.see(before)
+        knowledge.play(before)
+        if walk.form:
+            # As in a fit, matches have the weights that ratings without form give them.
+            league.begin_day(knowledge.means() if levels else None)
+            apart = league.skill[a[before]] - league.skill[b[before]]
+            games = season.score_a[before] + season.score_b[before]
+            less = games_weight(apart, games, walk.form) - 1.0
+            league.learn(before, less * won, less * lost)
+    done = walk.done
+    difference, variance = [], []
+    for day in range(first, last):
+        rows = slice(starts[day], starts[day + 1])
+        if half_life is not None and day:
+            passed = (days[day] - days[day - 1]).astype(int)
+            league.fade(0.5 ** (float(passed) / half_life))
+        knowledge.see(rows)
+        league.begin_day(knowledge.means() if levels else None)
+        difference.append(league.skill[a[rows]] - league.skill[b[rows]])
+        variance.append(league.difference_variance(a[rows], b[rows]))
+        won, lost = season.score_a[rows], season.score_b[rows]
+        worth = games_weight(difference[-1], won + lost, walk.form)
+        league.learn(rows, worth * won, worth * lost)
+        knowledge.play(rows)
+        progress(day + 1, len(days), done[day + 1])
+    return np.concatenate(difference), np.concatenate(variance)
 
 
 def even_races(results: Results) -> tuple[Ints, Ints, Floats]:

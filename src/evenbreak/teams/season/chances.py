@@ -20,12 +20,12 @@ from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
-from evenbreak.league.workers import in_order
 from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.teams.season.ranking import ranks_of, standings_of
 from evenbreak.teams.season.season import TeamSeason
+from evenbreak.workers import in_order
 
 if TYPE_CHECKING:
     import distributed

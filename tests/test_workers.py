@@ -16,7 +16,7 @@ import pytest
 
 from evenbreak.errors import InputError, WorkerError
 from evenbreak.league import LeaguePlayers, RandomPairing, Season, simulate
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 
 
 class Backwards(ThreadPoolExecutor):
@@ -86,7 +86,7 @@ def test_a_killed_worker_is_one_error():
 IN_A_FOLDER = """
 import sys
 sys.path = [place for place in sys.path if place]
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 if __name__ == "__main__":
     print(list(in_order(pow, 2, range(5), jobs=2)))
 """
@@ -112,7 +112,7 @@ def test_jobs_are_counted_from_one(jobs):
 
 SLEEPS = """
 import operator, time
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 if __name__ == "__main__":
     print("begun", flush=True)
     list(in_order(operator.call, time.sleep, [0.5] * 400, jobs=2))
@@ -166,7 +166,7 @@ def test_workers_end_with_their_parent(tmp_path, sign, pause):
 
 COMPUTES = """
 import pathlib, sys, time
-from evenbreak.league.workers import in_order
+from evenbreak.workers import in_order
 
 def begin(folder, number):
     pathlib.Path(folder, str(number)).touch()

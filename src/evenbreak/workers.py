@@ -21,7 +21,7 @@ from functools import partial
 from itertools import count, islice
 from multiprocessing import get_context, parent_process
 from threading import Thread
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from evenbreak.checks import whole
 from evenbreak.errors import WorkerError
@@ -78,7 +78,7 @@ def in_order(
     if executor is None and jobs == 1:
         yield from map(partial(task, shared), pieces)
         return
-    try:
+    with _broken_is_said():
         if executor is None:
             with _processes(jobs, task, shared) as submit:
                 yield from _results(submit, pieces, jobs)
@@ -89,6 +89,48 @@ def in_order(
             client: Any = executor
             workers = sum(client.nthreads().values())
             yield from _results(_on_cluster(client, task, shared), pieces, workers)
+
+
+Share: TypeAlias = Callable[[Callable[[Any, Any], Any], Any, Iterable[Any]], Iterator[Any]]
+"""What does several tasks like `in_order`, with the same workers: task, shared, pieces."""
+
+
+@contextmanager
+def crew(
+    *, executor: Executor | distributed.Client | None = None, jobs: int = 1
+) -> Iterator[Share | None]:
+    """Yield what does several tasks, one after another, by the workers of `in_order`.
+
+    Processes of our own stay for all of them. None: there is only this process.
+
+    >>> with crew() as share:
+    ...     share is None
+    True
+    """
+    jobs = whole(jobs, "jobs", at_least=1)
+    if executor is not None:
+        yield partial(in_order, executor=executor)
+    elif jobs == 1:
+        yield None
+    else:
+        with _broken_is_said(), _processes(jobs, _do_any, None) as submit:
+
+            def share(task: Any, shared: Any, pieces: Iterable[Any]) -> Iterator[Any]:
+                return _results(submit, ((task, shared, piece) for piece in pieces), jobs)
+
+            yield share
+
+
+def _do_any(_: None, piece: tuple[Callable[[Any, Any], Any], Any, Any]) -> Any:
+    task, shared, own = piece
+    return task(shared, own)
+
+
+@contextmanager
+def _broken_is_said() -> Iterator[None]:
+    """Say why a pool of processes is broken."""
+    try:
+        yield
     except BrokenExecutor as error:
         raise WorkerError(
             "a worker process ended before its work was done: it was killed (did memory run out?), "
