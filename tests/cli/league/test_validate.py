@@ -85,3 +85,23 @@ def test_numbers_out_of_range_are_refused(run, option, value):
     found = run("validate", DEMO, option, value)
     assert found.exit_code == 2
     assert option in found.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--jobs", "2", "--dask", "tcp://x:1"), "--dask and --jobs cannot be combined"),
+        (("--dask", " "), "--dask is empty"),
+        (("--jobs", "0"), "'0'"),
+    ],
+)
+def test_two_kinds_of_workers_are_refused(run, options, words):
+    found = run("validate", DEMO, *options)
+    assert found.exit_code == 2
+    assert words in found.stderr
+
+
+@pytest.mark.slow
+def test_two_processes_write_the_same_bytes(run):
+    alone, shared = (run("validate", DEMO, "--json", "--jobs", jobs) for jobs in "12")
+    assert alone.stdout == shared.stdout

@@ -84,3 +84,20 @@ def test_a_crew_does_several_tasks_with_the_same_processes():
     with crew(jobs=2) as share:
         assert list(share(pow, 2, range(5))) == [1, 2, 4, 8, 16]
         assert list(share(divmod, 7, [2, 3])) == [(3, 1), (2, 1)]
+
+
+@pytest.mark.thorough
+def test_a_cluster_says_the_same_to_the_last_bit():
+    distributed = pytest.importorskip("distributed", reason="the extra evenbreak[dask] is missing")
+    results = season(50, matches=3, players=12)
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50
+        ) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
+        shared = validate(results, executor=client)
+    alone = validate(results)
+    np.testing.assert_array_equal(alone.forecasts.sd, shared.forecasts.sd)
+    assert alone.scored == shared.scored
+    assert alone.choice == shared.choice

@@ -140,7 +140,7 @@ class Progress:
             line += f", {_left(seconds, done)}"
         if self._has_bar:
             _show(self._begun, line, round(1000 * done), None if total is None else 1000)
-        else:
+        elif done < 1.0:
             self._next = self._begun + seconds + max(BETWEEN_LINES, seconds / 10.0)
             click.echo(f"{line} ...", err=True)
 
