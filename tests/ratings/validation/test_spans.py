@@ -38,6 +38,19 @@ def test_where_a_season_is_cut_does_not_matter(monkeypatch, way):
     np.testing.assert_allclose(parts.sd, whole.sd, rtol=2e-6)
 
 
+def test_with_form_a_cut_changes_the_weights_of_earlier_matches_a_little(monkeypatch):
+    """They are those of a fit without form, not those that the matches had on their own day."""
+    results, moved = season(60), []
+    way = {"form": 0.4, "prior_sd": 0.5}
+    for least in (60, 5):
+        monkeypatch.setattr(module, "LEAST_DATES", least)
+        moved.append(walk_forward(results, **way))
+    without = walk_forward(results, prior_sd=0.5)
+    shift = np.abs(moved[0].difference - moved[1].difference)
+    assert shift.max() < 0.02
+    assert shift.mean() < 0.15 * np.abs(without.difference - moved[0].difference).mean()
+
+
 @pytest.mark.parametrize("dates", [2, 60, 400])
 def test_spans_hold_every_date_once_and_are_about_equally_much_work(dates):
     results = season(dates, matches=3)
@@ -55,7 +68,7 @@ def by_two(task, shared, pieces):
     return reversed([task(shared, piece) for piece in reversed(list(pieces))])
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", [*WAYS, {"form": 0.4}])
 def test_who_walks_a_span_makes_no_difference(way):
     results, seen = season(60), []
     alone = walk_forward(results, **way)

@@ -270,8 +270,8 @@ def _walked(
             kept = np.exp2((days - days[first - 1]).astype(float) / half_life)
             league.fade(float(kept[0]))
         weight = kept[walk.date_of[before]]
-        won, lost = weight * season.score_a[before], weight * season.score_b[before]
-        league.learn(before, won, lost)
+        in_full = weight * season.score_a[before], weight * season.score_b[before]
+        league.learn(before, *in_full)
         knowledge.see(before)
         knowledge.play(before)
         if walk.form:
@@ -280,7 +280,7 @@ def _walked(
             apart = league.skill[a[before]] - league.skill[b[before]]
             games = season.score_a[before] + season.score_b[before]
             less = games_weight(apart, games, walk.form) - 1.0
-            league.learn(before, less * won, less * lost)
+            league.learn(before, less * in_full[0], less * in_full[1])
     done = walk.done
     difference, variance = [], []
     for day in range(first, last):
