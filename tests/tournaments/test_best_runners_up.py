@@ -216,6 +216,20 @@ def test_who_is_level_is_ranked_by_games_for_each_match_and_then_by_lot() -> Non
         break_ties(settled, np.random.default_rng(0))
 
 
+def test_a_correction_opens_a_broken_tie_again() -> None:
+    events = tied_cup()
+    state = evening(events)
+    events.append(Event(AT, break_ties(state, np.random.default_rng(0)).ranked))
+    assert tied_groups(evening(events)) == []
+    match = state.bracket.groups[0].matches[0]
+    before = state.counted[match]
+    events.append(Event(AT, Result(match, before.players, before.score[::-1], before.loser)))
+    after = evening(events)
+    assert Source("2", 1) not in after.standing.sent  # a group is tied, or others are second
+    events.append(Event(AT, Result(match, before.players, before.score, before.winner)))
+    assert Source("2", 1) in evening(events).standing.sent  # as it was
+
+
 def test_until_the_tie_is_broken_the_odds_share_the_place() -> None:
     state = evening(tied_cup())
     win = np.full((6, 6), 0.5)

@@ -48,6 +48,7 @@ def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
             ({"qualifiers": 2}, {"qualifiers": 2}),
             ({"format": "single", "third_place": "yes"}, {"third_place": True}),
             ({"format": "groups", "groups": 1, "qualifiers": 3}, {"groups": 1, "qualifiers": 3}),
+            ({"format": "groups", "groups": 2, "knockout_size": 3}, {"knockout_size": 3}),
             ({"format": "round-robin", "races": "fair"}, {"handicapped": True, "race": 3}),
             ({"losers_race": 2, "final_race": 4}, {"losers_race": 2, "final_race": 4}),
         ):
@@ -124,6 +125,7 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"format": "single", "rounds": 2}, "Only a Swiss"),
         ({"qualifiers": 3}, "another power of 2"),
         ({"qualifiers": 2, "final": "single"}, "one final"),
+        ({"format": "single", "knockout_size": 3}, "no groups"),
         ({"format": "groups", "groups": 3}, "for 4 players; with fewer groups"),
         ({"format": "pods"}, "too few"),
         ({"races": "npl_8", "losers_race": 2}, "sets all races"),

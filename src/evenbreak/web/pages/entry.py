@@ -15,6 +15,7 @@ from starlette.routing import Route
 from evenbreak.answers.kit.scales import chart_doubts, league_doubts
 from evenbreak.answers.league.prior import games_words, unrated_words
 from evenbreak.answers.tournament.moves import entry_words
+from evenbreak.answers.tournament.time import venue_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
@@ -158,7 +159,7 @@ def _put_aside(form: Form, site: Site) -> int:
 
 
 def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
-    """Return what a form begins, and what its list makes doubtful."""
+    """Return what a form begins, what its list makes doubtful, and what sets the pace."""
     content = list_of(form, "entrants", "file")
     if not content.strip():
         raise RefusalError("Enter at least one player.")
@@ -194,6 +195,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         doubts.append(unrated_words(new, plan.starter, plan.starter_error))
     if not known:
         doubts += filter(None, [games_words(read, filled)])
+    doubts += filter(None, [venue_words(plan.discipline, plan.earlier)])
     return Event(site.clock(), opened(plan, rows), DIRECTORS_PAGE), [*warnings_of(file), *doubts]
 
 
