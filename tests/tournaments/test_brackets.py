@@ -21,6 +21,7 @@ from evenbreak.tournaments import (
     pods,
     round_robin,
     single_elimination,
+    title_odds,
 )
 from rows import each_of
 
@@ -290,3 +291,17 @@ def test_equal_brackets_are_one() -> None:
 def test_what_cannot_be_drawn_is_refused(build, named: str) -> None:
     with pytest.raises(InputError, match=named):
         build()
+
+
+@each_of("players, groups, qualifiers", [(12, 6, 1), (18, 6, 2), (24, 8, 1)])
+def test_a_group_and_a_match_never_share_a_name(players, groups, qualifiers):
+    bracket = groups_then_knockout(players, groups, qualifiers=qualifiers, third_place=True)
+    names = [*bracket.by_name, *(group.name for group in bracket.groups)]
+    assert len(set(names)) == len(names)
+    assert bracket.matches[-2].side == "final"
+    skill = np.linspace(1.0, 0.0, players)
+    win = 1.0 / (1.0 + np.exp(skill - skill[:, None]))
+    sampled = title_odds(bracket, win, most_states=1, samples=4000)
+    assert sampled.title.sum() == pytest.approx(1.0)
+    odds = title_odds(bracket, win)
+    assert (np.abs(odds.title - sampled.title) < 5.0 * sampled.error.max() + 1e-3).all()

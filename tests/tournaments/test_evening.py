@@ -34,6 +34,7 @@ from evenbreak.tournaments.evening.undoing import undo
 from evenbreak.tournaments.odds.races import Fairest
 from rows import each_of
 from tiers import examples
+from tournament_nights import timed_night
 
 AT = "2025-03-01T19:30:00"
 
@@ -530,3 +531,18 @@ def test_the_beginning_of_a_name_will_do_if_it_is_clear() -> None:
         moves.known_player(state, "an")
     with pytest.raises(InputError, match="not in this tournament"):
         moves.known_player(state, "nders")
+
+
+def test_a_final_that_was_called_as_a_group_is_found_again():
+    entrants = tuple(Entrant(f"P{k}", 500.0) for k in range(12))
+    plan = Plan("groups", 3, scale="fargo", groups=6, qualifiers=1)
+    events = timed_night([Event(AT, Opened(plan, entrants))], AT)
+    state = evening(events)
+    assert state.bracket.match("KF").side == "final"
+    before = [
+        replace(one, what=replace(one.what, match="F"))
+        if getattr(one.what, "match", "") == "KF"
+        else one
+        for one in events
+    ]
+    assert evening(before).counted == state.counted

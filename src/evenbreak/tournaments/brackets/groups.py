@@ -21,7 +21,7 @@ from evenbreak.tournaments.brackets.drafts import (
     bracket_of,
     checked_players,
 )
-from evenbreak.tournaments.brackets.knockout import apart_by_club, knockout, seeded_lines
+from evenbreak.tournaments.brackets.knockout import FINALS, apart_by_club, knockout, seeded_lines
 from evenbreak.words import Parameter
 
 
@@ -121,7 +121,8 @@ def groups_then_knockout(
         for k, members in enumerate(dealt)
     ]
     field = _field(count, going_on, best)
-    drafts, ranks = knockout(field, "K", "knock-out", third_place=third_place)
+    last = final_of_groups(count)
+    drafts, ranks = knockout(field, "K", "knock-out", last=last, third_place=third_place)
     later = bracket_of("", names, drafts, ranks).matches
     return Bracket(
         f"{count} groups, then knock-out",
@@ -130,6 +131,15 @@ def groups_then_knockout(
         tuple(group for group, _ in made),
         runners_up=runners_up,
     )
+
+
+def final_of_groups(groups: int) -> str:
+    """Return the name of the final after groups: of six and more one is called F itself.
+
+    >>> final_of_groups(5), final_of_groups(6)
+    ('F', 'KF')
+    """
+    return FINALS[groups >= len("ABCDEF")]
 
 
 def rounds_of_circle(players: int) -> list[list[tuple[int, int]]]:

@@ -117,6 +117,10 @@ def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
     return bracket_of("king of the hill", names, drafts, ranks)
 
 
+FINALS = ("F", "KF")
+"""The names of a final: the second where a group is called F."""
+
+
 def knockout(
     entrants: list[DraftSlot],
     letter: str,
@@ -147,7 +151,7 @@ def knockout(
         names = [f"{letter}{number}.{i}" for i in range(1, len(slots) // 2 + 1)]
         names = [last] if final else names
         drafts += [
-            Draft(name, "final" if final and last == "F" else side, number, (one, other))
+            Draft(name, "final" if final and last in FINALS else side, number, (one, other))
             for name, one, other in zip(names, slots[::2], slots[1::2], strict=True)
         ]
         rounds.append(names)
@@ -156,8 +160,9 @@ def knockout(
     ranks += [Rank(tuple(loser(name) for name in names)) for names in reversed(rounds)]
     if third_place and len(rounds) > 1:
         one, other = rounds[-2]
-        drafts.append(Draft("T", "third place", 1, (loser(one), loser(other))))
-        ranks[2:3] = [Rank((winner("T"),)), Rank((loser("T"),))]
+        third = last[:-1] + "T"
+        drafts.append(Draft(third, "third place", 1, (loser(one), loser(other))))
+        ranks[2:3] = [Rank((winner(third),)), Rank((loser(third),))]
     return drafts, ranks
 
 

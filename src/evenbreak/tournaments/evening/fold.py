@@ -7,8 +7,8 @@ again if the correction is undone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
 
@@ -17,6 +17,8 @@ import numpy as np
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
+from evenbreak.tournaments.brackets.groups import final_of_groups
+from evenbreak.tournaments.brackets.knockout import FINALS
 from evenbreak.tournaments.brackets.standing import Standing, ranked, standing
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.events import (
@@ -42,6 +44,7 @@ from evenbreak.tournaments.evening.plan import (
     bracket_now,
     bracket_of,
     changed,
+    groups_of,
     races_of,
     whole_bracket,
 )
@@ -313,7 +316,7 @@ def evening(events: Iterable[Event]) -> Evening:
     calls: dict[Pairing, OnTable] = {}
     scores: dict[Pairing, LiveScore] = {}
     ties: dict[str, Ranked] = {}
-    for event in kept[1:]:
+    for event in (_as_named_now(event, plan, order) for event in kept[1:]):
         refuse_strangers(event.what, entrants)
         match event.what:
             case Result() as result:
@@ -355,6 +358,20 @@ def evening(events: Iterable[Event]) -> Evening:
         tuple(kept),
         tuple(numbered),
     )
+
+
+def _as_named_now(event: Event, plan: Plan, order: Sequence[str]) -> Event:
+    """Return an event in the names that matches have now.
+
+    The final after six and more groups was called F once, as the sixth group is.
+    """
+    what = event.what
+    if plan.form != "groups" or not isinstance(what, Called | CalledBack | Scored | Result):
+        return event
+    if what.match == FINALS[0]:
+        last = final_of_groups(groups_of(plan, len(order)))
+        return replace(event, what=replace(what, match=last))
+    return event
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:
