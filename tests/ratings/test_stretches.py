@@ -1,11 +1,17 @@
 """Seasons predicted stretch by stretch."""
 
+import math
+
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import expit
+from scipy.stats import norm
 
 from evenbreak.ratings import Results, fit
+from evenbreak.ratings.integrated import Scores
 from evenbreak.ratings.levels import Levels
-from evenbreak.ratings.stretches import STRETCHES, stretch_losses
+from evenbreak.ratings.stretches import SOLVED_AT_ONCE, STRETCHES, stretch_losses
 
 
 def season(days):
@@ -27,16 +33,55 @@ def test_all_stretches_but_the_first_are_predicted(days):
     assert found.predicted.sum() < 28 * days
 
 
+def by_hand(before, coming, way):
+    """Return what is lost in a stretch, each match integrated by an adaptive rule."""
+    ratings = fit(before, **way)
+    skill = ratings.scale.log_odds(ratings.rating)
+    a, b = coming.player_a, coming.player_b
+    sd = np.sqrt(ratings.difference_variances(a, b))
+    total = 0.0
+    for mean, off, won, lost in zip(
+        skill[a] - skill[b], sd, coming.score_a, coming.score_b, strict=True
+    ):
+        known = norm(mean, off)
+        chance, _ = quad(
+            lambda d: expit(d) ** won * expit(-d) ** lost * known.pdf(d),  # noqa: B023
+            mean - 12 * off,
+            mean + 12 * off,
+            epsabs=0.0,
+            limit=200,
+        )
+        total -= math.log(chance)
+    return total
+
+
 def test_each_way_is_a_fit_of_the_days_before():
     results = season(2)
-    (losses,), _ = stretch_losses(results, [{"prior_sd": 0.2}, {"half_life": 1.0}])
+    ways = {"prior_sd": 0.2}, {"half_life": 1.0}, {"levels": Levels(newcomers=0.4)}
+    (losses,), _ = stretch_losses(results, ways)
     before, coming = results.select(np.arange(4)), results.select(np.arange(4, 8))
-    for loss, way in zip(losses, ({"prior_sd": 0.2}, {"half_life": 1.0}), strict=True):
-        ratings = fit(before, **way)
+    expected = [by_hand(before, coming, way) for way in ways]
+    np.testing.assert_allclose(losses, expected, rtol=1e-6)
+
+
+def test_in_a_league_of_many_players_that_is_nearly_so():
+    rng = np.random.default_rng(1)
+    players, matches = SOLVED_AT_ONCE + 40, 900
+    a = rng.integers(0, players, matches)
+    b = (a + rng.integers(1, players, matches)) % players
+    won = rng.binomial(9, expit(rng.normal(0.0, 0.7, matches)))
+    date = np.datetime64("2026-01-01") + np.repeat([0, 1], [700, 200])
+    results = Results(tuple(f"p{k:03d}" for k in range(players)), a, b, won, 9 - won, date=date)
+    (losses,), _ = stretch_losses(results, [{"prior_sd": sd} for sd in (0.2, 0.6, 1.5)])
+    before, coming = results.select(date == date[0]), results.select(date > date[0])
+    scores = Scores.of(coming, coming.won_only(), breaks=False)
+    for sd, loss in zip((0.2, 0.6, 1.5), losses, strict=True):
+        ratings = fit(before, prior_sd=sd)
         skill = ratings.scale.log_odds(ratings.rating)
-        x = skill[coming.player_a] - skill[coming.player_b]
-        by_hand = coming.score_a @ np.log1p(np.exp(-x)) + coming.score_b @ np.log1p(np.exp(x))
-        assert loss == pytest.approx(by_hand)
+        a, b = coming.player_a, coming.player_b
+        mean, variance = skill[a] - skill[b], ratings.difference_variances(a, b)
+        exact = -scores.log_chances(mean[None], variance[None], np.zeros(1)).sum()
+        assert loss == pytest.approx(exact, abs=0.3)
 
 
 def test_races_set_by_results_of_a_stretch_are_not_known_before_it():

@@ -31,7 +31,7 @@ from evenbreak.chains.arcs import sums
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.conjugate_gradients import solve_columns
-from evenbreak.ratings.drawn_differences import drawn_difference_variances
+from evenbreak.ratings.drawn_differences import DrawnDifferences
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
@@ -103,6 +103,16 @@ class Curvature:
         if self.means is None:
             return np.zeros((0, 0))
         return np.asarray(np.diag(self.means.precision) - self.means.design.T @ self._across)
+
+    @cached_property
+    def with_levels(self) -> tuple[sparse.csr_array, Floats]:
+        """The block of the ratings and the levels, sparse, and its diagonal."""
+        matrix = sparse.csr_array(self.matrix)
+        if not len(self._levels):
+            return matrix, self._diagonal
+        blocks: Any = [[matrix, self._across], [self._across.T, self._levels]]
+        diagonal = np.append(self._diagonal, np.diagonal(self._levels))
+        return sparse.csr_array(sparse.block_array(blocks)), diagonal
 
     @cached_property
     def _factor(self) -> Any:
@@ -196,16 +206,21 @@ class Curvature:
             product = product + with_border * (with_border @ contrast) * self.border_variance
         return product
 
+    def drawn(self, differences: DrawnDifferences) -> Floats:
+        """Return the variance of each difference, nearly; the break advantage taken as known."""
+        return differences.variances(*self.with_levels, self.weight, self.precision, self.means)
+
     def difference_variances(self, first: Places, second: Places) -> Floats:
         """Return the variance of the difference of the ratings of each pair, all at once.
 
         For up to 2,000 players the whole covariance is formed; for more, they are drawn.
         """
         if len(self._levels) + self.size > _DENSE_UP_TO:
-            beforehand = np.asarray(self.matrix.sum(axis=1), dtype=np.float64)
-            given_levels = drawn_difference_variances(self.matrix, beforehand, first, second)
-            shared = self._shared[first] - self._shared[second]
-            return np.asarray(given_levels + (shared**2).sum(1))
+            drawn = self.drawn(DrawnDifferences(self.size, self.low, self.high, first, second))
+            if self._with_border is None or self.border_variance is None:
+                return drawn
+            apart = self._with_border[first] - self._with_border[second]
+            return np.asarray(drawn + apart**2 * self.border_variance)
         covariance = np.asarray(cho_solve(self._factor, np.eye(len(self._whole))))
         if self._with_border is not None and self.border_variance is not None:
             covariance += np.outer(self._with_border, self._with_border) * self.border_variance
@@ -259,7 +274,7 @@ class Curvature:
 
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
-        diagonal = np.append(self._diagonal, np.diag(self._levels))
+        diagonal = np.append(self._diagonal, np.diagonal(self._levels))
         scale = 1.0 / np.sqrt(diagonal)
         upper = self._upper(self.weight * scale[self.low] * scale[self.high])
         lower = upper.T

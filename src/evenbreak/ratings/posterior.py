@@ -345,6 +345,20 @@ def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[
     )
 
 
+def difference_variances(
+    ways: Sequence[WayToRate], skills: Floats, advantages: Floats, first: Places, second: Places
+) -> Floats:
+    """Return how far off differences of skill are in several ways: shape (ways, differences).
+
+    The ways, skills and advantages are those of `find_modes`. The variances are those of the normal
+    distribution that is as curved at the mode (Laplace), the break advantage uncertain too.
+    """
+    _, curvature = _Season(ways).slopes(np.column_stack([skills, advantages]))
+    covariance = np.linalg.inv(curvature)[:, :-1, :-1]
+    own = np.diagonal(covariance, axis1=1, axis2=2)
+    return np.asarray(own[:, first] + own[:, second] - 2.0 * covariance[:, first, second])
+
+
 def _newton_step(gradient: Floats, curvature: Floats) -> Floats:
     """Return the step of each way; the curvature in the last unknown may be below 0."""
     border, corner = curvature[:, :-1, -1], curvature[:, -1, -1]

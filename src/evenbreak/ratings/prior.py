@@ -3,8 +3,9 @@
 Each stretch of a season is predicted from the days before it (see `evenbreak.ratings.stretches`),
 in one search for the width of the prior, for what the file knows about players (see
 `evenbreak.ratings.levels`), and for the half-life of old results. The width under which the actual
-results were most likely is chosen first, if the results are enough to choose by. Then each of the
-others is added in turn where it clearly predicts better, and the width is chosen anew.
+scores were most likely is chosen first, if the results are enough to choose by. Then each of the
+others is added in turn where it clearly predicts better, and the width is chosen anew. What is
+known about players leaves less for the width, so each is tried with narrower widths too.
 
 What one way of rating gains over another is a betting score. Predictions are made before the
 results, so the product of the ratios of what two ways predicted reaches 20, if the first way is
@@ -57,6 +58,9 @@ TRIED = {
 }
 """The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
 
+NARROWER = 3
+"""How many narrower widths each of these is tried with."""
+
 STEP = 0.05
 """How far apart sizes are from which the standard error of the best one is taken."""
 
@@ -73,7 +77,8 @@ class Evidence(NamedTuple):
     tried
         the sizes that were tried; for 'half_life' days.
     gains
-        how much log-loss a game each of them saves, in nats, given what was added before.
+        how much log-loss a game each of them saves, in nats, given what was added before; at the
+        width that suits the best of them.
     used
         whether it clearly predicts better, and is used.
     value
@@ -110,8 +115,9 @@ class PriorChoice(NamedTuple):
     tried
         all widths, in rising order.
     log_loss
-        for each of them the mean of -ln P(the result | the days before): per game where
-        scores are known, per match where only the winner is.
+        for each of them the mean of -ln P(the score | the days before) a game: each game is
+        predicted from the days before and the games before it in its match. A match of which only
+        the winner is known counts as one.
     predicted
         how many games and such matches were predicted.
     low, high
@@ -153,8 +159,8 @@ def best_prior(
 ) -> PriorChoice:
     """Return the prior, and the half-life, whose ratings predict later matches best.
 
-    Predictions take the ratings at face value, without their uncertainty. Players who have not
-    played yet are predicted at the mean of their prior, so the matches of newcomers count too.
+    Predictions are averaged over how far off the ratings may be. Players who have not played yet
+    are predicted from their prior alone, so the matches of newcomers count too.
     Where fewer than 100 games are predicted, or widths four times apart predict equally well,
     there are too few results to choose by, and the width nearest to the default is returned.
 
@@ -205,7 +211,7 @@ def best_prior(
         "scale": scale,
         "levels": Levels(beginning=beginning),
     }
-    search = _Search(results, len(more) + 2, progress)
+    search = _Search(results, 2 * len(more) + 2, progress)
     choice = search.width(tried, way)
     if not choice.learnt:
         return choice._replace(levels=begun(beginning))
@@ -215,10 +221,10 @@ def best_prior(
         if name == "half_life" and way != chosen_for:
             # Under a prior that is too wide, old games would seem to count too much.
             choice, chosen_for = search.width(tried, way)._replace(learnt=True), way
-        tested = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd})
+        tested, width = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd}, tried)
         evidence.append(tested)
         if tested.used:
-            way = _with(way, name, tested.value)
+            way, choice = _with(way, name, tested.value), choice._replace(prior_sd=width)
     if any(tested.used for tested in evidence):
         if way != chosen_for:
             choice = search.width(tried, way)._replace(learnt=True)
@@ -276,11 +282,29 @@ class _Search:
             half_life=way["half_life"],
         )
 
-    def add(self, name: str, sizes: Sequence[float], way: Mapping[str, Any]) -> Evidence:
-        """Return what it gains to let one more thing count."""
-        of_sizes = self._losses([way, *(_with(way, name, size) for size in sizes)])
-        best = sizes[int(of_sizes.means[1:].argmin())]
-        return Evidence(name, tuple(sizes), gains_over(of_sizes), is_clear(of_sizes), best)
+    def add(
+        self, name: str, sizes: Sequence[float], way: Mapping[str, Any], tried: Floats
+    ) -> tuple[Evidence, float]:
+        """Return what it gains to let one more thing count, and the width that suits it."""
+        width = float(way["prior_sd"])
+
+        def losses(width: float) -> StretchLosses:
+            return self._losses(
+                [way, *({**_with(way, name, size), "prior_sd": width} for size in sizes)]
+            )
+
+        of_sizes = losses(width)
+        best = int(of_sizes.means[1:].argmin())
+        narrower = tried[tried < width][-NARROWER:].tolist() if name != "half_life" else []
+        if narrower:
+            more = _with(way, name, sizes[best])
+            means = self._losses([{**more, "prior_sd": each} for each in narrower]).means
+            if means.min() < of_sizes.means[1 + best]:
+                width = narrower[int(means.argmin())]
+                of_sizes = losses(width)
+                best = int(of_sizes.means[1:].argmin())
+        gains = gains_over(of_sizes)
+        return Evidence(name, tuple(sizes), gains, is_clear(of_sizes), sizes[best]), width
 
     def sharpened(self, coarse: Evidence, way: Mapping[str, Any]) -> Evidence:
         """Return the same with the best size between those tried, and its standard error.

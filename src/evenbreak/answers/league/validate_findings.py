@@ -61,7 +61,7 @@ def _prior_rows(found: Validation) -> Iterator[tuple[Any, ...]]:
         return
     for sd, loss in zip(choice.tried, choice.log_loss, strict=True):
         yield ("prior", "game", f"{sd:.6f}", choice.predicted, None, loss, None, None, None)
-    head = ("game", "plug-in", choice.predicted, None)
+    head = ("game", "integrated", choice.predicted, None)
     yield ("prior_range", *head, found.prior_sd, choice.low, choice.high, None)
     yield ("log_loss_as_it_went", *head, choice.as_it_went, None, None, None)
     for one in choice.evidence:
@@ -186,10 +186,10 @@ def _prior(found: Validation, scale: Scale) -> str:
     least = min(choice.log_loss)
     cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
     return say(
-        "The prior of {points} predicts later games best, as rate {prior} best finds: by ratings "
-        "at face value, in up to {stretches} stretches of the season, its log-loss is {least:.4f} "
-        "a game. The default of {default} points costs {cost:.4f} more; with the prior chosen anew "
-        "for each stretch, log-loss would have been {as_it_went:.4f}.",
+        "The prior of {points} predicts later scores best, as rate {prior} best finds: averaged "
+        "over how far off ratings may be, in up to {stretches} stretches of the season, its "
+        "log-loss is {least:.4f} a game. The default of {default} points costs {cost:.4f} more; "
+        "with the prior chosen anew for each stretch, log-loss would have been {as_it_went:.4f}.",
         points=points,
         stretches=STRETCHES,
         least=least,
