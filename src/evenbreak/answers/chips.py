@@ -15,6 +15,7 @@ from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of, 
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, percent
+from evenbreak.answers.tournament.odds import place_errors
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.scale import Scale
@@ -125,17 +126,18 @@ def chip_odds_answer(
         line = None if left is None else range(len(names))
         tables = field.tables if left is None else 1
         played = play_chips(chips, racks, tables=tables, line=line, rng=rng)
-        p_place, error = played.p_place, played.error[:, 0]
-        how = _luck_words(played.runs, error)
+        p_place, error = played.p_place, played.error
+        how = _luck_words(played.runs, error[:, 0])
         if left is None:
             how += " The players come to the tables in an order that is drawn anew each time."
     order = np.argsort(-p_place[:, 0], kind="stable").tolist()
     values: dict[Any, Any] = {"name": names, "rating": ratings, "chips": chips}
-    places = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
-    for k, (key, words) in enumerate(places[: len(names)]):
+    every = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
+    places = dict(every[: len(names)])
+    for k, (key, words) in enumerate(places.items()):
         values[column_of("p_place", name=key, place=words)] = p_place[:, k]
     if error is not None:
-        values["p_title_error"] = error
+        values |= place_errors(places, error[:, : len(places)])
     best = order[0]
     words = f"{names[best]} is the favourite and wins {percent(p_place[best, 0])} of the time."
     if left is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -147,14 +147,27 @@ def odds_table(
         values[column] = odds.p_place[:, k]
     if odds is not plug_in:
         values["p_title_if_sure"] = plug_in.title
+        if not plug_in.exact:
+            values["p_title_if_sure_error"] = plug_in.error[:, places.index(Place(1, 1))]
     if not odds.exact:
-        values["p_title_error"] = odds.error[:, places.index(Place(1, 1))]
+        values |= place_errors(
+            {place_key(place): place_words(place) for place in places}, odds.error
+        )
     if shares:
         column = column_of("times_equal_share", detail=odds is not plug_in)
         values[column] = len(seats) * odds.title
     if prizes:
         values["prize_mean"] = odds.expected_prize(prizes)
     return table_by_column("players", values, order=sorted(seats, key=lambda k: -odds.title[k]))
+
+
+def place_errors(places: Mapping[str, str], error: Floats) -> dict[Any, Any]:
+    """Return the columns of the standard errors of places, by the keys and words of these."""
+    columns = (
+        "p_title_error" if key == "p_title" else column_of("p_place_error", name=key, place=words)
+        for key, words in places.items()
+    )
+    return dict(zip(columns, error.T, strict=True))
 
 
 def place_key(place: Place) -> str:
