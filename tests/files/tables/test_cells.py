@@ -18,7 +18,7 @@ def table_of(*cells):
     codes = np.array([distinct.index(cell) for cell in cells], dtype=np.int64)
     lines = np.arange(2, len(cells) + 2)
     columns = {"x": Texts(distinct, codes)}
-    return TextTable("t.csv", lines, columns, frozenset(columns), Problems("t.csv"), (), b"")
+    return TextTable("t.csv", lines, columns, frozenset(columns), Problems("t.csv"), (), "")
 
 
 def told(table):

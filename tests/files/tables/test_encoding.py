@@ -51,16 +51,16 @@ def test_a_file_that_cannot_be_read_is_one_problem(tmp_path, name, told):
         ("Zoë".encode(), "utf-8-sig"),
         ("Zoë".encode("utf-8-sig"), "utf-8-sig"),
         ("Zoë".encode("cp1252"), "cp1252"),
-        ("Zoë".encode("utf-16"), "utf-8-sig"),
-        ("\ufeffZoë".encode("utf-16-le"), "utf-8-sig"),
-        ("\ufeffZoë".encode("utf-16-be"), "utf-8-sig"),
+        ("Zoë".encode("utf-16"), "utf-16"),
+        ("\ufeffZoë".encode("utf-16-le"), "utf-16"),
+        ("\ufeffZoë".encode("utf-16-be"), "utf-16"),
     ],
 )
 def test_encodings(content, encoding):
-    body, found, warnings = text_of(content, "r.csv")
-    assert found == encoding
-    assert body.decode(found) in ("plain", "Zoë")
-    assert len(warnings) == (encoding == "cp1252")
+    text = text_of(content, "r.csv")
+    assert text.encoding == encoding
+    assert text.read() in ("plain", "Zoë")
+    assert len(text.warnings) == (encoding == "cp1252")
 
 
 def test_the_warning_says_where_the_file_stops_being_utf8():

@@ -39,9 +39,9 @@ def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] |
     """
     if not _JSON.match(content) and not _is_utf16_json(content):
         return None
-    body, encoding, warnings = text_of(content, source)
+    text = text_of(content, source)
     try:
-        data = json.loads(body.decode(encoding))
+        data = json.loads(text.read())
     except (ValueError, RecursionError) as error:
         damage = say("is damaged JSON from here on; save it again in the other program")
         raise refusal(source, damage, getattr(error, "lineno", 1)) from None
@@ -49,7 +49,7 @@ def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] |
         if not program.is_one(data):
             continue
         try:
-            return program.tournament(data), warnings
+            return program.tournament(data), text.warnings
         except ExportError as error:
             raise refusal(source, error.sentence) from None
         except MISSHAPEN:

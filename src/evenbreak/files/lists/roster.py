@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -334,13 +333,12 @@ def roster_of(table: TextTable) -> RosterFile:
     similar = similar_name_warnings(
         similar_names(names), table.source, say("if so, keep one of them")
     )
-    sha256 = hashlib.sha256(table.content).hexdigest()
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     hidden = hidden_letter_warnings(table, ["player"])
     warnings = (*table.warnings, *hidden, *similar)
     levels = "level" in _title(table)
     return RosterFile(
-        roster, table.lines, table.source, warnings, sha256, by_quasi, scale, levels, form
+        roster, table.lines, table.source, warnings, table.sha256, by_quasi, scale, levels, form
     )
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.names import clean_name, same_name
 from evenbreak.files.tables.problems import Problems, quoted, warning
-from evenbreak.files.tables.rows import content_of, is_spreadsheet, text_of
+from evenbreak.files.tables.rows import content_of, fingerprint, is_spreadsheet, text_of
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import Texts, TextTable
 from evenbreak.words import say
@@ -196,7 +196,7 @@ def read_players(
     if is_spreadsheet(content):
         return schema.text(path)
     text = text_of(content, source)
-    lines = text.body.decode(text.encoding).splitlines()
+    lines = text.read().splitlines()
     header = schema.header()
     if _has_header(lines, header):
         return schema.text(path)
@@ -229,7 +229,7 @@ def read_players(
         frozenset({"player", *stated}),
         problems,
         (*text.warnings, *warnings, *_doubts(rows, source)),
-        content,
+        fingerprint(content),
         {name: name for name in ("player", *stated)},
     )
 

@@ -160,7 +160,7 @@ def read_results(
         table.source,
         tuple(warnings),
         groups,
-        hashlib.sha256(table.content).hexdigest(),
+        table.sha256,
         table.lines,
         _tied(results, table),
         skipped=left_out,

@@ -295,8 +295,8 @@ def read_event_list(path: str | Path) -> list[Event]:
     DataError
         if a row is not an event, or the events are not those of a tournament.
     """
-    body, encoding, _ = text_of(Path(path).read_bytes(), str(path))
-    reader = csv.reader(body.decode(encoding).splitlines()[1:])
+    text = text_of(Path(path).read_bytes(), str(path)).read()
+    reader = csv.reader(text.splitlines()[1:])
     events = []
     for line, row in enumerate(reader, 2):
         try:

@@ -7,16 +7,20 @@ from __future__ import annotations
 
 import codecs
 import csv
+import hashlib
 import io
 import json
+import os
 import re
+import stat
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
-from typing import NamedTuple
+from typing import BinaryIO, NamedTuple, TypeAlias
 
+from evenbreak.errors import DataError
 from evenbreak.files.tables import workbook
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import printable, quoted, quoted_list, refusal, warning
@@ -29,7 +33,13 @@ MAGIC = {
 
 
 MOST_BYTES = 256 << 20
-"""The largest file that is read: some five million matches."""
+"""The largest file that is held in memory: some five million matches."""
+
+PIECE = 1 << 20
+"""How much of a larger one is looked at at once."""
+
+Content: TypeAlias = bytes | Path
+"""What is in a file: its bytes, or where it is larger than `MOST_BYTES`, the file itself."""
 
 
 class Text(NamedTuple):
@@ -38,20 +48,39 @@ class Text(NamedTuple):
     Parameters
     ----------
     body
-        its bytes; UTF-8 where the file was UTF-16.
+        what is in it.
     encoding
         how `body` is encoded.
     warnings
         whether that had to be guessed.
     """
 
-    body: bytes
+    body: Content
     encoding: str
     warnings: list[str]
 
+    def read(self) -> str:
+        """Return all of it."""
+        with _stream(self.body) as stream:
+            return stream.read().decode(self.encoding)
+
 
 def content_of(path: str | Path) -> tuple[str, bytes]:
-    """Return what to call a file in messages, and its bytes; '-' is standard input."""
+    """Return what to call a file in messages, and its bytes; '-' is standard input.
+
+    Raises
+    ------
+    DataError
+        if there is no such file, or it is larger than any list of a league.
+    """
+    source, content = table_content(path)
+    if isinstance(content, Path):
+        raise _too_large(source)
+    return source, content
+
+
+def table_content(path: str | Path) -> tuple[str, Content]:
+    """Return the same of a file that may be larger than what is held in memory."""
     if str(path) == "-":
         if sys.stdin is None:
             raise refusal("stdin", "is closed; name a file, or pipe one into the command")
@@ -59,6 +88,10 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
     source = printable(str(path))
     try:
         with Path(path).open("rb") as file:
+            # What is no file proper, such as a pipe, may have no end.
+            state = os.fstat(file.fileno())
+            if stat.S_ISREG(state.st_mode) and state.st_size > MOST_BYTES:
+                return source, Path(path)
             content = file.read(MOST_BYTES + 1)
     except FileNotFoundError:
         raise refusal(source, "there is no such file; check its name") from None
@@ -71,15 +104,50 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
 
 
 def _no_larger(content: bytes, source: str) -> bytes:
-    """Return a file's bytes, or refuse a file that is larger than any table of a league."""
     if len(content) > MOST_BYTES:
-        raise refusal(
-            source, "is larger than {most} MB; name a table, or split it up", most=MOST_BYTES >> 20
-        )
+        raise _too_large(source)
     return content
 
 
-def text_of(content: bytes, source: str) -> Text:
+def _too_large(source: str) -> DataError:
+    return refusal(
+        source,
+        "is larger than {most} MB; name a table saved as CSV, which may be larger, or split it up",
+        most=MOST_BYTES >> 20,
+    )
+
+
+def _stream(content: Content) -> BinaryIO:
+    return io.BytesIO(content) if isinstance(content, bytes) else content.open("rb")
+
+
+def pieces_of(content: Content) -> Iterator[bytes]:
+    """Yield what is in a file, piece by piece."""
+    if isinstance(content, bytes):
+        yield content
+        return
+    with _stream(content) as stream:
+        while piece := stream.read(PIECE):
+            yield piece
+
+
+def fingerprint(content: Content) -> str:
+    """Return the SHA-256 of what is in a file."""
+    made = hashlib.sha256()
+    for piece in pieces_of(content):
+        made.update(piece)
+    return made.hexdigest()
+
+
+def head_of(content: Content) -> bytes:
+    """Return the beginning of what is in a file."""
+    if isinstance(content, bytes):
+        return content[:1024]
+    with content.open("rb") as stream:
+        return stream.read(1024)
+
+
+def text_of(content: Content, source: str) -> Text:
     r"""Return the text of a file: UTF-8, UTF-16 with a byte order mark, or else Windows-1252.
 
     Raises
@@ -87,41 +155,60 @@ def text_of(content: bytes, source: str) -> Text:
     DataError
         if there is none.
 
-    >>> text_of("\ufeffZoë".encode("utf-16-be"), "r.csv").body.decode()
+    >>> text_of("\ufeffZoë".encode("utf-16-be"), "r.csv").read()
     'Zoë'
     """
+    head = head_of(content)
     for magic, kind in MAGIC.items():
-        if content.startswith(magic):
+        if head.startswith(magic):
             raise refusal(source, "is {kind}", kind=kind)
-    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        try:
-            content = content.decode("utf-16").removeprefix("\ufeff").encode()
-        except UnicodeError:
-            raise refusal(source, "is damaged UTF-16 text; save the file again, in UTF-8") from None
-    nul = content.find(b"\0")
-    if nul >= 0:
-        line = content.count(b"\n", 0, nul) + 1
-        raise refusal(source, "holds a NUL byte; save the file as CSV, in UTF-8", line)
-    try:
-        encoding, warnings = "utf-8-sig", list[str]()
-        text = content.decode(encoding)
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        try:
-            # After the mark of UTF-8 a byte that is not UTF-8 is damage, not another encoding.
-            encoding = "ascii" if content.startswith(codecs.BOM_UTF8) else "cp1252"
-            text = content.decode(encoding)
-        except UnicodeDecodeError as also:
-            line = content.count(b"\n", 0, also.start) + 1
-            raise refusal(
-                source, "is neither UTF-8 nor Windows-1252 text; save it as UTF-8", line
-            ) from None
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encoding = "utf-16"
+        wrong, nul, blank = _looked_through(content, encoding)
+        if wrong:
+            raise refusal(source, "is damaged UTF-16 text; save the file again, in UTF-8")
+    else:
+        encoding = "utf-8-sig"
+        wrong, nul, blank = _looked_through(content, encoding)
+    if nul:
+        raise refusal(source, "holds a NUL byte; save the file as CSV, in UTF-8", nul)
+    warnings: list[str] = []
+    if wrong:
+        # After the mark of UTF-8 a byte that is not UTF-8 is damage, not another encoding.
+        encoding = "ascii" if head.startswith(codecs.BOM_UTF8) else "cp1252"
+        also, _, blank = _looked_through(content, encoding)
+        if also:
+            raise refusal(source, "is neither UTF-8 nor Windows-1252 text; save it as UTF-8", also)
         warnings = [
-            warning(source, line, "is not UTF-8; read as Windows-1252, so check the accents")
+            warning(source, wrong, "is not UTF-8; read as Windows-1252, so check the accents")
         ]
-    if not text.strip():
+    if blank:
         raise refusal(source, "is empty; write a header line, then one line for each row")
     return Text(content, encoding, warnings)
+
+
+def _looked_through(content: Content, encoding: str) -> tuple[int, int, bool]:
+    """Return the line of what is not in an encoding, that of a NUL, and whether nothing is there.
+
+    A line is 0 where there is none. NULs are looked for in the whole file, whatever else is wrong.
+    """
+    decoder = codecs.getincrementaldecoder(encoding)()
+    wide = encoding == "utf-16"
+    wrong = nul = before = 0
+    blank = True
+    for piece in chain(pieces_of(content), [b""]):
+        text = ""
+        if not wrong:
+            try:
+                text = decoder.decode(piece, final=not piece)
+            except UnicodeDecodeError as error:
+                wrong = before + error.object[: error.start].count(b"\n") + 1
+        blank = blank and not text.strip()
+        if not nul and ("\0" in text if wide else b"\0" in piece):
+            above = text.partition("\0")[0] if wide else piece.partition(b"\0")[0].decode("latin-1")
+            nul = before + above.count("\n") + 1
+        before += text.count("\n") if wide else piece.count(b"\n")
+    return wrong, nul, blank
 
 
 ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
@@ -134,43 +221,52 @@ _DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(
 """A first line with which Excel declares the separator, such as sep=;"""
 
 
-def first_rows(content: bytes, encoding: str) -> dict[str, Rows]:
+def first_rows(content: Content, encoding: str) -> dict[str, Rows]:
     """Return the first rows by each separator; by one only where a first line declares it."""
-    declared = _DECLARED.match(content)
+    declared = _declared(content, encoding)
     separators = (declared[1].decode(),) if declared else SEPARATORS
     return {separator: next(csv_rows(content, encoding, separator, [])) for separator in separators}
 
 
+def _declared(content: Content, encoding: str) -> re.Match[bytes] | None:
+    """Return the first line, if it declares the separator."""
+    head = head_of(content)
+    if encoding == "utf-16":
+        head = head[: len(head) // 2 * 2].decode(encoding, "ignore").encode("utf-8", "ignore")
+    return _DECLARED.match(head)
+
+
 def csv_rows(
-    content: bytes, encoding: str, separator: str, unreadable: list[int]
+    content: Content, encoding: str, separator: str, unreadable: list[int]
 ) -> Iterator[Rows]:
     """Yield the rows that are not blank, `ROWS_AT_A_TIME` at once.
 
     Lines that cannot be split into cells are added to `unreadable`. A first line that declares
     the separator reads as a blank one, so that lines keep their numbers.
     """
-    declared = _DECLARED.match(content)
-    body = content[declared.end() :] if declared else content
-    text = io.TextIOWrapper(io.BytesIO(body), encoding=encoding, newline="")
-    reader = csv.reader(text, delimiter=separator, skipinitialspace=True, strict=True)
+    declared = _declared(content, encoding)
     lines: list[int] = []
     rows: list[list[str]] = []
     line = 1
     ended = False
-    while not ended:
-        try:
-            for row in reader:
-                if any(row):
-                    lines.append(line)
-                    rows.append(row)
+    with io.TextIOWrapper(_stream(content), encoding=encoding, newline="") as text:
+        if declared:
+            text.read(len(declared[0].decode("utf-8-sig")))
+        reader = csv.reader(text, delimiter=separator, skipinitialspace=True, strict=True)
+        while not ended:
+            try:
+                for row in reader:
+                    if any(row):
+                        lines.append(line)
+                        rows.append(row)
+                    line = reader.line_num + 1
+                    if len(rows) == ROWS_AT_A_TIME:
+                        yield lines, rows
+                        lines, rows = [], []
+                ended = True
+            except csv.Error:
+                unreadable.append(line)
                 line = reader.line_num + 1
-                if len(rows) == ROWS_AT_A_TIME:
-                    yield lines, rows
-                    lines, rows = [], []
-            ended = True
-        except csv.Error:
-            unreadable.append(line)
-            line = reader.line_num + 1
     yield lines, rows
 
 
@@ -279,7 +375,7 @@ class TableRows(NamedTuple):
 
 
 def table_rows(
-    content: bytes,
+    content: Content,
     source: str,
     header: Header,
     exported: Callable[[bytes, str], Export | None] | None = None,
@@ -289,7 +385,7 @@ def table_rows(
     Parameters
     ----------
     content, source
-        its bytes, and what it is called in messages.
+        what is in it, and what it is called in messages.
     header
         what is looked for.
     exported
@@ -300,6 +396,11 @@ def table_rows(
     DataError
         if the file holds no table at all.
     """
+    if isinstance(content, Path):
+        # Only a table of text can be read piece by piece.
+        if head_of(content).removeprefix(codecs.BOM_UTF8).lstrip().startswith((_ZIP, b"{", b"[")):
+            raise _too_large(source)
+        return _of_text(content, source, header)
     if is_spreadsheet(content):
         return _of_workbook(sheets_of(content, source), source, header)
     export = None if exported is None else exported(content, source)
@@ -309,7 +410,7 @@ def table_rows(
     return _of_text(content, source, header)
 
 
-def _of_text(content: bytes, source: str, header: Header) -> TableRows:
+def _of_text(content: Content, source: str, header: Header) -> TableRows:
     body, encoding, warnings = text_of(content, source)
     tried = first_rows(body, encoding)
     fits = {separator: header.best(rows) for separator, (_, rows) in tried.items()}

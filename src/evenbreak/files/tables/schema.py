@@ -121,7 +121,7 @@ class Column:
         >>> from evenbreak.files.tables.table import Texts
         >>> columns = {"score": Texts(["7", "seven"], np.array([0, 1, 0]))}
         >>> table = TextTable("r.csv", np.array([2, 3, 5]), columns, frozenset(columns),
-        ...                   Problems("r.csv"), (), b"")
+        ...                   Problems("r.csv"), (), "")
         >>> Whole(filled=True).read(table, "score").values
         array([7, 0, 7])
         >>> table.problems.raise_any()

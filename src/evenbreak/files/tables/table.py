@@ -20,7 +20,13 @@ from numpy.typing import NDArray
 from evenbreak.arrays import array_values
 from evenbreak.files.tables.header import Header, Hint
 from evenbreak.files.tables.problems import Problems, quoted_list, warning
-from evenbreak.files.tables.rows import Export, Rows, content_of, table_rows
+from evenbreak.files.tables.rows import (
+    Export,
+    Rows,
+    fingerprint,
+    table_content,
+    table_rows,
+)
 from evenbreak.words import say_count
 
 
@@ -84,8 +90,8 @@ class TextTable:
         that all problems of a file are reported at once.
     warnings
         what a person should know although the file can be used, a line each.
-    content
-        the bytes that were read.
+    sha256
+        the fingerprint of what was read.
     titles
         what the file calls the columns that it has.
     header
@@ -100,7 +106,7 @@ class TextTable:
     found: frozenset[str]
     problems: Problems
     warnings: tuple[str, ...]
-    content: bytes
+    sha256: str
     titles: Mapping[str, str] = field(default_factory=dict)
     header: int = 0
     read: Mapping[str, Values] = field(default_factory=dict)
@@ -213,7 +219,7 @@ def read_table(
     >>> table.cells("target"), table.lines, len(table.problems)
     (['W', 'L'], array([3, 4]), 0)
     """
-    source, content = content_of(path)
+    source, content = table_content(path)
     problems = Problems(source)
     header = Header(required, optional or {}, instead or {}, called, hint)
     titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
@@ -237,7 +243,7 @@ def read_table(
         frozenset(columns),
         problems,
         tuple(warnings),
-        content,
+        fingerprint(content),
         {name: titles[place] for name, place in places.items()},
         line,
     )
