@@ -14,6 +14,7 @@ from rows import each_of
 from tournament_nights import timed_night
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
+from web.test_same_questions import Fields
 
 ASKED = {
     "entrants": "Ann,612\nBo,540\nCy,500\nDi,480",
@@ -96,7 +97,7 @@ def again(director: Phone) -> dict[str, str]:
     return {"in_place_of": name} if name else {}
 
 
-def test_a_new_tournament_learns_from_the_one_it_takes_the_place_of(tmp_path: Path) -> None:
+def test_a_new_tournament_learns_from_those_in_its_folder(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         assert director.send("/new", **ASKED).status == 200
@@ -104,11 +105,20 @@ def test_a_new_tournament_learns_from_the_one_it_takes_the_place_of(tmp_path: Pa
         played = timed_night(list(before.events), before.events[0].at, slow=1.3)
         add_events(site.path, lambda state: played[len(state.events) :])
         night = night_played(read_tournament(site.path))
+        assert Fields(director.open("/new").text).usual["pace"] == "yes"
         for _ in range(2):  # the same tap again
-            assert director.send("/new", **ASKED, **again(director)).status == 200
+            assert director.send("/new", **ASKED, **again(director), pace="yes").status == 200
         assert read_tournament(site.path).plan.earlier == (night,)
         assert director.send("/desk/draw").status == 200
         assert "Your last night of 9-ball at this venue ran" in director.open("/desk/time").words
+        assert director.send("/new", **ASKED, **again(director)).status == 200
+        assert read_tournament(site.path).plan.earlier == ()
+    with running(tmp_path / "next.db") as site:
+        assert (
+            "at this venue ran"
+            in Phone(site, director=True).send("/new", **ASKED, pace="yes").words
+        )
+        assert read_tournament(site.path).plan.earlier == (night,)
 
 
 @pytest.fixture(scope="module")

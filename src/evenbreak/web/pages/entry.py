@@ -98,6 +98,7 @@ async def _choices(site: Site) -> dict[str, Any]:
         "scales": NAMES,
         "chip_charts": CHIP_CHARTS,
         "league": site.league.sheet,
+        "earlier": any(site.path.parent.glob("*.db")),
     }
 
 
@@ -176,7 +177,7 @@ def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
         refuse_to_read(file, scale, say("the league"), say("put all ratings on one scale"))
     read = file.roster
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
-    earlier = earlier_nights([site.path] if site.night.exists else [])
+    earlier = earlier_nights([site.path.parent] if form.text("pace") else [])
     plan, rows = _plan(form, scale, earlier), _entrants(filled, league)
     known_form = 0.0 if league is None or league.sheet is None else league.sheet.ratings.match_form
     plan = replace(plan, match_form=file.form or known_form)
