@@ -322,3 +322,26 @@ def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     assert "Player 1 has withdrawn." in shown.words
     assert "Player 1" in hall.state.dropped
     assert hall.director.send("/desk/drop", player="").status == 400
+
+
+@pytest.mark.slow
+def test_provisional_ratings_are_marked_and_listed_last(tmp_path: Path) -> None:
+    entered = "player,rating,games\nAnn,500,300\nBo,640,12\nCy,480,400\nDi,,0\n"
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        asked = ASKED | {"entrants": entered, "format": "single"}
+        assert director.send("/new", **asked).status == 200
+        entrants = read_tournament(site.path).entrants
+        assert [name for name, one in entrants.items() if one.provisional] == ["Bo", "Di"]
+        phone = Phone(site)
+        shown = phone.open("/players").words
+        assert shown.index("Cy rating 480") < shown.index("Bo provisional rating 640")
+        assert director.send("/desk/draw").status == 200
+        wall = phone.open("/screen").words
+        for _ in range(200):
+            if "Who will win" in wall and "Bo ~" in wall:
+                break
+            time.sleep(0.05)
+            wall = phone.open("/screen").words
+        assert "~ provisional" in wall
+        assert "Ann ~" not in wall

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, NamedTuple
@@ -88,9 +88,20 @@ class EveningView:
     chips: Sequence[Mapping[str, Any]] = ()
 
     @property
+    def provisional(self) -> Collection[str]:
+        """Whose ratings are marked as provisional."""
+        return provisional_in(self.state)
+
+    @property
     def over(self) -> bool:
         """Whether all has been played."""
         return self.state.drawn and not self.state.standing.to_play and not can_draw(self.state)
+
+
+def provisional_in(state: Evening) -> Collection[str]:
+    """Return whose ratings are provisional; nobody's if all are, as where nobody has a rating."""
+    few = {name for name, entrant in state.entrants.items() if entrant.provisional}
+    return few if len(few) < len(state.entrants) else ()
 
 
 def view_of(state: Evening, known: Known | None) -> EveningView:
@@ -194,6 +205,7 @@ class PlayerView(NamedTuple):
     name: str
     rating: float
     error: float
+    provisional: bool
     p_title: float | None
     place: str
     match: str
@@ -204,7 +216,7 @@ class PlayerView(NamedTuple):
 
 
 def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
-    """Return the players, the highest rating first.
+    """Return the players, the highest rating first, those with provisional ratings last.
 
     Parameters
     ----------
@@ -220,7 +232,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     playing: dict[str, str] = {}
     if state.drawn:
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
-    views = []
+    views, provisional = [], provisional_in(state)
     for name, entrant in state.entrants.items():
         match = playing.get(name, "")
         other = next((one for one in state.pair(match) if one != name), "") if match else ""
@@ -235,6 +247,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
                 name,
                 entrant.rating,
                 entrant.standard_error,
+                name in provisional,
                 title,
                 places.get(name, ""),
                 match,
@@ -244,7 +257,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
                 starts,
             )
         )
-    return sorted(views, key=lambda one: -one.rating)
+    return sorted(views, key=lambda one: (one.provisional, -one.rating))
 
 
 def _decided(odds: PlaceOdds) -> dict[str, str]:

@@ -112,14 +112,15 @@ class League:
         for evening in self._evenings:
             evening.replace(evening.with_suffix(".replaced"))
 
-    def known(self, name: str) -> tuple[str, float, float] | None:
-        """Return a player's name, rating and standard error; None: not in the league."""
+    def known(self, name: str) -> tuple[str, float, float, bool] | None:
+        """Return what a tournament needs of a player (see `Entrant`); None: not in the league."""
         if self.sheet is None:
             return None
         ratings, wanted = self.sheet.ratings, " ".join(name.split()).casefold()
         for seat, player in enumerate(ratings.players):
             if player.casefold() == wanted:
-                return player, float(ratings.rating[seat]), float(ratings.standard_error[seat])
+                rating, error = float(ratings.rating[seat]), float(ratings.standard_error[seat])
+                return player, rating, error, bool(ratings.provisional[seat])
         return None
 
     async def why(

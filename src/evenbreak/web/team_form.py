@@ -117,7 +117,7 @@ def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
     rating, error = roster.rating.copy(), roster.standard_error.copy()
     for k, name in enumerate(roster.players):
         if np.isnan(rating[k]) and (known := league.known(name)):
-            _, rating[k], error[k] = known
+            _, rating[k], error[k], _ = known
     form = read.file.form or league.sheet.ratings.match_form
     filled = Roster(roster.players, rating, error)
     return replace(read, file=replace(read.file, roster=filled, form=form))

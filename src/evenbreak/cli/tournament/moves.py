@@ -148,10 +148,8 @@ def late(asked: questions.LetIn) -> Answer:
         refuse(f"{asked.player!r} is not {NAME}")
 
     def decide(state: Evening) -> list[Late]:
-        plan = state.plan
-        if rating is None:
-            return [moves.late(state, Entrant(name, plan.starter, plan.starter_error))]
-        return [moves.late(state, Entrant(name, rating))]
+        entrant = state.plan.newcomer(name) if rating is None else Entrant(name, rating)
+        return [moves.late(state, entrant)]
 
     before, state = add(asked, decide)
     answer = answer_of(asked, state, [entry_words(state, name)])

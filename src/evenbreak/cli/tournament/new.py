@@ -34,10 +34,9 @@ def command(asked: NewTournament) -> Answer:
     roster, lines = entered.roster, None
     if asked.seeding == "drawn":
         roster, _, lines = drawn_up(roster, asked.seeding, asked.seed)
-    errors = np.nan_to_num(roster.standard_error).tolist()
-    entrants = tuple(
-        Entrant(*one) for one in zip(roster.players, roster.rating.tolist(), errors, strict=True)
-    )
+    errors = np.nan_to_num(roster.standard_error)
+    columns = (one.tolist() for one in (roster.rating, errors, roster.provisional))
+    entrants = tuple(Entrant(*one) for one in zip(roster.players, *columns, strict=True))
     events: list[Event] = [Event(at, opened(plan, entrants))]
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
@@ -98,9 +97,13 @@ def import_(asked: Import) -> Answer:
         warnings += filter(None, [games_words(file.roster, filled)])
         errors = np.nan_to_num(filled.standard_error).tolist()
         known = {
-            name: Entrant(name, rating, error)
-            for name, rating, error in zip(
-                file.roster.players, file.roster.rating.tolist(), errors, strict=True
+            name: Entrant(name, rating, error, few)
+            for name, rating, error, few in zip(
+                file.roster.players,
+                file.roster.rating.tolist(),
+                errors,
+                file.roster.provisional.tolist(),
+                strict=True,
             )
             if np.isfinite(rating)
         }

@@ -196,6 +196,7 @@ def drawn_up(
             roster.rating[order],
             roster.standard_error[order],
             roster.games[order],
+            provisional=roster.provisional[order],
         ),
         words,
         lines,

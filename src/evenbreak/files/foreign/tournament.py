@@ -96,9 +96,7 @@ def _events(
     players = saved.players
     if len(players) < 2:
         raise InputError("has no two players with names")
-    entrants = tuple(
-        rated.get(name, Entrant(name, plan.starter, plan.starter_error)) for name in players
-    )
+    entrants = tuple(rated.get(name, plan.newcomer(name)) for name in players)
     plan = _with_races(_planned(saved, plan), saved, names := _names(saved))
     happened = _happened(saved, names, _tables(saved, plan.tables))
     times = [time for time in (_moment(event[0]) for event in happened) if time]

@@ -90,14 +90,19 @@ class Plan(Format):
     earlier: tuple[EarlierNight, ...] = ()
     match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
 
+    def newcomer(self, name: str) -> Entrant:
+        """Return a player of whom no rating is known."""
+        return Entrant(name, self.starter, self.starter_error, provisional=True)
+
 
 @dataclass(frozen=True)
 class Entrant:
-    """A player with a rating and how far off it may be."""
+    """A player with a rating, how far off it may be, and whether it rests on too few games."""
 
     name: str
     rating: Points
     standard_error: Error = 0.0
+    provisional: bool = False
 
 
 @dataclass(frozen=True)

@@ -261,7 +261,8 @@ def _chart(name: str) -> Chart:
 def _entrants(filled: Roster, league: League | None) -> tuple[Entrant, ...]:
     """Return the entrants, those of the league with its ratings."""
     errors = np.nan_to_num(filled.standard_error)
-    rows = zip(filled.players, filled.rating.tolist(), errors.tolist(), strict=True)
+    columns = filled.rating.tolist(), errors.tolist(), filled.provisional.tolist()
+    rows = zip(filled.players, *columns, strict=True)
     return tuple(Entrant(*((league.known(one[0]) if league else None) or one)) for one in rows)
 
 
@@ -274,12 +275,7 @@ async def late(request: Request) -> Response:
         raise RefusalError("Enter at least one player.")
 
     def decide(state: Evening) -> list[Event]:
-        plan = state.plan
-        entrant = (
-            Entrant(name, plan.starter, plan.starter_error)
-            if rating is None
-            else Entrant(name, rating)
-        )
+        entrant = state.plan.newcomer(name) if rating is None else Entrant(name, rating)
         return [Event(site.clock(), moves.late(state, entrant))]
 
     key = form.key(request.url.path)
