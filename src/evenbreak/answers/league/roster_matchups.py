@@ -105,15 +105,17 @@ def all_pairs(roster: Roster) -> Ints:
 def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
     """Return all pairs of some players, who are given in the order of a list.
 
+    The stronger of each pair is the first of it, and the pairs come in the order of these.
+
     >>> club = Roster(["Ann", "Bo", "Cy"], [70, 92, 99], games=[400, 300, 5])
     >>> pairs_of(club, club.strongest_first()).tolist()
     [[1, 0], [2, 1], [2, 0]]
     """
     places = np.asarray(order, dtype=np.int64)
-    pairs = places[np.column_stack(np.triu_indices(len(places), 1))]
-    weaker = roster.rating[pairs[:, 0]] < roster.rating[pairs[:, 1]]
-    pairs[weaker] = pairs[weaker, ::-1]
-    return pairs
+    rows = np.column_stack(np.triu_indices(len(places), 1))
+    weaker = roster.rating[places[rows[:, 0]]] < roster.rating[places[rows[:, 1]]]
+    rows[weaker] = rows[weaker, ::-1]
+    return places[rows[np.lexsort((rows[:, 1], rows[:, 0]))]]
 
 
 def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
