@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.ratings import Results
+from evenbreak.ratings import Results, best_prior, prior
 from evenbreak.ratings.season_part import connected_part
 
 
@@ -58,3 +58,38 @@ def test_clubs_that_never_meet_are_all_drawn_if_need_be():
     part = connected_part(whole, 3_000)
     assert part.counted.sum() >= 3_000
     assert part.players == connected_part(whole, 3_000).players
+
+
+def league(rng, players=1_000, matches=10_000):
+    """Return a league in clubs in which a third join late, .4 weaker in log-odds."""
+    whole = season(rng, players, matches)
+    late = rng.random(players) < 1 / 3
+    skill = rng.normal(0.0, 0.5, players) - 0.4 * late
+    day = (whole.date - whole.date.min()).astype(int)
+    a, b = (np.where(late[k] & (day < 90), k - k % 30, k) for k in (whole.player_a, whole.player_b))
+    apart = a != b
+    a, b = a[apart], b[apart]
+    won = rng.binomial(9, 1.0 / (1.0 + np.exp(skill[b] - skill[a])))
+    return Results(whole.players, a, b, won, 9 - won, date=whole.date[apart])
+
+
+@pytest.mark.slow
+@pytest.mark.thorough
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_part_chooses_as_the_whole_season_does(monkeypatch, seed):
+    whole = league(np.random.default_rng(seed))
+    by_all = best_prior(whole)
+    assert by_all.part is None
+    monkeypatch.setattr(prior, "ENOUGH", 3_000)
+    by_part = best_prior(whole)
+    assert 3_000 <= by_part.part < 5_000
+    # Widths are a factor of √2 apart, and neither range is narrower than a step each way.
+    assert by_part.low / 1.5 <= by_all.prior_sd <= by_part.high * 1.5
+    assert by_part.half_life == by_all.half_life
+    for of_all, of_part in zip(by_all.evidence, by_part.evidence, strict=True):
+        both = of_all.gain, of_part.gain
+        error = np.hypot(*((gain.high - gain.low) / 3.92 for gain in both))
+        assert abs(of_all.gain.value - of_part.gain.value) < 4.0 * error
+        if None not in (of_all.standard_error, of_part.standard_error):
+            off = np.hypot(of_all.standard_error, of_part.standard_error)
+            assert abs(of_all.value - of_part.value) < 4.0 * off

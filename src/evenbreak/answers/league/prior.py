@@ -231,6 +231,11 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
     if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
         end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
         text += f" It is the {end} one tried, so one beyond it may be better still."
+    if choice.part is not None:
+        text += (
+            f" {choice.part:,} of the {ratings.matches:,} matches were enough to choose by: those "
+            "of some groups of players who often meet."
+        )
     return text
 
 
