@@ -181,7 +181,7 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
 
     wall = browser.new_context(viewport=WALL).new_page()
     settled(wall, site, "/screen")
-    kept(shot(wall, last="h2:has-text('Who wins') + *"), folder / "screen.png")
+    kept(shot(wall, last="h2:has-text('Who will win') + *"), folder / "screen.png")
 
 
 def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
@@ -195,7 +195,7 @@ def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
         first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
         phone.goto(f"{site.address}/m/{site.match_token(first)}")
         pictures = (
-            shot(wall, last="h2:has-text('Who wins') + *"),
+            shot(wall, last="h2:has-text('Who will win') + *"),
             shot(phone, first="h1", last="h2:has-text('The chances') + p + p"),
         )
     both = browser.new_page()
