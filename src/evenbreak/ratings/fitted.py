@@ -174,7 +174,7 @@ class Ratings:
         known = self.least_games
         return established_from(self.games_behind) if known is None else known
 
-    @property
+    @cached_property
     def provisional(self) -> Bools:
         """Which ratings rest on too few games for a place in lists."""
         return is_provisional(self.games_behind, self.established_from)
