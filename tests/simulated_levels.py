@@ -17,15 +17,17 @@ IMPLIED = logit(betaincinv(6, np.arange(6, 1, -1), 0.5))
 """The differences at which the races 6:6, 6:5, ... 6:2 are even."""
 
 
-def league(rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_day=18):
+def league(
+    rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_day=18, joiners=1 / 3
+):
     """Return a season and the truth: team levels, and each player's skill.
 
-    A third of the players join during the season, `below` weaker on average. `races` is the part
-    of the stated difference that is real; None: there are no handicaps.
+    A part of the players, `joiners`, join during the season, `below` weaker on average. `races` is
+    the part of the stated difference that is real; None: there are no handicaps.
     """
     team = np.arange(players) % TEAMS
     levels = rng.normal(0.0, team_sd, TEAMS) if team_sd else np.zeros(TEAMS)
-    late = rng.permutation(players) < players // 3
+    late = rng.permutation(players) < round(joiners * players)
     joins = np.where(late, rng.integers(days // 10, days - days // 6, players), 0)
     stated = np.zeros(players)
     if races is not None:

@@ -7,6 +7,7 @@ from scipy.special import expit
 from evenbreak.errors import InputError
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Results, best_prior, fit, walk_forward
+from evenbreak.ratings.clear_gains import FEWEST_PLAYERS
 from evenbreak.ratings.levels import (
     Levels,
     StatedStrength,
@@ -96,8 +97,19 @@ def test_those_who_join_late_and_are_weaker_are_expected_to_be():
     joined, late = found["joined"], joined_late(results) > 0
     truth = skill[~late].mean() - skill[late].mean()
     assert joined.used
+    assert joined.players >= FEWEST_PLAYERS
     assert not found["newcomers"].used
     assert abs(joined.value - truth) < 1.96 * joined.standard_error < truth
+
+
+@pytest.mark.slow
+def test_a_handful_of_many_players_are_too_few_to_expect_less_of_those_who_join_late():
+    results, *_ = league(np.random.default_rng(1), below=2.0, players=78, joiners=0.065)
+    choice = best_prior(results, half_life=None)
+    (joined,) = [one for one in choice.evidence if one.of == "joined"]
+    assert (joined.used, joined.too_few) == (False, True)
+    assert joined.players == joined_late(results).sum()
+    assert choice.levels.joined == 0.0
 
 
 @pytest.mark.slow

@@ -58,7 +58,7 @@ def by_hand(before, coming, way):
 def test_each_way_is_a_fit_of_the_days_before():
     results = season(2)
     ways = {"prior_sd": 0.2}, {"half_life": 1.0}, {"levels": Levels(newcomers=0.4)}
-    (losses,), _ = stretch_losses(results, ways)
+    (losses,) = stretch_losses(results, ways).losses
     before, coming = results.select(np.arange(4)), results.select(np.arange(4, 8))
     expected = [by_hand(before, coming, way) for way in ways]
     np.testing.assert_allclose(losses, expected, rtol=1e-6)
@@ -72,7 +72,7 @@ def test_in_a_league_of_many_players_that_is_nearly_so():
     won = rng.binomial(9, expit(rng.normal(0.0, 0.7, matches)))
     date = np.datetime64("2026-01-01") + np.repeat([0, 1], [700, 200])
     results = Results(tuple(f"p{k:03d}" for k in range(players)), a, b, won, 9 - won, date=date)
-    (losses,), _ = stretch_losses(results, [{"prior_sd": sd} for sd in (0.2, 0.6, 1.5)])
+    (losses,) = stretch_losses(results, [{"prior_sd": sd} for sd in (0.2, 0.6, 1.5)]).losses
     before, coming = results.select(date == date[0]), results.select(date > date[0])
     scores = Scores.of(coming, coming.won_only(), breaks=False)
     for sd, loss in zip((0.2, 0.6, 1.5), losses, strict=True):

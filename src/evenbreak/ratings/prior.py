@@ -7,30 +7,30 @@ scores were most likely is chosen first, if the results are enough to choose by.
 others is added in turn where it clearly predicts better, and the width is chosen anew. What is
 known about players leaves less for the width, so each is tried with narrower widths too.
 
-What one way of rating gains over another is a betting score. Predictions are made before the
-results, so the product of the ratios of what two ways predicted reaches 20, if the first way is
-right, with a chance of at most 1/20 (Ville 1939; Shafer 2021). That also holds for the mean of the
-scores of several ways.
+`evenbreak.ratings.clear_gains` says when one way of rating clearly predicts better than another.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from scipy.special import logsumexp
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import Beginning
+from evenbreak.ratings.clear_gains import (
+    FEWEST_STRETCHES,
+    by_enough_players,
+    gains_over,
+    is_clear,
+)
 from evenbreak.ratings.doors import check_results
-from evenbreak.ratings.estimates import Estimate, ratio_over, samples
+from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
-from evenbreak.ratings.levels import Levels, begun, known_levels
+from evenbreak.ratings.levels import Levels, begun, joined_late, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.ratings.season_part import connected_part
@@ -64,6 +64,9 @@ TRIED = {
 }
 """The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
 
+OF_NEWCOMERS = ("joined", "newcomers", "field")
+"""Of these, which say much the same, the one that gains most at least (95%) is added first."""
+
 NARROWER = 3
 """How many narrower widths each of these is tried with."""
 
@@ -72,6 +75,9 @@ ENOUGH = 30_000
 
 They tell steps of √2 in the width apart, and what anything gains a game to about 0.4e-4 nats.
 """
+
+MANY_JOINED = 20
+"""Players who joined late, or did not, that are enough, where they are not a tenth of all."""
 
 STEP = 0.05
 """How far apart sizes are from which the standard error of the best one is taken."""
@@ -97,6 +103,12 @@ class Evidence(NamedTuple):
         the size that predicts best.
     standard_error
         how far off that may be; None where it is not used, or only a few sizes were compared.
+    players
+        how many players the gain rests on: without the matches of the so many who show it most
+        there is none. Of those who joined late, or did not, no more than are in the smaller group
+        where that is small.
+    too_few
+        whether it is not used because these are too few.
     """
 
     of: str
@@ -105,6 +117,8 @@ class Evidence(NamedTuple):
     used: bool
     value: float
     standard_error: float | None = None
+    players: int = 0
+    too_few: bool = False
 
     @property
     def at_most(self) -> bool:
@@ -238,23 +252,33 @@ def best_prior(
     choice = search.width(tried, way)
     if not choice.learnt:
         return choice._replace(levels=begun(beginning), part=part)
-    evidence = []
-    chosen_for = way
-    for name, sizes in more.items():
-        if name == "half_life" and way != chosen_for:
+    evidence: list[Evidence] = []
+    chosen_for, left = way, list(more)
+    while left:
+        if left[0] == "half_life" and way != chosen_for:
             # Under a prior that is too wide, old games would seem to count too much.
             choice, chosen_for = search.width(tried, way)._replace(learnt=True), way
-        tested, width = search.add(name, sizes, {**way, "prior_sd": choice.prior_sd}, tried)
-        evidence.append(tested)
-        if tested.used:
-            way, choice = _with(way, name, tested.value), choice._replace(prior_sd=width)
-    if any(tested.used for tested in evidence):
+        now = (
+            [name for name in left if name in OF_NEWCOMERS] if left[0] in OF_NEWCOMERS else left[:1]
+        )
+        so_far = {**way, "prior_sd": choice.prior_sd}
+        tested = [search.add(name, more[name], so_far, tried) for name in now]
+        clear = [test for test in tested if test[0].used]
+        if not clear:
+            evidence += [without for without, _ in tested]
+            left = left[len(now) :]
+            continue
+        best, width = max(clear, key=lambda test: test[0].gain.low)
+        evidence.append(best)
+        left.remove(best.of)
+        way, choice = _with(way, best.of, best.value), choice._replace(prior_sd=width)
+    if any(found.used for found in evidence):
         if way != chosen_for:
             choice = search.width(tried, way)._replace(learnt=True)
-        best = {**way, "prior_sd": choice.prior_sd}
-        evidence = [search.sharpened(tested, best) for tested in evidence]
-        for tested in evidence:
-            way = _with(way, tested.of, tested.value) if tested.used else way
+        so_far = {**way, "prior_sd": choice.prior_sd}
+        evidence = [search.sharpened(found, so_far) for found in evidence]
+        for found in evidence:
+            way = _with(way, found.of, found.value) if found.used else way
     return choice._replace(
         levels=way["levels"], half_life=way["half_life"], evidence=tuple(evidence), part=part
     )
@@ -272,6 +296,10 @@ class _Search:
 
     def __init__(self, results: Results, steps: int, progress: Progress) -> None:
         self._season = Stretches(results)
+        played = results.select(results.counted)
+        here = np.union1d(played.player_a, played.player_b)
+        late = int(joined_late(played)[here].sum())
+        self._joined = min(late, len(here) - late), len(here)
         self._steps, self._done = steps, 0
         self._progress = progress
 
@@ -326,29 +354,54 @@ class _Search:
                 width = narrower[int(means.argmin())]
                 of_sizes = losses(width)
                 best = int(of_sizes.means[1:].argmin())
-        gains = gains_over(of_sizes)
-        return Evidence(name, tuple(sizes), gains, is_clear(of_sizes), sizes[best]), width
+        clear = is_clear(of_sizes)
+        enough, players = self._behind(name, of_sizes, 1 + best)
+        found = Evidence(
+            name,
+            tuple(sizes),
+            gains_over(of_sizes),
+            clear and enough,
+            sizes[best],
+            players=players,
+            too_few=clear and not enough,
+        )
+        return found, width
+
+    def _behind(self, name: str, of_sizes: StretchLosses, best: int) -> tuple[bool, int]:
+        """Return whether a gain rests on enough players, and on how many."""
+        if name == "joined":
+            smaller, all_players = self._joined
+            if smaller < min(MANY_JOINED, 0.1 * all_players):
+                return False, smaller
+        return by_enough_players(of_sizes, best)
 
     def sharpened(self, coarse: Evidence, way: Mapping[str, Any]) -> Evidence:
         """Return the same with the best size between those tried, and its standard error.
 
-        One step of Newton's method from the best of them; the error is the sandwich's, stretches
-        being independent of each other.
+        One step of Newton's method from the best of them; the error is the sandwich's, the larger
+        of two: stretches being independent of each other, or matches without a common player. What
+        is expected of newcomers is drawn towards 0 as far as it is not certain, since it is only
+        used where it looks large.
         """
         if not coarse.used or coarse.of not in ("newcomers", "joined", "race", "field"):
             return coarse
         sizes = coarse.value + np.array([-STEP, 0.0, STEP])
-        losses = self._losses([_with(way, coarse.of, size) for size in sizes.tolist()]).losses
+        found = self._losses([_with(way, coarse.of, size) for size in sizes.tolist()])
+        losses, each = found.losses, found.of_match
         slope = (losses[:, 2] - losses[:, 0]) / (2.0 * STEP)
         bend = float((losses[:, 0] - 2.0 * losses[:, 1] + losses[:, 2]).sum()) / STEP**2
         if bend <= 0.0:
             return coarse
         shift = -float(slope.sum()) / bend
-        error = float(np.sqrt(((slope - slope.mean()) ** 2).sum())) / bend
+        of_stretches = float(np.sqrt(((slope - slope.mean()) ** 2).sum()))
+        of_players = found.players.spread((each[:, 2] - each[:, 0]) / (2.0 * STEP))
+        error = max(of_stretches, of_players) / bend
         if error > max(abs(coarse.value), STEP):  # the losses are nearly straight: nothing to see
             return coarse
         apart = max(np.diff(coarse.tried).max(), 4.0 * STEP)
         value = coarse.value + float(np.clip(shift, -apart, apart))
+        if coarse.of != "race":
+            value *= max(1.0 - (error / value) ** 2, 0.0)
         return coarse._replace(value=value, standard_error=error)
 
 
@@ -363,63 +416,6 @@ def _as_it_went(of_width: StretchLosses, tried: Floats) -> float:
     before[0] = _from_default(tried)
     chosen = of_width.losses[np.arange(len(before)), before.argmin(1)]
     return float(chosen.sum() / of_width.predicted.sum())
-
-
-FEWEST_STRETCHES = 10
-"""Stretches from which ways can be compared."""
-
-EVIDENCE = 20.0
-"""The betting score from which a gain is clear, if the bootstrap does not speak against it."""
-
-SEED = 1
-"""Of the bootstrap, so that the same file always has the same answer."""
-
-
-def gains_over(of_ways: StretchLosses) -> tuple[Estimate, ...]:
-    """Return how much log-loss a game each way but the first saves over the first.
-
-    All ways predict the same stretches, so the intervals are those of the differences, the
-    stretches resampled.
-    """
-    stretches = np.arange(len(of_ways.losses))
-    drawn = _samples(len(stretches))
-    return tuple(
-        ratio_over(saved, of_ways.predicted, stretches, drawn)
-        for saved in (of_ways.losses[:, :1] - of_ways.losses[:, 1:]).T
-    )
-
-
-def is_clear(of_ways: StretchLosses) -> bool:
-    """Return whether some way but the first clearly predicts better than the first.
-
-    Either the gain of one is above 0 with 99% confidence, stretches being resampled; or the mean
-    betting score of all is at least 20, and the best gain is above 0 with 90% confidence. The
-    second finds what mostly helps early in a season, as long as little is known from results.
-
-    >>> few = StretchLosses(np.ones((9, 2)), np.ones(9))
-    >>> is_clear(few)
-    False
-    """
-    if len(of_ways.losses) < FEWEST_STRETCHES:
-        return False
-    gains = gains_over(of_ways)
-    saved = of_ways.losses.sum(0)[0] - of_ways.losses.sum(0)[1:]
-    score = float(logsumexp(saved)) - math.log(len(saved))
-    best = max(gains, key=lambda gain: gain.value)
-    return any(_errors(gain) > 2.576 for gain in gains) or (
-        score >= math.log(EVIDENCE) and _errors(best) > 1.282
-    )
-
-
-@cache
-def _samples(stretches: int) -> Ints:
-    return samples(stretches, np.random.default_rng(SEED))
-
-
-def _errors(gain: Estimate) -> float:
-    """Return by how many standard errors a gain is above 0: the interval is 1.96 each way."""
-    middle, half = (gain.high + gain.low) / 2.0, (gain.high - gain.low) / 2.0
-    return 1.960 * middle / half if half > 0.0 else math.copysign(math.inf, middle)
 
 
 HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)

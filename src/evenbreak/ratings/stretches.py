@@ -36,6 +36,7 @@ from evenbreak.ratings.levels import (
     means_of,
 )
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, likelihood_terms
+from evenbreak.ratings.players_behind import PlayersBehind
 from evenbreak.ratings.posterior import (
     GRADIENT,
     WayToRate,
@@ -63,10 +64,16 @@ class StretchLosses(NamedTuple):
     predicted
         shape (stretches,): how many games were predicted, and matches known by the winner
         alone.
+    of_match
+        shape (matches, ways): the same of each match.
+    players
+        those of each match.
     """
 
     losses: Floats
     predicted: Floats
+    of_match: Floats
+    players: PlayersBehind
 
     @property
     def means(self) -> Floats:
@@ -129,14 +136,18 @@ class Stretches:
         """Predict each stretch in several ways; the parameters are those of `stretch_losses`."""
         losses = np.zeros((len(self._ends), len(ways)))
         predicted = np.zeros(len(self._ends))
+        of_match, players = [], []
         breaks = any(way.get("break_advantage") is not None for way in ways)
         for row in range(len(self._ends)):
             season, scores = self._prepared(row, breaks=breaks)
             predicted[row] = scores.predicted
             differences = season.differences(ways, scores.player_a, scores.player_b)
-            losses[row] = -scores.log_chances(*differences).sum(1)
+            of_match.append(-scores.log_chances(*differences).T)
+            players.append((scores.player_a, scores.player_b))
+            losses[row] = of_match[-1].sum(0)
             progress(row + 1, len(self._ends))
-        return StretchLosses(losses, predicted)
+        sides = (np.concatenate(side) for side in zip(*players, strict=True))
+        return StretchLosses(losses, predicted, np.concatenate(of_match), PlayersBehind(*sides))
 
     def _prepared(self, row: int, *, breaks: bool) -> tuple[SeasonSoFar, Scores]:
         """Return the season before a stretch, and the scores in it."""

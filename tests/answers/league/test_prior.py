@@ -50,3 +50,26 @@ def test_a_share_of_the_races_at_the_end_of_those_tried_is_called_so(share, larg
     (text,) = level_words(fit(season, levels=Levels(race=share)), choice)
     assert f"differ by {share:.2f} times what their races take back, give or take 0.10" in text
     assert ("No larger share was tried" in text) == largest
+
+
+def test_what_rests_on_few_players_is_said_not_to_be_used():
+    gains = (Estimate(0.001, 0.0005, 0.0015),)
+    found = Evidence("joined", (0.4,), gains, False, 0.4, players=12, too_few=True)
+    choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
+    assert list(level_words(fit(SEASON), choice)) == [
+        "Joining late was not used: its evidence rests on 12 players."
+    ]
+    (row,) = evidence_rows(choice)
+    assert (row["used"], row["players"]) == (False, 12)
+    assert not list(level_words(fit(SEASON), choice._replace(evidence=())))
+
+
+def test_how_much_of_the_field_newcomers_have_is_said():
+    ratings = fit(SEASON, levels=Levels(field=0.85))
+    (text,) = level_words(ratings, None)
+    assert "85% of how far that field was above or below the usual one" in text
+    found = Evidence("field", (0.75,), (Estimate(0.001, 0.0005, 0.0015),), True, 0.85, 0.1)
+    choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
+    (text,) = level_words(ratings, choice)
+    assert text.endswith("give or take 10%.")
+    assert levels_data(ratings, choice)["field_standard_error"] == 0.1

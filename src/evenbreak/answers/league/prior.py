@@ -32,6 +32,18 @@ NAMES = {
 }
 """What each thing that a search may add is called."""
 
+_SUBJECTS = {
+    "joined": say("Joining late"),
+    "newcomers": say("How new a player is"),
+    "field": say("The field at the first event"),
+    "race": say("What the stated races take back"),
+    "team_sd": say("The difference between teams"),
+    "division_sd": say("The difference between divisions"),
+    "half_life": say("The age of games"),
+    "brought_sd": say("What players bring along"),
+}
+"""The same at the start of a sentence."""
+
 
 def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     """Yield what is assumed about newcomers, handicaps, teams and divisions.
@@ -78,6 +90,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         if groups:
             ends = [groups[0], groups[-1]]
             yield f"{kind.capitalize()}s differ: {', and '.join(map(_group_words, ends))}."
+    if choice is not None:
+        yield from (_too_few_words(found) for found in choice.evidence if found.too_few)
 
 
 def _beginning_words(ratings: Ratings) -> Iterator[str]:
@@ -121,6 +135,15 @@ def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: s
 def _error_of(choice: PriorChoice | None, of: str) -> float | None:
     errors = [found.standard_error for found in choice.evidence if found.of == of] if choice else []
     return next((error for error in errors if error is not None), None)
+
+
+def _too_few_words(found: Evidence) -> Sentence:
+    return say_count(
+        "{what} was not used: its evidence rests on {n} player.",
+        "{what} was not used: its evidence rests on {n} players.",
+        found.players,
+        what=_SUBJECTS[found.of],
+    )
 
 
 def _field_words(share: float, error: float | None) -> Sentence:
@@ -205,6 +228,7 @@ def _evidence(found: Evidence) -> dict[str, Any]:
         "low": found.gain.low,
         "high": found.gain.high,
         "used": found.used,
+        "players": found.players,
         "value": found.value,
         "standard_error": found.standard_error,
     }
