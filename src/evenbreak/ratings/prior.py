@@ -40,6 +40,7 @@ from evenbreak.ratings.stretches import (
     can_be_predicted,
     stretch_losses,
 )
+from evenbreak.workers import Share
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
 """The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
@@ -185,6 +186,7 @@ def best_prior(
     break_advantage: float | str | None = None,
     scale: Any = DEFAULT_SCALE,
     progress: Progress = lambda _done, _all: None,
+    share: Share | None = None,
 ) -> PriorChoice:
     """Return the prior, and the half-life, whose ratings predict later matches best.
 
@@ -211,6 +213,8 @@ def best_prior(
         as for `fit`; the scale only matters for a break advantage in points.
     progress
         called with how much is done, and of how much.
+    share
+        as for `stretch_losses`.
 
     Raises
     ------
@@ -248,7 +252,7 @@ def best_prior(
         "scale": scale,
         "levels": Levels(beginning=beginning),
     }
-    search = _Search(results, 2 * len(more) + 2, progress)
+    search = _Search(results, 2 * len(more) + 2, progress, share)
     choice = search.width(tried, way)
     if not choice.learnt:
         return choice._replace(levels=begun(beginning), part=part)
@@ -294,8 +298,10 @@ def _with(way: Mapping[str, Any], name: str, value: float) -> dict[str, Any]:
 class _Search:
     """The steps of a search, each of which goes through the whole season once."""
 
-    def __init__(self, results: Results, steps: int, progress: Progress) -> None:
-        self._season = Stretches(results)
+    def __init__(
+        self, results: Results, steps: int, progress: Progress, share: Share | None
+    ) -> None:
+        self._season, self._share = Stretches(results), share
         played = results.select(results.counted)
         here = np.union1d(played.player_a, played.player_b)
         late = int(joined_late(played)[here].sum())
@@ -309,7 +315,7 @@ class _Search:
         def progress(done: int, stretches: int) -> None:
             self._progress(100 * self._done + 100 * done // stretches, 100 * steps)
 
-        losses = self._season.losses(ways, progress=progress)
+        losses = self._season.losses(ways, progress=progress, share=self._share)
         self._done += 1
         return losses
 
@@ -451,6 +457,7 @@ def half_life_gains(
     levels: Levels | None = None,
     half_lives: Sequence[float] | None = None,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
+    share: Share | None = None,
 ) -> tuple[HalfLifeGain, ...]:
     """Return what each half-life gains in predicting a season from the days before.
 
@@ -458,7 +465,7 @@ def half_life_gains(
 
     Parameters
     ----------
-    results, progress
+    results, progress, share
         as for `stretch_losses`.
     prior_sd, levels
         as for `fit`.
@@ -468,7 +475,7 @@ def half_life_gains(
     tried = half_lives_for(results) if half_lives is None else half_lives
     how = {"prior_sd": prior_sd, "levels": levels}
     ways = [{**how, "half_life": days} for days in (None, *tried)]
-    of_ways = stretch_losses(results, ways, progress=progress)
+    of_ways = stretch_losses(results, ways, progress=progress, share=share)
     if len(of_ways.losses) < FEWEST_STRETCHES:
         return ()
     return tuple(map(HalfLifeGain, tried, gains_over(of_ways)))

@@ -16,7 +16,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,7 @@ from evenbreak.ratings.posterior import (
 )
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE, scale_of
+from evenbreak.workers import Share
 
 STRETCHES = 30
 """How many stretches a season is divided into, if it has as many days."""
@@ -86,6 +88,7 @@ def stretch_losses(
     ways: Sequence[Mapping[str, Any]],
     *,
     progress: Callable[[int, int], None] = lambda _done, _all: None,
+    share: Share | None = None,
 ) -> StretchLosses:
     """Predict each stretch of a season from the days before it, in several ways.
 
@@ -97,6 +100,9 @@ def stretch_losses(
         options of `fit`: all with a break advantage, or none.
     progress
         called with how many stretches are done, and of how many.
+    share
+        what gives the stretches of a large season to other processes (see `evenbreak.workers`),
+        for the same answer; None: there is only this one.
 
     Raises
     ------
@@ -110,7 +116,10 @@ def stretch_losses(
     >>> found.losses.shape, found.predicted, found.means.round(3)
     ((2, 2), array([11., 11.]), array([0.688, 0.66 ]))
     """
-    return Stretches(results).losses(ways, progress=progress)
+    return Stretches(results).losses(ways, progress=progress, share=share)
+
+
+_OfStretch: TypeAlias = tuple[float, Floats, tuple[Places, Places]]
 
 
 class Stretches:
@@ -132,22 +141,37 @@ class Stretches:
         ways: Sequence[Mapping[str, Any]],
         *,
         progress: Callable[[int, int], None] = lambda _done, _all: None,
+        share: Share | None = None,
     ) -> StretchLosses:
         """Predict each stretch in several ways; the parameters are those of `stretch_losses`."""
         losses = np.zeros((len(self._ends), len(ways)))
         predicted = np.zeros(len(self._ends))
         of_match, players = [], []
-        breaks = any(way.get("break_advantage") is not None for way in ways)
-        for row in range(len(self._ends)):
-            season, scores = self._prepared(row, breaks=breaks)
-            predicted[row] = scores.predicted
-            differences = season.differences(ways, scores.player_a, scores.player_b)
-            of_match.append(-scores.log_chances(*differences).T)
-            players.append((scores.player_a, scores.player_b))
-            losses[row] = of_match[-1].sum(0)
+        rows = range(len(self._ends))
+        # What is kept of a small season begins where the last search ended, so it stays here.
+        apart = share if len(self._played) > KEPT_UP_TO else None
+        found = (
+            map(partial(_one, (self, ways)), rows)
+            if apart is None
+            else apart(_one, (self, ways), rows)
+        )
+        for row, (many, lost, sides_of) in enumerate(found):
+            predicted[row], losses[row] = many, lost.sum(0)
+            of_match.append(lost)
+            players.append(sides_of)
             progress(row + 1, len(self._ends))
         sides = (np.concatenate(side) for side in zip(*players, strict=True))
         return StretchLosses(losses, predicted, np.concatenate(of_match), PlayersBehind(*sides))
+
+    def one(self, row: int, ways: Sequence[Mapping[str, Any]]) -> _OfStretch:
+        """Return how much a stretch has to predict, what each match loses, and who played it.
+
+        The losses have the shape (matches, ways).
+        """
+        breaks = any(way.get("break_advantage") is not None for way in ways)
+        season, scores = self._prepared(row, breaks=breaks)
+        sides = scores.player_a, scores.player_b
+        return scores.predicted, -scores.log_chances(*season.differences(ways, *sides)).T, sides
 
     def _prepared(self, row: int, *, breaks: bool) -> tuple[SeasonSoFar, Scores]:
         """Return the season before a stretch, and the scores in it."""
@@ -161,6 +185,11 @@ class Stretches:
         if len(self._played) <= KEPT_UP_TO:
             self._ready[row, breaks] = made
         return made
+
+
+def _one(asked: tuple[Stretches, Sequence[Mapping[str, Any]]], row: int) -> tuple[float, Floats]:
+    stretches, ways = asked
+    return stretches.one(row, ways)
 
 
 def can_be_predicted(results: Results) -> bool:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from evenbreak.ratings import Results, validate
+from evenbreak.ratings import Results, best_prior, validate
 from evenbreak.ratings.levels import Levels
 from evenbreak.ratings.validation import walk_forward as module
 from evenbreak.ratings.validation.walk_forward import walk_forward
@@ -77,6 +77,14 @@ def test_who_walks_a_span_makes_no_difference(way):
         np.testing.assert_array_equal(getattr(alone, name), getattr(shared, name))
     assert [count for count, _, _ in seen] == sorted({count for count, _, _ in seen})
     assert seen[-1] == (60, 60, pytest.approx(1.0))
+
+
+def test_who_predicts_a_stretch_makes_no_difference(monkeypatch):
+    """In a large season, of which nothing is kept from one search to the next."""
+    monkeypatch.setattr("evenbreak.ratings.stretches.KEPT_UP_TO", 0)
+    monkeypatch.setattr("evenbreak.ratings.stretches.SOLVED_AT_ONCE", 0)
+    alone, shared = (best_prior(season(40), share=share) for share in (None, by_two))
+    assert alone == shared
 
 
 @pytest.mark.slow

@@ -381,7 +381,7 @@ def _walked(
     dated = results.select(~np.isnat(np.asarray(results.date)))
     never = None if half_life == "best" else half_life
     sizes = len(known_levels(dated, beginning)) + (half_life == "best")
-    searches = SEARCH * (sizes + 2 if prior_sd is None else half_life == "best")
+    searches = SEARCH * (2 * sizes + 2 if prior_sd is None else half_life == "best")
     dates = len(np.unique(np.asarray(season.date)))
     done = _Done(progress, dates, (float(prior_sd is None), searches, 1.0))
     choice = None
@@ -391,11 +391,14 @@ def _walked(
     way = {**usual_way, "prior_sd": prior_sd, "levels": begun(beginning)}
     if prior_sd is None:
         usual_walk = walk_forward(results, **usual_way, progress=done.part(0), share=share)
-        choice = best_prior(dated, half_life=half_life, beginning=beginning, progress=done.part(1))
+        searched = done.part(1)
+        choice = best_prior(
+            dated, half_life=half_life, beginning=beginning, progress=searched, share=share
+        )
         half_lives = _tested(choice)
         way = {name: getattr(choice, name) for name in way}
     if half_life == "best" and not half_lives:
-        half_lives = half_life_gains(dated, way["prior_sd"], progress=done.part(1))
+        half_lives = half_life_gains(dated, way["prior_sd"], progress=done.part(1), share=share)
     ratings = with_form(season, fit(season, **way))
     walk = usual_walk
     if walk is None or ratings.match_form or way != usual_way:
