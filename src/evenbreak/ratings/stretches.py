@@ -187,7 +187,7 @@ class Stretches:
         return made
 
 
-def _one(asked: tuple[Stretches, Sequence[Mapping[str, Any]]], row: int) -> tuple[float, Floats]:
+def _one(asked: tuple[Stretches, Sequence[Mapping[str, Any]]], row: int) -> _OfStretch:
     stretches, ways = asked
     return stretches.one(row, ways)
 
