@@ -11,6 +11,8 @@ from scipy.special import betaincinv, logit
 from evenbreak.ratings import Results, best_prior, fit
 from evenbreak.ratings.levels import Levels, joined_late
 from evenbreak.ratings.stretches import stretch_losses
+from evenbreak.ratings.validation.validate import handicap_fairness
+from evenbreak.ratings.validation.walk_forward import walk_forward
 
 SPREAD, TEAMS = 0.4, 6
 IMPLIED = logit(betaincinv(6, np.arange(6, 1, -1), 0.5))
@@ -18,12 +20,14 @@ IMPLIED = logit(betaincinv(6, np.arange(6, 1, -1), 0.5))
 
 
 def league(
-    rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_day=18, joiners=1 / 3
-):
+    rng, *, team_sd=0.0, below=0.0, races=None, players=36, days=30, a_day=18, joiners=1 / 3,
+    drift=0.0, off=SPREAD,
+):  # fmt: skip
     """Return a season and the truth: team levels, and each player's skill.
 
     A part of the players, `joiners`, join during the season, `below` weaker on average. `races` is
-    the part of the stated difference that is real; None: there are no handicaps.
+    the part of the stated difference that is real; None: there are no handicaps. Skills lie `off`
+    from what races say, and go `drift` further a day, which the races follow.
     """
     team = np.arange(players) % TEAMS
     levels = rng.normal(0.0, team_sd, TEAMS) if team_sd else np.zeros(TEAMS)
@@ -32,10 +36,13 @@ def league(
     stated = np.zeros(players)
     if races is not None:
         stated = rng.normal(0.0, 0.35, players)
-    skill = levels[team] + rng.normal(0.0, SPREAD, players) - below * (joins > 0)
+    skill = levels[team] + rng.normal(0.0, off, players) - below * (joins > 0)
     skill += (races or 0.0) * stated
     rows = []
     for day in range(days):
+        if drift:
+            further = rng.normal(0.0, drift, players)
+            skill, stated = skill + further, stated + further / races
         present = rng.permutation(np.flatnonzero(joins <= day))
         for a, b in present[: 2 * min(a_day, len(present) // 2)].reshape(-1, 2):
             race = _race(stated[a] - stated[b])
@@ -77,6 +84,19 @@ def race_covered(seed, races):
     return _covered(results, "race", races)
 
 
+def givers(seed, races, *, drift=0.0):
+    """Return the share of those who give games, the share and the sum that they were said to win.
+
+    `races` is by how much players differ for each unit that their races take back.
+    """
+    rng = np.random.default_rng(seed)
+    results, *_ = league(rng, races=races, players=60, a_day=30, drift=drift, off=0.15)
+    choice = best_prior(results)
+    way = {"prior_sd": choice.prior_sd, "half_life": choice.half_life, "levels": choice.levels}
+    spot = handicap_fairness(walk_forward(results, **way))[-1]
+    return spot.share, spot.expected, spot.matches
+
+
 def joined_covered(seed, below):
     """Return whether the true difference of those who joined late is covered; None: not found."""
     results, _, skill = league(np.random.default_rng(seed), below=below)
@@ -108,7 +128,16 @@ def main(many=200):
     """Print how often levels are covered, and what is lost where there are none."""
     teams = np.concatenate([teams_covered(seed) for seed in range(many)])
     sys.stdout.write(f"team levels covered: {teams.mean():.3f} of {len(teams)}\n")
-    for truth in (1.0, 0.5):
+    for truth in (3.0, 2.0, 1.0):
+        for drift in (0.0, 0.06):
+            won, said, of = np.array([givers(seed, truth, drift=drift) for seed in range(many)]).T
+            off = won - said
+            sys.stdout.write(
+                f"givers, races take back 1/{truth:g}, drift {drift}: said {said.mean():.4f}, won "
+                f"{won.mean():.4f}, off {off.mean():+.4f} +- {off.std() / many**0.5:.4f}, beyond "
+                f"1.96 errors {(np.abs(off) > 1.96 * np.sqrt(won * (1 - won) / of)).mean():.3f}\n"
+            )
+    for truth in (3.0, 2.0, 1.0, 0.5):
         found = [race_covered(seed, truth) for seed in range(many)]
         known = [one for one in found if one is not None]
         sys.stdout.write(

@@ -9,6 +9,7 @@ from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Results, best_prior, fit, walk_forward
 from evenbreak.ratings.clear_gains import FEWEST_PLAYERS
 from evenbreak.ratings.levels import (
+    RECENT,
     Levels,
     StatedStrength,
     has_handicaps,
@@ -17,7 +18,8 @@ from evenbreak.ratings.levels import (
     known_levels,
     means_of,
 )
-from simulated_levels import SPREAD, TEAMS, harm, league, race_covered, teams_covered
+from evenbreak.ratings.validation.starts import starts
+from simulated_levels import SPREAD, TEAMS, givers, harm, league, race_covered, teams_covered
 
 SEASON = Results.from_names(
     ["Ann", "Cy", "Ann"],
@@ -129,11 +131,29 @@ def test_estimated_levels_cover_the_truth():
 
 
 @pytest.mark.slow
-def test_the_real_part_of_stated_races_is_covered():
-    found = [race_covered(seed, 1.0) for seed in range(2)]
+@pytest.mark.parametrize("truth", [1.0, 3.0])
+def test_the_real_part_of_stated_races_is_covered(truth):
+    found = [race_covered(seed, truth) for seed in range(2)]
     known = [one for one in found if one is not None]
     assert sum(known) >= len(known) - 1
     assert known
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("drift", [0.0, 0.06])
+@pytest.mark.parametrize("truth", [1.0, 3.0])
+def test_who_gives_games_is_said_to_win_what_they_win(truth, drift):
+    won, said, of = np.array([givers(seed, truth, drift=drift) for seed in range(2)]).T
+    assert abs(won - said).mean() < 3.3 * np.sqrt((won * (1.0 - won) / of).mean())
+
+
+def test_one_estimate_of_what_races_take_back_is_used_and_said():
+    results, *_ = league(np.random.default_rng(1), races=3.0)
+    choice = best_prior(results)
+    share = starts(results).share
+    assert choice.levels.race == share.value
+    (found,) = (one for one in choice.evidence if one.of == "race")
+    assert (found.value, found.standard_error) == (share.value, share.standard_error)
 
 
 @pytest.mark.slow
@@ -155,9 +175,9 @@ def test_nonsense_is_refused():
 # Strengths by the races that a league makes its players play.
 
 
-def season(a, b, race_a, race_b):
+def season(a, b, race_a, race_b, **more):
     zeros = [0] * len(a)
-    return Results.from_names(a, b, zeros, zeros, race_a=race_a, race_b=race_b)
+    return Results.from_names(a, b, zeros, zeros, race_a=race_a, race_b=race_b, **more)
 
 
 def test_the_implied_difference_makes_the_race_even():
@@ -179,3 +199,28 @@ def test_strengths_have_the_implied_differences():
 def test_even_races_are_no_handicaps():
     assert not has_handicaps(season(["A"], ["B"], [5], [5]))
     assert has_handicaps(season(["A"], ["B"], [5], [4]))
+
+
+@pytest.mark.parametrize("more", [1, 6, 60])
+def test_a_race_counts_less_the_more_races_both_have_had_since(more):
+    many = 10 + more
+    date = np.datetime64("2026-01-01") + np.maximum(np.arange(many) - 9, 0)
+    results = season(["A"] * many, ["B"] * many, [5] * 10 + [7] * more, [5] * many, date=date)
+    shuffled = np.random.default_rng(1).permutation(many)
+    for order in (np.arange(many), shuffled):
+        known = StatedStrength(results.select(order))
+        known.see(slice(None))
+        a, b = known.strength()
+        weight = 0.5 ** (np.arange(more) / RECENT)
+        old = 10 * 0.5 ** (more / RECENT)
+        share = weight.sum() / (weight.sum() + old)
+        assert a - b == pytest.approx(share * implied_difference(results)[-1], rel=0.01)
+
+
+def test_who_pauses_keeps_what_races_said():
+    dates = ["2020-01-01", *(f"2026-01-{day:02d}" for day in range(1, 31))]
+    results = season(["A", *["C"] * 30], ["B", *["D"] * 30], [7, *[5] * 30], [5] * 31, date=dates)
+    known = StatedStrength(results)
+    known.see(slice(None))
+    a, b, *_ = known.strength()
+    assert a - b == pytest.approx(implied_difference(results)[0], rel=0.01)

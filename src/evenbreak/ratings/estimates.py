@@ -46,6 +46,11 @@ class Estimate(NamedTuple):
     low: float
     high: float
 
+    @property
+    def standard_error(self) -> float:
+        """The standard error, by the length of the interval."""
+        return (self.high - self.low) / (2.0 * _Z)
+
 
 def with_error(value: float, error: float) -> Estimate:
     """Return a figure with the 95% interval from its standard error."""

@@ -8,7 +8,8 @@ match, what a file says about each player, and makes the means of their priors o
 A race m:n is even where the first player wins a game with the chance p for which W(p; m, n) = 1/2;
 the difference of strength that it implies is ln p/(1 - p). The players' strengths by their races
 (`StatedStrength`) are those whose differences come nearest to the implied ones, by least squares
-over all matches so far.
+over all matches so far. Leagues follow their players from season to season, so a race counts half
+once both have had `RECENT` more.
 """
 
 from __future__ import annotations
@@ -59,8 +60,8 @@ class Levels:
         how far below those who were there from the start somebody is expected to be who joins
         later than in the first four weeks; it does not shrink with games.
     race
-        what part of the difference that a stated race implies is taken as real: 1 where the
-        races are right.
+        by how much players differ for each unit that their stated races take back: 1 where the
+        races are right (see `evenbreak.ratings.handicap_slope`).
     field
         what part of the strength of the field on their first evening newcomers are expected to
         have themselves (see `evenbreak.ratings.first_evenings`); it does not shrink with games.
@@ -321,6 +322,9 @@ def means_of(
 RIDGE = 0.01
 """A weight, in matches, towards 0: it decides between groups that never met."""
 
+RECENT = 5.0
+"""A race counts half after so many more, on later days, of the player who has had fewer since."""
+
 _SOLVED_UP_TO = 100
 """Players up to which the equations are solved exactly, which is faster than to iterate."""
 
@@ -359,6 +363,9 @@ class StatedStrength:
         self._a, self._b = results.player_a, results.player_b
         self._implied = implied_difference(results)
         self._stated = ~np.isnan(self._implied)
+        self._day = np.zeros(len(results), dtype=np.int64)
+        if results.date is not None:  # NaT comes last
+            self._day = np.unique(results.date, return_inverse=True)[1]
         self._seen = np.zeros(len(results), dtype=bool)
         self._last = np.zeros(self._players)
         self._up_to_date = False
@@ -379,10 +386,23 @@ class StatedStrength:
         ends = np.concatenate([self._a[rows], self._b[rows]])
         which = np.tile(np.arange(matches), 2)
         contrast = sparse.coo_array((sign, (which, ends)), shape=(matches, players)).tocsr()
-        normal = contrast.T @ contrast + RIDGE * sparse.eye_array(players)
-        right = contrast.T @ self._implied[rows]
+        weighted = contrast.T @ sparse.diags_array(self._weights(rows))
+        normal = weighted @ contrast + RIDGE * sparse.eye_array(players)
+        right = weighted @ self._implied[rows]
         if players <= _SOLVED_UP_TO:
             self._last = np.linalg.solve(normal.toarray(), right)
         else:
             self._last, _ = cg(normal, right, self._last, rtol=1e-8)
         return self._last
+
+    def _weights(self, rows: Any) -> Floats:
+        """Return how much each of some races counts; one without a date counts in full."""
+        matches = int(rows.sum())
+        # A number for each player and day, in that order.
+        key = np.tile(self._day[rows], 2) + len(self._day) * np.concatenate(
+            [self._a[rows], self._b[rows]]
+        )
+        in_order = np.sort(key)
+        last = np.searchsorted(in_order, len(self._day) * (key // len(self._day) + 1))
+        since = last - np.searchsorted(in_order, key, side="right")
+        return np.asarray(0.5 ** (np.minimum(since[:matches], since[matches:]) / RECENT))

@@ -30,6 +30,7 @@ from evenbreak.ratings.clear_gains import (
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.handicap_slope import race_share
 from evenbreak.ratings.levels import Levels, begun, joined_late, known_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE
@@ -56,14 +57,16 @@ FEWEST = 100
 
 TRIED = {
     "brought_sd": (0.05, 0.1, 0.2, 0.4, 0.8),
-    "race": (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0),
     "division_sd": (0.1, 0.2, 0.4, 0.8),
     "team_sd": (0.1, 0.2, 0.4, 0.8),
     "joined": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
     "newcomers": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
     "field": (0.25, 0.5, 0.75, 1.0, 1.25),
 }
-"""The sizes tried of everything that `Levels` can hold, in the order in which they are added."""
+"""The sizes tried of what `Levels` can hold, in the order in which they are added.
+
+How much stated races count is not tried: it is estimated by all of them (`race_share`).
+"""
 
 OF_NEWCOMERS = ("joined", "newcomers", "field")
 """Of these, which say much the same, the one that gains most at least (95%) is added first."""
@@ -120,11 +123,6 @@ class Evidence(NamedTuple):
     standard_error: float | None = None
     players: int = 0
     too_few: bool = False
-
-    @property
-    def at_most(self) -> bool:
-        """Whether the size that predicts best is the largest that could be found."""
-        return self.used and self.value >= max(self.tried)
 
     @property
     def gain(self) -> Estimate:
@@ -237,13 +235,14 @@ def best_prior(
         raise InputError("widths is empty; give at least one standard deviation")
     tried = np.sort(np.asarray(widths, dtype=float))
     known = known_levels(results, beginning)
+    races = race_share(results) if "race" in known else None
     half_lives = half_lives_for(results)
     part = None
     if can_be_predicted(results) and results.counted.sum() > 2 * ENOUGH:
         results = connected_part(results, ENOUGH)
         part = int(results.counted.sum())
         known = tuple(name for name in known_levels(results, beginning) if name in known)
-    more = {name: TRIED[name] for name in known}
+    more = _sizes(known, races)
     if half_life == "best":
         more["half_life"] = half_lives
     way: dict[str, Any] = {
@@ -252,7 +251,7 @@ def best_prior(
         "scale": scale,
         "levels": Levels(beginning=beginning),
     }
-    search = _Search(results, 2 * len(more) + 2, progress, share)
+    search = _Search(results, 2 * len(more) + 2, progress, share, races)
     choice = search.width(tried, way)
     if not choice.learnt:
         return choice._replace(levels=begun(beginning), part=part)
@@ -288,6 +287,12 @@ def best_prior(
     )
 
 
+def _sizes(known: Sequence[str], races: Estimate | None) -> dict[str, tuple[float, ...]]:
+    """Return the sizes to try of what is known."""
+    first = {} if races is None or "race" not in known else {"race": (races.value,)}
+    return first | {name: TRIED[name] for name in known if name in TRIED}
+
+
 def _with(way: Mapping[str, Any], name: str, value: float) -> dict[str, Any]:
     """Return a way to rate with one more thing that counts."""
     if name == "half_life":
@@ -299,9 +304,14 @@ class _Search:
     """The steps of a search, each of which goes through the whole season once."""
 
     def __init__(
-        self, results: Results, steps: int, progress: Progress, share: Share | None
+        self,
+        results: Results,
+        steps: int,
+        progress: Progress,
+        share: Share | None,
+        races: Estimate | None,
     ) -> None:
-        self._season, self._share = Stretches(results), share
+        self._season, self._share, self._races = Stretches(results), share, races
         played = results.select(results.counted)
         here = np.union1d(played.player_a, played.player_b)
         late = int(joined_late(played)[here].sum())
@@ -389,7 +399,9 @@ class _Search:
         is expected of newcomers is drawn towards 0 as far as it is not certain, since it is only
         used where it looks large.
         """
-        if not coarse.used or coarse.of not in ("newcomers", "joined", "race", "field"):
+        if coarse.of == "race" and coarse.used and self._races is not None:
+            return coarse._replace(standard_error=self._races.standard_error)
+        if not coarse.used or coarse.of not in ("newcomers", "joined", "field"):
             return coarse
         sizes = coarse.value + np.array([-STEP, 0.0, STEP])
         found = self._losses([_with(way, coarse.of, size) for size in sizes.tolist()])

@@ -40,16 +40,12 @@ def test_the_error_of_an_estimate_is_given_with_it():
     assert not used["team_sd"]
 
 
-@pytest.mark.parametrize(("share", "largest"), [(1.0, False), (2.0, True)])
-def test_a_share_of_the_races_at_the_end_of_those_tried_is_called_so(share, largest):
+def test_by_how_much_players_differ_is_said_with_its_error():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[6])
-    sizes = (0.5, 1.0, 2.0)
-    gains = tuple(Estimate(size / 100, 0.001, 0.03) for size in sizes)
-    found = Evidence("race", sizes, gains, True, share, 0.1)
+    found = Evidence("race", (3.08,), (Estimate(0.01, 0.001, 0.03),), True, 3.08, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
-    (text,) = level_words(fit(season, levels=Levels(race=share)), choice)
-    assert f"differ by {share:.2f} times what their races take back, give or take 0.10" in text
-    assert ("No larger share was tried" in text) == largest
+    (text,) = level_words(fit(season, levels=Levels(race=3.08)), choice)
+    assert "differ by 3.08 times what their races take back, give or take 0.10" in text
 
 
 def test_what_rests_on_few_players_is_said_not_to_be_used():

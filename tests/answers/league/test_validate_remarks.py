@@ -8,8 +8,9 @@ import pytest
 from evenbreak.answers.league.validate import remarks
 from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, scale_of, validate
-from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.estimates import Estimate, wilson
 from evenbreak.ratings.validation.advantages import ByExperience
+from evenbreak.ratings.validation.validate import RaceLengths
 from places import SHARED
 
 NPL = scale_of("npl")
@@ -89,3 +90,13 @@ def test_a_real_season_whose_first_column_wins_more():
     assert abs(short.predicted - short.share) < 0.025
     assert all(one.gain.value < 0 for one in found.half_lives)
     assert "57%" in said(found, "first column")
+
+
+@pytest.mark.parametrize(("share", "word"), [(0.68, "less"), (0.7, None)])
+def test_races_of_a_length_that_favourites_win_less_are_named(sided, share, word):
+    won = round(share * 4000)
+    long = RaceLengths(6, 9, 4000, won, share, *wilson(share, 4000), 0.71)
+    text = said(dataclasses.replace(sided, lengths=(long,)), "races to")
+    assert (text is not None) == (word is not None)
+    if text:
+        assert "races to 6 to 9 games less often than predicted: 68% of 4,000 (71%" in text

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from evenbreak.ratings import Results
+from evenbreak.ratings.handicap_slope import handicap_slope
 from evenbreak.ratings.levels import implied_difference
-from evenbreak.ratings.validation.starts import class_steps, even_start, handicap_slope, starts
+from evenbreak.ratings.validation.starts import class_steps, even_start, starts
 from handicapped import by_chart, by_class
 
 

@@ -211,3 +211,12 @@ def test_the_halves_are_as_equal_as_lengths_allow():
 def test_one_length_and_handicaps_say_nothing():
     assert race_lengths(forecasts([5, 5, 5])) == []
     assert race_lengths(forecasts([3, 5, 7], longer=1)) == []
+
+
+@pytest.mark.parametrize(("starts", "judged"), [(1, True), (2, False)])
+def test_even_races_are_judged_where_few_others_have_a_start(starts, judged):
+    races = [3, 3, 4, 7, 7, 9]
+    started = np.arange(7) > 6 - starts
+    found = race_lengths(forecasts(races, longer=started.astype(int)))
+    assert bool(found) == judged
+    assert sum(one.matches for one in found) == (6 - starts) * judged

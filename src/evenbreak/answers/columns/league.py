@@ -93,6 +93,7 @@ VALIDATION = registry(
     number("points_off", "points off,\n95% interval", name="stronger"),
     number("score_spread", "spread of\nscores", 2, "spread"),
     number("spot", "games given"),
+    text("races_to", "races to"),
     number("share_of_matches", "share", 3, "share"),
     number("expected_share", "predicted", 3, "expected"),
     number("classes_apart", "classes\napart", name="apart"),

@@ -77,13 +77,9 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         yield _field_words(levels.field, _error_of(choice, "field"))
     if levels.race:
         error = _error(choice, "race", 1.0, decimals(2), "")
-        largest = choice is not None and any(
-            found.at_most for found in choice.evidence if found.of == "race"
-        )
-        end = " No larger share was tried, so more may be better still." if largest else ""
         yield (
             f"The stated races count too: before any result, two players are taken to differ by "
-            f"{levels.race:.2f} times what their races take back{error}.{end}"
+            f"{levels.race:.2f} times what their races take back{error}."
         )
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]

@@ -20,6 +20,7 @@ from evenbreak.answers.league.validate_handicaps import (
     points_text,
     scored_of,
     share_of,
+    span_of,
     starts_way,
     wrong_chances,
 )
@@ -301,7 +302,7 @@ def _faults(found: Validation, chart: LeagueChart | None) -> Iterator[str]:
 def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> list[str]:
     """Return what there is to say about handicaps, newcomers and the order of the columns."""
     chart = chart or LeagueChart()
-    every = (*handicap_remarks(found, chart, scale), _newcomers(found, scale))
+    every = (*handicap_remarks(found, chart, scale), *_lengths(found), _newcomers(found, scale))
     texts = [text for text in (*every, _first_column(found)) if text]
     if chart.scale is None and any(" points" in text for text in texts):
         texts.append(
@@ -312,6 +313,18 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
             )
         )
     return texts
+
+
+def _lengths(found: Validation) -> Iterator[str]:
+    """Yield of which races favourites win more or less than predicted."""
+    for half in found.lengths:
+        share = Estimate(half.share, half.low, half.high)
+        if way := clearly_off(share, half.predicted, tests=len(found.lengths)):
+            yield (
+                f"Favourites win races to {span_of(half)} games {more_or_less(way > 0)} often than "
+                f"predicted: {percent(half.share)} of {half.matches:,} ({percent(half.predicted)} "
+                "predicted)."
+            )
 
 
 def _newcomers(found: Validation, scale: Scale) -> str:

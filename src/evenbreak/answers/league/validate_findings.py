@@ -7,7 +7,12 @@ from typing import Any
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import percent
-from evenbreak.answers.league.validate_handicaps import handicap_rows, points_text, starts_table
+from evenbreak.answers.league.validate_handicaps import (
+    handicap_rows,
+    points_text,
+    span_of,
+    starts_table,
+)
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.estimates import END_ERROR, REPLICAS, Estimate
 from evenbreak.ratings.fit import PRIOR_SD
@@ -157,6 +162,8 @@ def details(found: Validation, scale: Scale) -> Iterator[Part]:
         yield Table("", _TEST_COLUMNS, tests)
     if found.spots:
         yield _by_spot(found)
+    if found.lengths:
+        yield _by_length(found)
     if found.starts is not None:
         yield starts_table(found.starts, scale)
     if found.experience:
@@ -268,3 +275,13 @@ def _by_spot(found: Validation) -> Table:
         for row in found.spots
     ]
     return Table("", columns, rows, "Matches that the player who gave games won:")
+
+
+def _by_length(found: Validation) -> Table:
+    """Return how often favourites won even races, by their length."""
+    columns = columns_of("races_to matches won share_of_matches range expected_share")
+    rows = [
+        (span_of(row), row.matches, row.won, row.share, (row.low, row.high), row.predicted)
+        for row in found.lengths
+    ]
+    return Table("", columns, rows, "Even races that the favourite won, by the games needed:")

@@ -15,7 +15,12 @@ from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.ratings.validation.calibration import Of, Scored
 from evenbreak.ratings.validation.starts import StartGroup, Starts, even_start
-from evenbreak.ratings.validation.validate import HandicapFairness, Validation
+from evenbreak.ratings.validation.validate import (
+    HandicapFairness,
+    RaceLengths,
+    Validation,
+    mostly_even,
+)
 from evenbreak.words import listed
 
 UNLIKELY = 0.01
@@ -50,7 +55,7 @@ def scored_of(found: Validation, of: Of) -> Scored:
 def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, int]:
     """Return the predictions whose chances are clearly off: -1 too extreme, 1 too cautious."""
     # A fair handicap leaves matches without favourites, whatever the ratings say.
-    judged = ("game",) if found.spots else ("game", "match")
+    judged = ("game", "match") if mostly_even(found.forecasts) else ("game",)
     off = {
         row.of: clearly_off(row.slope, 1.0)
         for row in scored
@@ -62,6 +67,15 @@ def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, in
 def share_of(spot: HandicapFairness) -> Estimate:
     """Return the share of handicap races that the player who gave games won."""
     return Estimate(spot.share, spot.low, spot.high)
+
+
+def span_of(half: RaceLengths) -> str:
+    """Return to how many games races of similar length are.
+
+    >>> span_of(RaceLengths(6, 9, 10, 5, 0.5, 0.2, 0.8, 0.6))
+    '6 to 9'
+    """
+    return " to ".join(dict.fromkeys((str(half.shortest), str(half.longest))))
 
 
 def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
@@ -296,7 +310,7 @@ def _points(estimate: Estimate, scale: Scale) -> str:
 
 
 def _error(estimate: Estimate, scale: Scale) -> str:
-    return f"{scale.points(estimate.high - estimate.low) / 3.92:.1f}"
+    return f"{scale.points(estimate.standard_error):.1f}"
 
 
 def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
@@ -305,7 +319,7 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
     if fair is None:
         return "", ""
     points = fair.points
-    error = (points.high - points.low) / 3.92
+    error = points.standard_error
     if not scale_way(chart):
         agrees = points.low <= fair.assumed <= points.high
         if error > SURE * points.value or not agrees:

@@ -26,10 +26,11 @@ from evenbreak.handicaps.charts.played_chart import (
 )
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.handicap_slope import handicap_slope
 from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES
-from evenbreak.ratings.validation.starts import FEWEST, MOST_CLASSES, handicap_slope
+from evenbreak.ratings.validation.starts import FEWEST, MOST_CLASSES
 
 FEWEST_STARTS = 7
 """Starts of different sizes, to either side, from which races show what they assume."""

@@ -128,16 +128,30 @@ class RaceLengths(NamedTuple):
     predicted: float
 
 
+FEW_STARTS = 0.25
+"""The share of uneven races up to which even ones are judged: more leave only equals for those."""
+
+
+def mostly_even(forecasts: Forecasts) -> bool:
+    """Return whether few races have a start, so that the others have favourites."""
+    raced = forecasts.race_a > 0
+    uneven = forecasts.race_a != forecasts.race_b
+    return bool(uneven.sum() <= FEW_STARTS * raced.sum())
+
+
 def race_lengths(forecasts: Forecasts) -> list[RaceLengths]:
     """Return how often favourites won the shorter and the longer half of the even races.
 
     The halves are as nearly equal as whole lengths allow. The list is empty where all races
-    are equally long, or there are handicaps: those leave matches without a favourite.
+    are equally long, or more than a quarter have a start.
     """
-    raced, p = forecasts.race_a > 0, forecasts.p_match_integrated
-    rows = raced & (np.abs(np.where(raced, p, 0.5) - 0.5) > TOSS_UP)
+    even, p = (
+        (forecasts.race_a > 0) & (forecasts.race_a == forecasts.race_b),
+        forecasts.p_match_integrated,
+    )
+    rows = even & (np.abs(np.where(even, p, 0.5) - 0.5) > TOSS_UP)
     needed = forecasts.race_a[rows]
-    if (forecasts.race_a != forecasts.race_b).any() or len(np.unique(needed)) < 2:
+    if not mostly_even(forecasts) or len(np.unique(needed)) < 2:
         return []
     a_leads = p[rows] > 0.5
     chance = np.where(a_leads, p[rows], 1.0 - p[rows])
@@ -202,7 +216,7 @@ class Validation:
         how much stronger players in the first column are than their ratings, in log-odds, and
         how many matches they won; None where nobody did, or nothing shows it.
     lengths
-        how often favourites won short races and long ones, where there are both.
+        how often favourites won short races and long ones, where there are both and few starts.
     spots
         how often the player with the longer race won.
     starts
