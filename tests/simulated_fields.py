@@ -1,8 +1,11 @@
 """A city's evenings of different strength, to which newcomers come every week."""
 
+import sys
+from collections import Counter
+
 import numpy as np
 
-from evenbreak.ratings import Results
+from evenbreak.ratings import Results, best_prior
 
 
 def city(
@@ -68,3 +71,21 @@ def city(
         event=names[order] if named else None,
     )  # fmt: skip
     return results, skill
+
+
+def main(many=40):
+    """Print how often the field is found where venues differ, and where they do not."""
+    for apart in (0.0, 0.6):
+        used, field = [], []
+        for seed in range(many):
+            results, _ = city(
+                np.random.default_rng([seed, 11]), apart=apart, players=75, venues=3, weeks=40
+            )
+            evidence = best_prior(results, half_life=None).evidence
+            used += [one.of for one in evidence if one.used]
+            field += [one.value for one in evidence if one.used and one.of == "field"]
+        sys.stdout.write(f"venues {apart} apart, {many} leagues: {dict(Counter(used))}, {field}\n")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
