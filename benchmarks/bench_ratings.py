@@ -18,7 +18,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 from scipy.optimize import minimize
 from scipy.special import expit
@@ -118,16 +117,6 @@ def test_standard_errors(beside: Beside, kind: str) -> None:
         rounds=1,
         note=f"relative error {worst:.1e}",
     )
-
-
-@pytest.mark.parametrize("rows", [50_000, 100_000])
-def test_results_from_a_frame(benchmark: Any, rows: int) -> None:
-    """Twice the rows take twice the time: no floor but itself."""
-    a = np.arange(rows) % 200
-    frame = pd.DataFrame(
-        {"player_a": a.astype(str), "player_b": (a + 1).astype(str), "score_a": 7, "score_b": a % 7}
-    )
-    assert len(benchmark(Results.from_frame, frame)) == rows
 
 
 WIDTH = 0.5
