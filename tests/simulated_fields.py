@@ -73,14 +73,18 @@ def city(
     return results, skill
 
 
+def small_city(seed, apart):
+    """Return a season of some 900 matches at four venues."""
+    rng = np.random.default_rng(seed)
+    return city(rng, apart=apart, players=78, venues=4, weeks=30, evening=8, stay=12.0)[0]
+
+
 def main(many=40):
     """Print how often the field is found where venues differ, and where they do not."""
-    for apart in (0.0, 0.6):
+    for apart in (0.0, 0.6, 1.0):
         used, field = [], []
         for seed in range(many):
-            results, _ = city(
-                np.random.default_rng([seed, 11]), apart=apart, players=75, venues=3, weeks=40
-            )
+            results = small_city([seed, 11], apart)
             evidence = best_prior(results, half_life=None).evidence
             used += [one.of for one in evidence if one.used]
             field += [one.value for one in evidence if one.used and one.of == "field"]
