@@ -34,8 +34,8 @@ MOST_PAIRED = 1000
 _RATING, _RULE = "How to rate", "A league's own rule"
 PROVISIONAL = Field(
     Whole(0, 1_000_000, metavar="GAMES"),
-    "Ratings from fewer games are provisional: they are listed after the others, without a place.",
-    usual=f"{ESTABLISHED}, or a third of what the league's regulars have if that is less",
+    "Players with fewer games are provisional: listed last, unranked.",
+    usual=f"{ESTABLISHED}, or a third of the regulars' if that is less",
     more="See [who has a place](../../explanation/ratings.md#who-has-a-place-in-the-list).",
 )
 _PLAYER = Field(Named(str, "NAME", offers="players"), argument=True)
@@ -340,7 +340,7 @@ class Report(Results, HowToRate, Lengths):
         bool,
         Field(
             Flag(),
-            "Also write sheet.html, one file for phones, screens and printers.",
+            "Also write sheet.html, for phones and printers.",
             old=("html",),
         ),
     ] = False
