@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from datetime import date
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.kit.parts import Quantities, Table
@@ -66,4 +69,8 @@ def json_value(value: Any) -> Any:
         return json_value(value.tolist())
     if isinstance(value, list | tuple):
         return [json_value(one) for one in value]
-    return str(value)
+    if is_dataclass(value):
+        return {one.name: json_value(getattr(value, one.name)) for one in fields(value) if one.repr}
+    if isinstance(value, date | Path):
+        return str(value)
+    raise TypeError(f"{type(value).__name__} has no form in JSON")
