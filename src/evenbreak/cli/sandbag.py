@@ -84,12 +84,8 @@ def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
 @command_of(SandbagWatch, "watch")
 def watch(asked: SandbagWatch) -> Answer:
     """Check results for sandbagging."""
-    from evenbreak.answers.league.rating_changes import (
-        events_marked,
-        events_to_try,
-        nights_of_files,
-        with_even_races,
-    )
+    from evenbreak.answers.league.rating_changes import nights_of_files
+    from evenbreak.answers.sandbag.season import events_marked, events_to_try, with_even_races
     from evenbreak.answers.sandbag.watch import (
         day_sd_doubts,
         sandbag_player_answer,

@@ -27,9 +27,8 @@ EVIDENCE = 20.0
 SEED = 1
 """Of the bootstrap, so that the same file always has the same answer."""
 
-
 SURE = 1.282
-"""How many standard errors a gain must be above 0, players being resampled: 90% confidence."""
+"""How many standard errors a gain must be above 0, stretches or players resampled: 90%."""
 
 FEWEST_PLAYERS = 4
 """How many players a gain must rest on."""
@@ -69,7 +68,7 @@ def is_clear(of_ways: StretchLosses) -> bool:
     score = float(logsumexp(saved)) - math.log(len(saved))
     best = max(gains, key=lambda gain: gain.value)
     return any(_errors(gain) > 2.576 for gain in gains) or (
-        score >= math.log(EVIDENCE) and _errors(best) > 1.282
+        score >= math.log(EVIDENCE) and _errors(best) > SURE
     )
 
 

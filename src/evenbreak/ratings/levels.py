@@ -282,11 +282,25 @@ MOST_SHARES = 20_000_000
 
 def has_groups(results: Results, kind: str) -> bool:
     """Return whether results name two teams, or two divisions, at least, and not too many."""
+    return 1 < _count_groups(results, kind) <= MOST_SHARES // len(results.players)
+
+
+def too_many_groups(results: Results) -> dict[str, int]:
+    """Return how many teams, or divisions, there are where they are too many to be estimated.
+
+    >>> too_many_groups(Results.from_names(["Ann"], ["Bo"], [7], [5], team_a=["X"], team_b=["Y"]))
+    {}
+    """
+    groups = {kind: _count_groups(results, kind) for kind in GROUPS}
+    most = MOST_SHARES // max(len(results.players), 1)
+    return {kind: many for kind, many in groups.items() if many > max(most, 1)}
+
+
+def _count_groups(results: Results, kind: str) -> int:
     columns = [getattr(results, name) for name in GROUPS[kind]]
     if any(column is None for column in columns):
-        return False
-    groups = len({text for column in columns for text in column.tolist()} - {""})
-    return 1 < groups <= MOST_SHARES // len(results.players)
+        return 0
+    return len({text for column in columns for text in column.tolist()} - {""})
 
 
 def games_of(results: Results) -> Floats:

@@ -81,10 +81,8 @@ def sampled_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Inverse
 
     Parameters
     ----------
-    matrix
-        symmetric, positive on the diagonal, nowhere positive off it, shape (n, n).
-    row_sum
-        what every row sums to, above zero; None if they differ.
+    matrix, row_sum
+        as for `evenbreak.ratings.inverse_diagonal`.
 
     Raises
     ------

@@ -2,7 +2,8 @@
 
 import pytest
 
-from evenbreak.answers.league.rating_changes import events_marked, nights_of_files, with_even_races
+from evenbreak.answers.league.rating_changes import nights_of_files
+from evenbreak.answers.sandbag.season import events_marked, with_even_races
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results

@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from evenbreak.answers.league.prior import evidence_rows, group_rows, level_words, levels_data
-from evenbreak.ratings import Levels, Results, best_prior, fit
+from evenbreak.answers.league.prior import (
+    evidence_rows,
+    group_rows,
+    groups_warnings,
+    level_words,
+    levels_data,
+)
+from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.ratings import Levels, Results, best_prior, fit, levels
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.prior import Evidence, PriorChoice
 from simulated_levels import league
@@ -69,3 +76,17 @@ def test_how_much_of_the_field_newcomers_have_is_said():
     (text,) = level_words(ratings, choice)
     assert text.endswith("give or take 10%.")
     assert levels_data(ratings, choice)["field_standard_error"] == 0.1
+
+
+def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch):
+    file = ResultsFile(SEASON, "r.csv", (), (), "")
+    chosen = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6)
+    assert levels.has_groups(SEASON, "team")
+    assert not list(groups_warnings(file, chosen))
+    monkeypatch.setattr(levels, "MOST_SHARES", 7)
+    assert not levels.has_groups(SEASON, "team")
+    assert list(groups_warnings(file, chosen)) == [
+        "The difference between teams was not used: 2 among 4 players are too many to compare."
+    ]
+    assert not list(groups_warnings(file, chosen._replace(learnt=False)))
+    assert not list(groups_warnings(file, None))

@@ -11,7 +11,7 @@ from evenbreak.answers.kit.remarks import MOST_NAMES
 from evenbreak.answers.kit.wording import count_of, decimals, percent, some_of
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Group, Ratings
-from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED
+from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED, too_many_groups
 from evenbreak.ratings.prior import Evidence, PriorChoice
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
@@ -262,9 +262,23 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
 def prior_warnings(
     file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
 ) -> Iterator[str]:
-    """Yield a warning where the prior was to be chosen by too few results."""
+    """Yield a warning where the prior was to be chosen by too few results, or without groups."""
     if choice is not None and not choice.learnt:
         yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
+    yield from groups_warnings(file, choice)
+
+
+def groups_warnings(file: ResultsFile, choice: PriorChoice | None) -> Iterator[Sentence]:
+    """Yield a warning where teams, or divisions, are too many to let them count."""
+    if choice is None or not choice.learnt:
+        return
+    for kind, many in too_many_groups(file.results).items():
+        yield say(
+            "{what} was not used: {groups:,} among {players:,} players are too many to compare.",
+            what=_SUBJECTS[f"{kind}_sd"],
+            groups=many,
+            players=len(file.results.players),
+        )
 
 
 def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:

@@ -14,7 +14,7 @@ from evenbreak.answers.kit.columns import columns_of, in_files, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, some_of
 from evenbreak.answers.league.sheet import places_in_list
-from evenbreak.errors import DataError, InputError
+from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.files.tables.problems import Problems, quoted
@@ -31,7 +31,6 @@ from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.provisional import established_from
 from evenbreak.ratings.results import Problem, Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
-from evenbreak.ratings.validation.walk_forward import even_races
 from evenbreak.words import Parameter, say
 
 MOST_NAMES = 6
@@ -265,10 +264,6 @@ def _night_warnings(
         )
 
 
-MOST_TRIED = 20
-"""The most events that are tried: each of them takes as long as a watch without events."""
-
-
 def nights_of_files(
     system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
 ) -> list[PlayedNight]:
@@ -358,80 +353,12 @@ def count_dates(results: Results) -> int:
     return 0 if dates is None else len(np.unique(dates[~np.isnat(dates)]))
 
 
-def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
-    """Return a season with a race for every match, and a warning if some were not stated.
-
-    A match without a race or a winner is read as an even race to the winner's games, unless such
-    a match was drawn (see `even_races`).
-
-    >>> plain = Results.from_names(["Ann"], ["Bo"], [7], [5])
-    >>> raced, warnings = with_even_races(ResultsFile(plain, "r.csv", (), (), ""))
-    >>> raced.results.races, len(warnings)
-    ((array([7]), array([7])), 1)
-    """
-    results = season.results
-    winner = np.zeros(len(results)) if results.winner is None else results.winner
-    unknown = results.counted & (results.races[0] == 0) & (winner == 0)
-    if not unknown.any():
-        return season, []
-    made = even_races(results.select(unknown))[:2]
-    race_a, race_b = (race.copy() for race in results.races)
-    race_a[unknown], race_b[unknown] = made
-    changed = int((race_a != results.races[0]).sum())
-    if not changed:
-        return season, []
-    warning = say(
-        "{source}: the race of {many} is not stated, so each is read as an even race to the "
-        "winner's games; if a chart set the races, name it with {chart}",
-        source=season.source,
-        many=count_of(changed, "match", "matches"),
-        chart=Parameter("chart"),
-    )
-    return replace(season, results=replace(results, race_a=race_a, race_b=race_b)), [warning]
-
-
 def _once(problems: Iterable[str]) -> list[str]:
     """Return problems without those that differ from an earlier one by their line only."""
     first: dict[str, str] = {}
     for problem in problems:
         first.setdefault(problem.split(": ", 1)[-1], problem)
     return list(first.values())
-
-
-def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
-    """Return which matches belong to these events.
-
-    Raises
-    ------
-    InputError
-        if the results have no such event.
-    """
-    column = results.event
-    known = sorted({str(event) for event in (() if column is None else column) if event})
-    for event in events:
-        if event not in known:
-            names = ", ".join(known[:10]) or "none: the file has no column event"
-            raise InputError(f"the results have no event {event!r}; give one of these: {names}")
-    return np.isin(np.asarray(column, dtype=str), list(events))
-
-
-def events_to_try(results: Results) -> dict[str, NDArray[np.bool_]]:
-    """Return which matches belong to each event, those with the most matches first.
-
-    There is nothing to try if all matches are of one event; at most `MOST_TRIED` are.
-
-    >>> events = ["cup", "league", "league"]
-    >>> night = Results.from_names(["A"] * 3, ["B"] * 3, [5] * 3, [4] * 3, event=events)
-    >>> {name: rows.tolist() for name, rows in events_to_try(night).items()}
-    {'league': [False, True, True], 'cup': [True, False, False]}
-    """
-    if results.event is None:
-        return {}
-    column = np.asarray(results.event, dtype=str)
-    names, matches = np.unique(column[column != ""], return_counts=True)
-    order = sorted(zip(names.tolist(), matches.tolist(), strict=True), key=lambda one: -one[1])
-    found = {name: column == name for name, _ in order[:MOST_TRIED]}
-    return {} if any(rows.all() for rows in found.values()) else found
 
 
 def rating_changes_of_files(

@@ -285,11 +285,14 @@ def rating_model(sheet: Sheet) -> str:
     if not ratings.races_won.any():
         races = ""
     breaks = "whoever breaks"
+    together = "games are independent of each other"
+    if ratings.match_form:
+        together = "games of a match share the form of the day"
     if ratings.break_advantage is not None:
         breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
     return (
-        f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; games "
-        f"are independent of each other{alike}. The starting rating is a normal prior, and the "
+        f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; "
+        f"{together}{alike}. The starting rating is a normal prior, and the "
         "give or take its standard deviation."
     )
 

@@ -9,7 +9,7 @@ from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import count_of, percent
-from evenbreak.answers.league.prior import evidence_rows, levels_data
+from evenbreak.answers.league.prior import evidence_rows, groups_warnings, levels_data
 from evenbreak.answers.league.validate_findings import details, findings_table
 from evenbreak.answers.league.validate_handicaps import (
     UNLIKELY,
@@ -71,7 +71,7 @@ def validate_answer(
         _heading(file, found),
         parts,
         details=list(details(found, scale)),
-        warnings=[*file.warnings, *file.ties],
+        warnings=[*file.warnings, *file.ties, *groups_warnings(file, found.choice)],
         data={
             "verdict": text,
             "rows_left_out": file.skipped,

@@ -163,13 +163,6 @@ def walk_forward(
         half_life = number(half_life, "half_life", low=0.01, high=1e6, wanted=wanted)
     season, left_out = in_order(results)
     days, date_of = np.unique(np.asarray(season.date), return_inverse=True)
-    if len(days) < 2:
-        raise InputError(
-            "the results have games on {n_days} date{what}; give two or more in the column "
-            "date, so that earlier dates can predict later ones",
-            n_days=len(days),
-            what="s" * (len(days) != 1),
-        )
     levels = levels or Levels()
     walk = _Walk(season, days, date_of, precision, half_life, levels, form)
     spans = walk.spans()
@@ -329,13 +322,21 @@ def in_order(results: Results) -> tuple[Results, dict[str, int]]:
     Raises
     ------
     InputError
-        if no row could have a date.
+        if there are not two dates with games.
     """
     played, forfeits, empty = results.played()
     dates = played.date
     if dates is None:
         raise InputError("the results have no dates; add the column date")
     dated = ~np.isnat(dates)
+    days = len(np.unique(dates[dated]))
+    if days < 2:
+        raise InputError(
+            "the results have games on {n_days} date{what}; give two or more in the column "
+            "date, so that earlier dates can predict later ones",
+            n_days=days,
+            what="s" * (days != 1),
+        )
     season = played.select(dated)
     season = season.select(np.argsort(dates[dated], kind="stable"))
     return season, {
