@@ -117,7 +117,7 @@ def by_pair(
 
 
 def evenbreak(season: Results, with_: Settings) -> Chances:
-    levels = Levels(newcomers=with_["newcomers"])
+    levels = Levels(newcomers=with_["newcomers"], field=with_["field"])
     found = walk_forward(season, prior_sd=with_["prior_sd"], levels=levels)
     return Chances(found.p_game_integrated, found.p_match_integrated)
 
@@ -249,8 +249,9 @@ SYSTEMS = {
     "evenbreak": System(
         evenbreak,
         {
-            "prior_sd": (0.18, 0.25, 0.35, 0.5, 0.7, 1.0),
-            "newcomers": (0.0, 0.4, 0.8, 1.2, 1.8, 2.4),
+            "prior_sd": (0.25, 0.35, 0.5, 0.7, 1.0),
+            "newcomers": (0.0, 0.8, 1.2, 1.8),
+            "field": (0.0, 0.5, 0.9),
         },
     ),
     "decayed Bradley-Terry": System(
