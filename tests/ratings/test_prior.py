@@ -8,14 +8,13 @@ from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, best_prior
 from evenbreak.ratings.clear_gains import FEWEST_STRETCHES, gains_over, is_clear
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.half_lives import HALF_LIVES, half_life_gains
 from evenbreak.ratings.players_behind import PlayersBehind
 from evenbreak.ratings.prior import (
     AS_GOOD,
-    HALF_LIVES,
     WIDTHS,
-    half_life_gains,
 )
-from evenbreak.ratings.stretches import StretchLosses
+from evenbreak.ratings.stretches import Stretches, StretchLosses
 from handicapped import by_chart
 from places import SHARED
 
@@ -218,3 +217,16 @@ def test_much_gained_early_in_the_season_is_clear():
 
 def test_a_few_stretches_show_nothing():
     assert not is_clear(losses(np.full(FEWEST_STRETCHES - 1, 5.0)))
+
+
+def test_no_way_is_tried_twice(monkeypatch):
+    tried = []
+    losses = Stretches.losses
+
+    def counted(self, ways, **options):
+        tried.extend((way["prior_sd"], way["half_life"], way["levels"]) for way in ways)
+        return losses(self, ways, **options)
+
+    monkeypatch.setattr(Stretches, "losses", counted)
+    best_prior(season(0.7, np.random.default_rng(1)))
+    assert len(tried) == len(set(tried)) > len(WIDTHS)

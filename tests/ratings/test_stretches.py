@@ -100,3 +100,14 @@ def test_races_set_by_results_of_a_stretch_are_not_known_before_it():
 
     np.testing.assert_array_equal(losses(-1, 3), losses(-1, 6))
     assert losses(-3, 3)[-1] != losses(-3, 6)[-1]
+
+
+def test_where_a_mode_is_looked_for_first_does_not_matter():
+    """Modes begin on lines through those found before: the same ways in another order agree."""
+    results = season(3)
+    ways = [{"prior_sd": 0.5, "levels": Levels(newcomers=size)} for size in (0.0, 0.2, 0.4, 1.2)]
+    ways += [{"prior_sd": width} for width in (0.1, 0.2, 2.0)]
+    forth, back = stretch_losses(results, ways), stretch_losses(results, ways[::-1])
+    each = np.hstack([stretch_losses(results, [way]).losses for way in ways])
+    np.testing.assert_allclose(forth.losses, back.losses[:, ::-1], rtol=1e-6)
+    np.testing.assert_allclose(forth.losses, each, rtol=1e-6)

@@ -30,13 +30,13 @@ def solve_columns(matrix: Any, diagonal: Floats, right: Floats, accuracy: float)
     solution = np.empty_like(columns)
     for first in range(0, columns.shape[1], AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        solution[:, part] = _of_unit_diagonal(unit, scale[:, None] * columns[:, part], accuracy)
+        solution[:, part] = solve_unit(unit, scale[:, None] * columns[:, part], accuracy)
     solution *= scale[:, None]
     return solution.reshape(right.shape)
 
 
-def _of_unit_diagonal(matrix: Any, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column by conjugate gradients."""
+def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
+    """Return the solution of each column; the matrix has a unit diagonal."""
     residual, direction = right.copy(), right.copy()
     solution = np.zeros_like(residual)
     square = _products(residual, residual)

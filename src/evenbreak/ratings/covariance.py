@@ -23,14 +23,13 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 from scipy.linalg import cho_factor, cho_solve
-from scipy.sparse.linalg import LinearOperator, cg
+from scipy.sparse.linalg import LinearOperator
 from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.chains.arcs import sums
-from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import PriorMeans
-from evenbreak.ratings.conjugate_gradients import solve_columns
+from evenbreak.ratings.conjugate_gradients import solve_columns, solve_unit
 from evenbreak.ratings.drawn_differences import DrawnDifferences
 from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
@@ -40,6 +39,32 @@ _DENSE_UP_TO = 2000
 
 _SOLVED_UP_TO = 100
 """Unknowns up to which a Newton step is solved exactly, which is faster than to iterate."""
+
+
+class Pattern:
+    """Where a symmetric matrix has entries: for pairs that met, and on the diagonal.
+
+    Parameters
+    ----------
+    size
+        how many players there are.
+    low, high
+        the players of each pair, sorted by the low one and then the high one.
+    """
+
+    def __init__(self, size: int, low: Places, high: Places) -> None:
+        starts = np.searchsorted(low, np.arange(size + 1))
+        place = np.arange(1.0, len(low) + size + 1)
+        upper = sparse.csr_array((place[: len(low)], high, starts), shape=(size, size))
+        self._whole = sparse.csr_array(upper + upper.T + sparse.diags_array(place[len(low) :]))
+        self._whole.sort_indices()
+        self._place = self._whole.data.astype(np.intp) - 1
+
+    def matrix(self, of_pairs: Floats, diagonal: Floats) -> sparse.csr_array:
+        """Return the matrix with these entries."""
+        data = np.concatenate([of_pairs, diagonal])[self._place]
+        whole = self._whole
+        return sparse.csr_array((data, whole.indices, whole.indptr), shape=whole.shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +85,8 @@ class Curvature:
         twice; None where it is not estimated.
     means
         the levels that players share; None where there are none.
+    pattern
+        of the same pairs, to be used again; None: it is made where it is needed.
     """
 
     size: int
@@ -70,6 +97,7 @@ class Curvature:
     border: Floats | None = None
     corner: float | None = None
     means: PriorMeans | None = None
+    pattern: Pattern | None = None
 
     @cached_property
     def matrix(self) -> sparse.csc_array:
@@ -77,13 +105,15 @@ class Curvature:
 
         Its row sums are all `precision`, unless earlier results add to them.
         """
-        upper = self._upper(-self.weight)
-        return sparse.csc_array(upper + upper.T + sparse.diags_array(self._diagonal))
+        return sparse.csc_array(self._rows.T)  # symmetric
 
-    def _upper(self, values: Floats) -> sparse.csr_array:
-        """Return an upper triangle with a value for each pair."""
-        starts = np.searchsorted(self.low, np.arange(self.size + 1))
-        return sparse.csr_array((values, self.high, starts), shape=(self.size, self.size))
+    @cached_property
+    def _rows(self) -> sparse.csr_array:
+        return self._pattern.matrix(-self.weight, self._diagonal)
+
+    @cached_property
+    def _pattern(self) -> Pattern:
+        return self.pattern or Pattern(self.size, self.low, self.high)
 
     @cached_property
     def _diagonal(self) -> Floats:
@@ -107,7 +137,7 @@ class Curvature:
     @cached_property
     def with_levels(self) -> tuple[sparse.csr_array, Floats]:
         """The block of the ratings and the levels, sparse, and its diagonal."""
-        matrix = sparse.csr_array(self.matrix)
+        matrix = self._rows
         if not len(self._levels):
             return matrix, self._diagonal
         blocks: Any = [[matrix, self._across], [self._across.T, self._levels]]
@@ -274,26 +304,29 @@ class Curvature:
 
     def _iterate(self, right: Floats, accuracy: float) -> Floats:
         """Return H⁻¹ times a vector by conjugate gradients, H scaled to a unit diagonal."""
-        diagonal = np.append(self._diagonal, np.diagonal(self._levels))
-        scale = 1.0 / np.sqrt(diagonal)
-        upper = self._upper(self.weight * scale[self.low] * scale[self.high])
-        lower = upper.T
-        of_players, of_levels = scale[: self.size], scale[self.size :]
-        across = self._across * of_players[:, None] * of_levels
-        levels = self._levels * of_levels[:, None] * of_levels
+        scale = 1.0 / np.sqrt(self._diagonal)
+        off = -self.weight * scale[self.low] * scale[self.high]
+        unit: Any = self._pattern.matrix(off, np.ones(self.size))
+        if len(self._levels):
+            of_levels = 1.0 / np.sqrt(np.diagonal(self._levels))
+            unit = _bordered(
+                unit,
+                self._across * scale[:, None] * of_levels,
+                self._levels * of_levels[:, None] * of_levels,
+            )
+            scale = np.append(scale, of_levels)
+        return scale * solve_unit(unit, (scale * right)[:, None], accuracy)[:, 0]
 
-        def times(v: Floats) -> Floats:
-            skill, level = v[: self.size], v[self.size :]
-            image = skill - upper @ skill - lower @ skill
-            if not len(level):
-                return np.asarray(image)
-            return np.concatenate([image + across @ level, across.T @ skill + levels @ level])
 
-        scaled = LinearOperator((len(right), len(right)), times, dtype=np.float64)
-        solution, failed = cg(scaled, scale * right, rtol=accuracy, atol=0.0)
-        if failed:
-            raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
-        return np.asarray(scale * solution)
+def _bordered(matrix: sparse.csr_array, across: Floats, levels: Floats) -> LinearOperator:
+    """Return a sparse matrix with some dense rows and columns more."""
+    size = len(across)
+
+    def times(v: Floats) -> Floats:
+        skill, level = v[:size], v[size:]
+        return np.concatenate([matrix @ skill + across @ level, across.T @ skill + levels @ level])
+
+    return LinearOperator((size + len(levels),) * 2, times, matmat=times, dtype=np.float64)
 
 
 def sums_by_player(

@@ -65,7 +65,9 @@ class DrawnDifferences:
         self._first, self._second = first, second
         self._accuracy = accuracy
         pairs = len(low)
-        self._ends = np.concatenate([low, high]), np.tile(np.arange(pairs), 2)
+        ends = np.concatenate([low, high]), np.tile(np.arange(pairs), 2)
+        sides = np.repeat(np.array([1.0, -1.0], dtype=np.float32), pairs)
+        self._apart = sparse.csr_array((sides, ends), shape=(players, pairs))
         # Where in the pairs that met each difference is, or after all of them.
         codes = np.append(low.astype(np.int64) * players + high, players**2)
         wanted = np.minimum(first, second).astype(np.int64) * players + np.maximum(first, second)
@@ -105,10 +107,9 @@ class DrawnDifferences:
 
         Half of a float's usual memory is enough, and so is half the time.
         """
-        root, size = np.sqrt(weight, dtype=np.float32), len(self._of_players)
-        apart = sparse.csr_array((np.append(root, -root), self._ends), shape=(size, len(root)))
+        root = np.sqrt(weight, dtype=np.float32)[:, None]
         prior: Any = self._of_players * np.float32(np.sqrt(precision))
-        skills = prior + apart @ self._of_pairs.astype(np.float32)
+        skills = prior + self._apart @ (root * self._of_pairs)
         if means is None:
             return skills
         if means.known is not None:

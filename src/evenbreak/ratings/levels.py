@@ -94,15 +94,17 @@ class Levels:
     beginning: Beginning | None = dataclasses.field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        for size in fields(self):
-            if size.name == "beginning":
-                continue
-            low = 0.0 if size.name.endswith("_sd") else -100.0
-            number(getattr(self, size.name), size.name, low=low, high=100.0)
+        for name in SIZES:
+            low = 0.0 if name.endswith("_sd") else -100.0
+            number(getattr(self, name), name, low=low, high=100.0)
 
     def __bool__(self) -> bool:
         """Return whether anything is known."""
         return any(getattr(self, size.name) not in (0.0, None) for size in fields(self))
+
+
+SIZES = tuple(each.name for each in fields(Levels) if each.name != "beginning")
+"""The fields of `Levels` that are numbers."""
 
 
 def begun(beginning: Beginning | None) -> Levels:

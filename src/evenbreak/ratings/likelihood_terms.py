@@ -22,6 +22,7 @@ log-concave, and so is every integral of it from -∞: Prékopa 1973.)
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,7 +33,7 @@ from scipy.special import betainc, betaln, expit, hyp2f1, log_expit
 from evenbreak.arrays import Floats, Ints, Places
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import PriorMeans
-from evenbreak.ratings.covariance import Curvature, sums_by_player
+from evenbreak.ratings.covariance import Curvature, Pattern, sums_by_player
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.who_broke import BreakWinsTerms, count_broken
 
@@ -79,6 +80,10 @@ class LikelihoodTerms:
         ones = np.ones(len(self.low))
         shape = (self.players, self.players)
         return sparse.coo_array((ones, (self.low, self.high)), shape=shape).tocsr()
+
+    @cached_property
+    def _pattern(self) -> Pattern:
+        return Pattern(self.players, self.low, self.high)
 
     @property
     def amount(self) -> float:
@@ -140,7 +145,15 @@ class LikelihoodTerms:
             corner = float((self.broke != 0) @ bend - self.own_break_weight @ spread)
             corner += break_precision
         return Curvature(
-            self.players, self.low, self.high, weight, precision, border, corner, means
+            self.players,
+            self.low,
+            self.high,
+            weight,
+            precision,
+            border,
+            corner,
+            means,
+            self._pattern,
         )
 
     def _net(self, pull: Floats) -> Floats:

@@ -41,7 +41,7 @@ from scipy.special import expit
 from evenbreak.arrays import Floats, Places
 from evenbreak.errors import AccuracyError
 from evenbreak.ratings.beginning import MovingMeans, PriorMeans
-from evenbreak.ratings.covariance import Curvature, PairCounts, sums_by_player
+from evenbreak.ratings.covariance import Curvature, PairCounts, Pattern, sums_by_player
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms, race_slopes
 
 
@@ -80,6 +80,7 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
     start = np.log((pairs.won + 2.0 * precision) / (pairs.lost + 2.0 * precision))
     games = pairs.games.data
     ends = len(pairs.won), pairs.low, pairs.high
+    pattern = Pattern(*ends)
     # Written over in each step, since allocating them each time takes a tenth longer.
     p_low, surplus = np.empty_like(games), np.empty_like(games)
 
@@ -89,7 +90,7 @@ def find_mode(pairs: PairCounts, precision: float) -> Mode:
         gradient = sums_by_player(*ends, surplus, games - surplus) - pairs.won + precision * skill
 
         def step() -> Floats:
-            curvature = Curvature(*ends, surplus * (1.0 - p_low), precision)
+            curvature = Curvature(*ends, surplus * (1.0 - p_low), precision, pattern=pattern)
             full, _ = curvature.newton_step(gradient, 0.0, step_accuracy(gradient))
             return damped(full, pairs.low, pairs.high)
 

@@ -21,15 +21,11 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import Beginning
-from evenbreak.ratings.clear_gains import (
-    FEWEST_STRETCHES,
-    by_enough_players,
-    gains_over,
-    is_clear,
-)
+from evenbreak.ratings.clear_gains import by_enough_players, gains_over, is_clear
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
+from evenbreak.ratings.half_lives import half_lives_for
 from evenbreak.ratings.handicap_slope import race_share
 from evenbreak.ratings.levels import Levels, begun, joined_late, known_levels
 from evenbreak.ratings.results import Results
@@ -39,7 +35,6 @@ from evenbreak.ratings.stretches import (
     Stretches,
     StretchLosses,
     can_be_predicted,
-    stretch_losses,
 )
 from evenbreak.workers import Share
 
@@ -256,7 +251,7 @@ def best_prior(
     if not choice.learnt:
         return choice._replace(levels=begun(beginning), part=part)
     evidence: list[Evidence] = []
-    chosen_for, left = way, list(more)
+    chosen_for, left, beside = way, list(more), False
     while left:
         if left[0] == "half_life" and way != chosen_for:
             # Under a prior that is too wide, old games would seem to count too much.
@@ -274,6 +269,10 @@ def best_prior(
         best, width = max(clear, key=lambda test: test[0].gain.low)
         evidence.append(best)
         left.remove(best.of)
+        if beside:  # what does not help beside one of these will not beside two
+            evidence += [without for without, _ in tested if not without.used]
+            left = [name for name in left if name not in {each.of for each in evidence}]
+        beside = best.of in OF_NEWCOMERS
         way, choice = _with(way, best.of, best.value), choice._replace(prior_sd=width)
     if any(found.used for found in evidence):
         if way != chosen_for:
@@ -318,8 +317,23 @@ class _Search:
         self._joined = min(late, len(here) - late), len(here)
         self._steps, self._done = steps, 0
         self._progress = progress
+        # What each way lost, in stretches and in matches, so that none is tried twice.
+        self._known: dict[tuple[Any, ...], tuple[Floats, Floats]] = {}
 
     def _losses(self, ways: Sequence[Mapping[str, Any]]) -> StretchLosses:
+        """Return what each way loses; two ways differ in width, half-life or levels."""
+        names = [(way["prior_sd"], way["half_life"], way["levels"]) for way in ways]
+        new = {name: way for name, way in zip(names, ways, strict=True) if name not in self._known}
+        if new:
+            self._predicted = self._tried(list(new.values()))
+            each = zip(self._predicted.losses.T, self._predicted.of_match.T, strict=True)
+            self._known |= zip(new, each, strict=True)
+        losses, of_match = zip(*(self._known[name] for name in names), strict=True)
+        return self._predicted._replace(
+            losses=np.column_stack(losses), of_match=np.column_stack(of_match)
+        )
+
+    def _tried(self, ways: Sequence[Mapping[str, Any]]) -> StretchLosses:
         steps = max(self._steps, self._done + 1)
 
         def progress(done: int, stretches: int) -> None:
@@ -362,14 +376,11 @@ class _Search:
 
         of_sizes = losses(width)
         best = int(of_sizes.means[1:].argmin())
-        narrower = tried[tried < width][-NARROWER:].tolist() if name != "half_life" else []
-        if narrower:
-            more = _with(way, name, sizes[best])
-            means = self._losses([{**more, "prior_sd": each} for each in narrower]).means
-            if means.min() < of_sizes.means[1 + best]:
-                width = narrower[int(means.argmin())]
-                of_sizes = losses(width)
-                best = int(of_sizes.means[1:].argmin())
+        gained = of_sizes.means[1 + best] < of_sizes.means[0]
+        if name == "race" or (gained and name != "half_life"):
+            width = self._narrowed(_with(way, name, sizes[best]), tried)
+            of_sizes = losses(width)
+            best = int(of_sizes.means[1:].argmin())
         clear = is_clear(of_sizes)
         enough, players = self._behind(name, of_sizes, 1 + best)
         found = Evidence(
@@ -382,6 +393,20 @@ class _Search:
             too_few=clear and not enough,
         )
         return found, width
+
+    def _narrowed(self, way: Mapping[str, Any], tried: Floats) -> float:
+        """Return the width of a way, or a narrower one, as long as each predicts better."""
+        best = float(way["prior_sd"])
+        least = self._losses([way]).means[0]
+        narrower = tried[tried < best][: -NARROWER - 1 : -1].tolist()
+        together = len(narrower) if self._season.is_small else 1
+        for k in range(0, len(narrower), max(together, 1)):
+            some = narrower[k : k + together]
+            losses = self._losses([{**way, "prior_sd": width} for width in some]).means
+            if losses.min() >= least:
+                break
+            best, least = some[int(losses.argmin())], losses.min()
+        return best
 
     def _behind(self, name: str, of_sizes: StretchLosses, best: int) -> tuple[bool, int]:
         """Return whether a gain rests on enough players, and on how many."""
@@ -434,60 +459,3 @@ def _as_it_went(of_width: StretchLosses, tried: Floats) -> float:
     before[0] = _from_default(tried)
     chosen = of_width.losses[np.arange(len(before)), before.argmin(1)]
     return float(chosen.sum() / of_width.predicted.sum())
-
-
-HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)
-"""The half-lives tried, in days; the longer ones only in files that cover as many days."""
-
-
-class HalfLifeGain(NamedTuple):
-    """What a half-life gains over games that never age.
-
-    Parameters
-    ----------
-    half_life
-        days after which a match counts half.
-    gain
-        how much log-loss a game it saves, in nats.
-    """
-
-    half_life: float
-    gain: Estimate
-
-
-def half_lives_for(results: Results) -> tuple[float, ...]:
-    """Return the half-lives to try: those up to a year, and those that the file is longer than."""
-    dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
-    days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
-    return tuple(half_life for half_life in HALF_LIVES if half_life <= max(days, 365.0))
-
-
-def half_life_gains(
-    results: Results,
-    prior_sd: float,
-    *,
-    levels: Levels | None = None,
-    half_lives: Sequence[float] | None = None,
-    progress: Callable[[int, int], None] = lambda _done, _all: None,
-    share: Share | None = None,
-) -> tuple[HalfLifeGain, ...]:
-    """Return what each half-life gains in predicting a season from the days before.
-
-    Nothing is returned for a season of fewer than ten stretches.
-
-    Parameters
-    ----------
-    results, progress, share
-        as for `stretch_losses`.
-    prior_sd, levels
-        as for `fit`.
-    half_lives
-        days; None: those of `half_lives_for`.
-    """
-    tried = half_lives_for(results) if half_lives is None else half_lives
-    how = {"prior_sd": prior_sd, "levels": levels}
-    ways = [{**how, "half_life": days} for days in (None, *tried)]
-    of_ways = stretch_losses(results, ways, progress=progress, share=share)
-    if len(of_ways.losses) < FEWEST_STRETCHES:
-        return ()
-    return tuple(map(HalfLifeGain, tried, gains_over(of_ways)))

@@ -30,6 +30,7 @@ from evenbreak.ratings.first_evenings import FirstEvenings
 from evenbreak.ratings.fit import BREAK_SD, PRIOR_SD, checked_prior, known_advantage, weights_of
 from evenbreak.ratings.integrated import Scores
 from evenbreak.ratings.levels import (
+    SIZES,
     Levels,
     StatedStrength,
     first_evenings,
@@ -135,6 +136,11 @@ class Stretches:
         self._played, self._date = _played(results)
         self._ends = _stretches(self._date)
         self._ready: dict[tuple[int, bool], tuple[SeasonSoFar, Scores]] = {}
+
+    @property
+    def is_small(self) -> bool:
+        """Whether several ways take little longer than one."""
+        return len(self._played.players) <= SOLVED_AT_ONCE
 
     def losses(
         self,
@@ -285,6 +291,22 @@ SOLVED_AT_ONCE = 80
 """Players up to which all ways are solved together, which is faster than one after the other."""
 
 
+MOST_AHEAD = 2.0
+"""How far beyond two ways that have been rated a third one is begun on the line through them."""
+
+
+def _place(
+    *,
+    prior_sd: float = PRIOR_SD,
+    half_life: float | None = None,
+    levels: Levels | None = None,
+    **_other: Any,
+) -> Floats:
+    """Return where a way to rate is, so that the modes of near ones are near each other."""
+    sizes = [getattr(levels or Levels(), name) for name in SIZES]
+    return np.array([math.log(prior_sd), 200.0 / half_life if half_life else 0.0, *sizes])
+
+
 class SeasonSoFar:
     """The matches before some day, to be rated in several ways.
 
@@ -309,7 +331,8 @@ class SeasonSoFar:
         self._means: dict[Levels, PriorMeans | None] = {}
         self._stated = StatedStrength(results)
         self._evenings: FirstEvenings | None = None
-        self._last: Floats | None = None
+        # Where ways are (see `_place`), and their modes.
+        self._found: list[tuple[Floats, Floats]] = []
 
     def skills(self, ways: Sequence[Mapping[str, Any]]) -> tuple[Floats, Floats]:
         """Return the skills in each way, and the break advantages, both in natural log-odds.
@@ -317,14 +340,14 @@ class SeasonSoFar:
         The options of a way are those of `fit`: a prior, a half-life, a break advantage with its
         scale, and levels. All ways have a break advantage, or none.
         """
-        return self._modes([self._asked(**way) for way in ways])
+        return self._modes(ways, [self._asked(**way) for way in ways])
 
     def differences(
         self, ways: Sequence[Mapping[str, Any]], first: Places, second: Places
     ) -> Differences:
         """Return how some players differ, rated in each way; the ways are those of `skills`."""
         asked = [self._asked(**way) for way in ways]
-        skills, advantages = self._modes(asked)
+        skills, advantages = self._modes(ways, asked)
         if self._players <= SOLVED_AT_ONCE:
             variance = difference_variances(asked, skills, advantages, first, second)
         else:
@@ -349,13 +372,40 @@ class SeasonSoFar:
         )
         return np.array([curvature.drawn(drawn) for curvature in curvatures])
 
-    def _modes(self, asked: Sequence[WayToRate]) -> tuple[Floats, Floats]:
+    def _modes(
+        self, ways: Sequence[Mapping[str, Any]], asked: Sequence[WayToRate]
+    ) -> tuple[Floats, Floats]:
+        places = [_place(**way) for way in ways]
         if self._players <= SOLVED_AT_ONCE:
-            skills, advantages = find_modes(asked, self._last)
-            self._last = skills[-1]
+            starts = [self._start(place) for place in places] if self._found else None
+            skills, advantages = find_modes(asked, None if starts is None else np.array(starts))
+            self._found += zip(places, skills, strict=True)
             return skills, advantages
-        points = np.array([self._mode(way) for way in asked])
-        return points[:, :-1], points[:, -1]
+        points = []
+        for place, way in zip(places, asked, strict=True):
+            points.append(self._mode(way, self._start(place)))
+            self._found.append((place, points[-1][:-1]))
+        found = np.array(points)
+        return found[:, :-1], found[:, -1]
+
+    def _start(self, place: Floats) -> Floats | None:
+        """Return skills near the mode of a way: on the line through those of two others, if any."""
+        if not self._found:
+            return None
+        places, modes = zip(*self._found, strict=True)
+        apart = place - np.array(places)
+        size = np.square(apart).sum(1)
+        nearest = int(size.argmin())
+        start, wanted = modes[nearest], apart[nearest]
+        steps = apart - wanted  # from the others to the nearest
+        length = np.square(steps).sum(1)
+        share = (steps @ wanted) / np.where(length > 0.0, length, 1.0)
+        aside = np.square(wanted - share[:, None] * steps).sum(1)
+        on_line = (length > 0.0) & (aside <= 1e-9 * size[nearest]) & (np.abs(share) <= MOST_AHEAD)
+        if not on_line.any():
+            return np.asarray(start)
+        other = int(np.where(on_line, np.abs(share), np.inf).argmin())
+        return np.asarray(start + share[other] * (start - modes[other]))
 
     def _asked(
         self,
@@ -379,7 +429,7 @@ class SeasonSoFar:
             self._means_of(levels or Levels(), half_life),
         )
 
-    def _mode(self, way: WayToRate) -> Floats:
+    def _mode(self, way: WayToRate, start: Floats | None) -> Floats:
         """Return the skills and the break advantage in one way."""
         mode = find_mixed_mode(
             way.terms,
@@ -387,11 +437,10 @@ class SeasonSoFar:
             advantage=way.advantage,
             break_precision=way.break_precision,
             means=way.means,
-            start=self._last,
+            start=start,
             gradient=GRADIENT,
         )
-        self._last = mode.point[: self._players]
-        return np.append(self._last, mode.point[-1])
+        return np.append(mode.point[: self._players], mode.point[-1])
 
     def _terms_of(self, half_life: float | None, *, breaks: bool) -> LikelihoodTerms:
         if (half_life, breaks) not in self._terms:

@@ -14,8 +14,9 @@ from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, wilson
 from evenbreak.ratings.fit import PRIOR_SD, fit
 from evenbreak.ratings.fitted import Ratings
+from evenbreak.ratings.half_lives import HalfLifeGain, half_life_gains
 from evenbreak.ratings.levels import Levels, begun, known_levels
-from evenbreak.ratings.prior import HalfLifeGain, PriorChoice, best_prior, half_life_gains
+from evenbreak.ratings.prior import PriorChoice, best_prior
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.validation.advantages import (
     ByExperience,

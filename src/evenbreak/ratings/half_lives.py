@@ -1,0 +1,71 @@
+"""Whether results should count less with age: what each half-life gains in prediction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.ratings.clear_gains import FEWEST_STRETCHES, gains_over
+from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.levels import Levels
+from evenbreak.ratings.results import Results
+from evenbreak.ratings.stretches import stretch_losses
+from evenbreak.workers import Share
+
+HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)
+"""The half-lives tried, in days; the longer ones only in files that cover as many days."""
+
+
+class HalfLifeGain(NamedTuple):
+    """What a half-life gains over games that never age.
+
+    Parameters
+    ----------
+    half_life
+        days after which a match counts half.
+    gain
+        how much log-loss a game it saves, in nats.
+    """
+
+    half_life: float
+    gain: Estimate
+
+
+def half_lives_for(results: Results) -> tuple[float, ...]:
+    """Return the half-lives to try: those up to a year, and those that the file is longer than."""
+    dates = np.zeros(0) if results.date is None else results.date[~np.isnat(results.date)]
+    days = float((dates.max() - dates.min()) / np.timedelta64(1, "D")) if len(dates) else 0.0
+    return tuple(half_life for half_life in HALF_LIVES if half_life <= max(days, 365.0))
+
+
+def half_life_gains(
+    results: Results,
+    prior_sd: float,
+    *,
+    levels: Levels | None = None,
+    half_lives: Sequence[float] | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _all: None,
+    share: Share | None = None,
+) -> tuple[HalfLifeGain, ...]:
+    """Return what each half-life gains in predicting a season from the days before.
+
+    Nothing is returned for a season of fewer than ten stretches.
+
+    Parameters
+    ----------
+    results, progress, share
+        as for `stretch_losses`.
+    prior_sd, levels
+        as for `fit`.
+    half_lives
+        days; None: those of `half_lives_for`.
+    """
+    tried = half_lives_for(results) if half_lives is None else half_lives
+    how = {"prior_sd": prior_sd, "levels": levels}
+    ways = [{**how, "half_life": days} for days in (None, *tried)]
+    of_ways = stretch_losses(results, ways, progress=progress, share=share)
+    if len(of_ways.losses) < FEWEST_STRETCHES:
+        return ()
+    return tuple(map(HalfLifeGain, tried, gains_over(of_ways)))
