@@ -61,7 +61,7 @@ def test_few_matches_and_a_break_advantage_say_nothing():
 
 def test_only_what_is_established_is_stated():
     sure, doubtful = DayForm(Estimate(0.16, 0.1, 0.22), 400), DayForm(Estimate(0.16, 0, 0.32), 90)
-    assert sure.sd_error == pytest.approx(0.06 / 1.96 / 0.8)
+    assert sure.sd_error == pytest.approx(0.06 / 1.959964 / 0.8)
     assert sure.used == 0.4
     assert doubtful.used == 0.0
     season = league(0.5, 1, players=4, days=5)

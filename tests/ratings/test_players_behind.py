@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from evenbreak.ratings.clear_gains import FEWEST_PLAYERS, SURE, by_enough_players
+from evenbreak.ratings.clear_gains import FEWEST_PLAYERS, LIKELY, by_enough_players, is_clear
 from evenbreak.ratings.players_behind import PlayersBehind
 from evenbreak.ratings.stretches import StretchLosses
 from tiers import examples
@@ -71,5 +71,12 @@ def test_the_error_covers_a_sum_over_players_who_differ():
         a = rng.integers(0, 30, 300)
         b = (a + rng.integers(1, 30, 300)) % 30
         u = of_player[a] + of_player[b] + rng.normal(size=300)
-        far += u.sum() > SURE * PlayersBehind(a, b).spread(u)
+        far += u.sum() > LIKELY * PlayersBehind(a, b).spread(u)
     assert 0.06 <= far / 400 <= 0.14
+
+
+def test_what_changes_nothing_is_not_clear():
+    nothing = StretchLosses(
+        np.ones((20, 3)), np.ones(20), np.ones((20, 3)), PlayersBehind(*np.zeros((2, 20), int))
+    )
+    assert not is_clear(nothing)

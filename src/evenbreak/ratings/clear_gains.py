@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from evenbreak.arrays import Ints
-from evenbreak.ratings.estimates import Estimate, ratio_over, samples
+from evenbreak.ratings.estimates import SURE, Estimate, ratio_over, samples
 from evenbreak.ratings.stretches import StretchLosses
 
 FEWEST_STRETCHES = 10
@@ -27,8 +27,8 @@ EVIDENCE = 20.0
 SEED = 1
 """Of the bootstrap, so that the same file always has the same answer."""
 
-SURE = 1.282
-"""How many standard errors a gain must be above 0, stretches or players resampled: 90%."""
+LIKELY = 1.282
+"""How many standard errors a gain is above 0 with 90% confidence."""
 
 FEWEST_PLAYERS = 4
 """How many players a gain must rest on."""
@@ -67,8 +67,8 @@ def is_clear(of_ways: StretchLosses) -> bool:
     saved = of_ways.losses.sum(0)[0] - of_ways.losses.sum(0)[1:]
     score = float(logsumexp(saved)) - math.log(len(saved))
     best = max(gains, key=lambda gain: gain.value)
-    return any(_errors(gain) > 2.576 for gain in gains) or (
-        score >= math.log(EVIDENCE) and _errors(best) > SURE
+    return any(gain.errors_above() > SURE for gain in gains) or (
+        score >= math.log(EVIDENCE) and best.errors_above() > LIKELY
     )
 
 
@@ -80,16 +80,10 @@ def by_enough_players(of_ways: StretchLosses, way: int) -> tuple[bool, int]:
     """
     gain = of_ways.of_match[:, 0] - of_ways.of_match[:, way]
     players = of_ways.players.behind(gain)
-    sure = float(gain.sum()) > SURE * of_ways.players.spread(gain)
+    sure = float(gain.sum()) > LIKELY * of_ways.players.spread(gain)
     return sure and players >= FEWEST_PLAYERS, players
 
 
 @cache
 def _samples(stretches: int) -> Ints:
     return samples(stretches, np.random.default_rng(SEED))
-
-
-def _errors(gain: Estimate) -> float:
-    """Return by how many standard errors a gain is above 0: the interval is 1.96 each way."""
-    middle, half = (gain.high + gain.low) / 2.0, (gain.high - gain.low) / 2.0
-    return 1.960 * middle / half if half > 0.0 else math.copysign(math.inf, middle)

@@ -14,6 +14,9 @@ CONFIDENCE = 0.95
 """How often intervals cover the truth."""
 
 
+SURE = 2.576
+"""How many standard errors a figure is above what it is compared with at 99% confidence."""
+
 REPLICAS = 2_000
 """Samples of a bootstrap."""
 
@@ -50,6 +53,16 @@ class Estimate(NamedTuple):
     def standard_error(self) -> float:
         """The standard error, by the length of the interval."""
         return (self.high - self.low) / (2.0 * _Z)
+
+    def errors_above(self, what: float = 0.0) -> float:
+        """Return by how many standard errors the middle of the interval is above something.
+
+        >>> Estimate(0.3, -0.1, 0.5).errors_above(0.2), Estimate(0.3, 0.3, 0.3).errors_above()
+        (0.0, inf)
+        """
+        above = (self.low + self.high) / 2.0 - what
+        error = self.standard_error
+        return above / error if error > 0.0 else math.inf * above if above else 0.0
 
 
 def with_error(value: float, error: float) -> Estimate:

@@ -95,8 +95,7 @@ def fit(
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
         players bring along; None: every player's prior has the same mean.
     provisional
-        ratings from fewer games than this have no place in lists (see `Ratings.provisional`);
-        None: 200, or a third of what the league's regulars have if that is less.
+        ratings from fewer games than this have no place in lists; None: see `established_from`.
     form
         how much players vary from match to match: the standard deviation of a game's log-odds.
     near

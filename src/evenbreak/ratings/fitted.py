@@ -14,7 +14,7 @@ from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.errors import InputError
 from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.covariance import Curvature, PairCounts
-from evenbreak.ratings.estimates import Estimate
+from evenbreak.ratings.estimates import SURE, Estimate
 from evenbreak.ratings.levels import Levels, newness
 from evenbreak.ratings.likelihood_terms import LikelihoodTerms
 from evenbreak.ratings.provisional import established_from, is_provisional
@@ -64,14 +64,12 @@ class DayForm:
     @property
     def sd_error(self) -> float:
         """The standard error of `sd`."""
-        error = (self.variance.high - self.variance.low) / (2.0 * 1.960)
-        return error / (2.0 * self.sd) if self.sd else math.inf
+        return self.variance.standard_error / (2.0 * self.sd) if self.sd else math.inf
 
     @property
     def established(self) -> bool:
         """Whether the variance is above 0 with 99% confidence."""
-        middle = (self.variance.high + self.variance.low) / 2.0
-        return middle - (self.variance.high - middle) * 2.576 / 1.960 > 0.0
+        return self.variance.errors_above() > SURE
 
     @property
     def used(self) -> float:

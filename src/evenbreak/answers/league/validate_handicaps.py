@@ -41,10 +41,8 @@ def clearly_off(estimate: Estimate, right: float, *, tests: int = 1) -> int:
     >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
     (-1, 0)
     """
-    # The interval is of 95%, that is 1.96 standard errors each way; 2.58 leave out 1%.
-    far = (estimate.high - estimate.low) / 2.0 * ndtri(1.0 - UNLIKELY / (2.0 * tests)) / 1.960
-    middle = (estimate.high + estimate.low) / 2.0
-    return int(middle - far > right) - int(middle + far < right)
+    above, far = estimate.errors_above(right), ndtri(1.0 - UNLIKELY / (2.0 * tests))
+    return int(above > far) - int(above < -far)
 
 
 def scored_of(found: Validation, of: Of) -> Scored:
