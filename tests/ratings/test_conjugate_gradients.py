@@ -1,10 +1,11 @@
-"""Sums over the steps of conjugate gradients, against the dense inverse."""
+"""Conjugate gradients, against the dense inverse."""
 
 import numpy as np
 import pytest
 from scipy import sparse
 
-from evenbreak.ratings.conjugate_gradients import energies
+from evenbreak.errors import AccuracyError
+from evenbreak.ratings.conjugate_gradients import energies, solve_unit
 
 
 def league(kind, rng, players=120):
@@ -48,3 +49,21 @@ def test_a_column_of_its_own_direction_takes_one_step():
         4.0,
         0.0,
     ]
+
+
+def test_a_chain_that_a_weak_prior_hardly_holds_is_solved_all_the_same():
+    """Its condition is 2e8, so that it takes more steps than it has players."""
+    size = 400
+    weight = 10.0 ** np.random.default_rng(1).uniform(-3, 0, size - 1)
+    matrix = np.diag(np.append(weight, 0.0) + np.append(0.0, weight) + 1e-8)
+    matrix -= np.diag(weight, 1) + np.diag(weight, -1)
+    scale = 1.0 / np.sqrt(np.diagonal(matrix))
+    unit, right = matrix * scale[:, None] * scale, np.zeros((size, 1))
+    right[[0, -1], 0] = scale[[0, -1]] * [1.0, -1.0]
+    found = solve_unit(sparse.csr_array(unit), right, 1e-12)
+    np.testing.assert_allclose(found, np.linalg.solve(unit, right), rtol=1e-6)
+
+
+def test_what_has_no_solution_is_refused():
+    with pytest.raises(AccuracyError, match="smaller prior_sd"):
+        solve_unit(np.ones((2, 2)), np.array([[1.0], [-1.0]]), 1e-6)

@@ -8,6 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from evenbreak.arrays import Floats
+from evenbreak.errors import AccuracyError
 
 AT_ONCE = 32
 """Columns solved together: few enough to stay in the processor's cache."""
@@ -36,14 +37,20 @@ def solve_columns(matrix: Any, diagonal: Floats, right: Floats, accuracy: float)
 
 
 def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column; the matrix has a unit diagonal."""
+    """Return the solution of each column; the matrix has a unit diagonal.
+
+    Raises
+    ------
+    AccuracyError
+        if ten steps for each unknown are too few, as rounding makes the matrix nearly singular.
+    """
     residual, direction = right.copy(), right.copy()
     solution = np.zeros_like(residual)
     square = _products(residual, residual)
     enough = accuracy**2 * square
-    for _ in range(2 * len(right) + 100):
+    for _ in range(10 * len(right) + 1):
         if (square <= enough).all():
-            break
+            return solution
         image = matrix @ direction
         curvature = _products(direction, image)
         length = np.divide(square, curvature, out=np.zeros_like(square), where=curvature > 0)
@@ -53,7 +60,7 @@ def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
         before, square = square, _products(residual, residual)
         direction *= np.divide(square, before, out=np.zeros_like(square), where=before > 0)
         direction += residual
-    return solution
+    raise AccuracyError("the ratings' covariance was not found; give a smaller prior_sd")
 
 
 def energies(matrix: Any, right: Any, accuracy: float) -> Floats:
