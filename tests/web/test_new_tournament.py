@@ -136,7 +136,7 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"qualifiers": 3}, "another power of 2"),
         ({"qualifiers": 2, "final": "single"}, "one final"),
         ({"format": "single", "knockout_size": 3}, "no groups"),
-        ({"format": "groups", "groups": 3}, "for 4 players; with fewer groups"),
+        ({"format": "groups", "groups": 3}, "for 4 players, but each group needs 2"),
         ({"format": "pods"}, "too few"),
         ({"races": "npl_8", "losers_race": 2}, "sets all races"),
         ({"races": "nobody's"}, "must be one of"),

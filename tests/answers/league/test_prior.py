@@ -90,3 +90,7 @@ def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch)
     ]
     assert not list(groups_warnings(file, chosen._replace(learnt=False)))
     assert not list(groups_warnings(file, None))
+
+
+def test_a_share_of_the_field_above_one_is_said():
+    assert "125% of how far" in " ".join(level_words(fit(SEASON, levels=Levels(field=1.25)), None))

@@ -8,7 +8,7 @@ import numpy as np
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Show, Table
 from evenbreak.answers.kit.remarks import MOST_NAMES
-from evenbreak.answers.kit.wording import count_of, decimals, percent, some_of
+from evenbreak.answers.kit.wording import count_of, decimals, some_of
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.ratings.fitted import Group, Ratings
 from evenbreak.ratings.levels import GROUPS, OPENING, SETTLED, too_many_groups
@@ -147,13 +147,13 @@ def _field_words(share: float, error: float | None) -> Sentence:
         return say(
             "Newcomers start where the field at their first event suggests: {share} of how far "
             "that field was above or below the usual one is taken to be theirs too.",
-            share=percent(share),
+            share=Figure(share, ".0%"),
         )
     return say(
         "Newcomers start where the field at their first event suggests: {share} of how far that "
         "field was above or below the usual one is taken to be theirs too, give or take {error}.",
-        share=percent(share),
-        error=percent(error),
+        share=Figure(share, ".0%"),
+        error=Figure(error, ".0%"),
     )
 
 
@@ -173,7 +173,9 @@ def evidence_table(choice: PriorChoice) -> Table:
     rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
     title = (
         "What it gains to let more count, each in addition to those above it, with 95% intervals "
-        "from resampling stretches of the season. What is not clearly above 0 is not used:"
+        "from resampling stretches of the season. What is used must rest on more than a few "
+        "players, and its gain be above 0 with 99% confidence; or with 90%, if the results are 20 "
+        "times likelier with it:"
     )
     return Table("", columns, rows, title)
 

@@ -10,7 +10,7 @@ import numpy as np
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Part, Table
-from evenbreak.answers.kit.wording import percent
+from evenbreak.answers.kit.wording import decimals, percent
 from evenbreak.answers.tournament.bracket_view import group_words
 from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
 from evenbreak.answers.tournament.odds import points_off
@@ -228,7 +228,7 @@ def _title_table(night: Outlook) -> Table:
 
 
 def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answer:
-    columns = columns_of("name rating")
+    columns = columns_of("name rating", show={"rating": decimals(1)})
     rows = [[entrant.name, entrant.rating] for entrant in state.entrants.values()]
     if state.plan.form == "chips":
         columns.append(column_of("chips"))

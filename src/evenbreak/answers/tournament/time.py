@@ -7,8 +7,6 @@ from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
-import numpy as np
-
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of, quantity_of
 from evenbreak.answers.kit.parts import Part, Quantities, Quantity, Table
@@ -18,7 +16,7 @@ from evenbreak.answers.tournament.tournament import Tournament, pair_words
 from evenbreak.arrays import Floats
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
-from evenbreak.tournaments.clock.event_pace import EarlierNight, event_pace, nights_of
+from evenbreak.tournaments.clock.event_pace import EarlierNight, event_pace, nights_of, venue_ratio
 from evenbreak.tournaments.clock.finish import QUANTILES, Finish, bands_of, finish, minutes_later
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
 from evenbreak.words import Sentence, joined, say, say_count
@@ -206,26 +204,33 @@ def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | 
     """Return how fast the nights of a discipline were at a venue; '' if there was none.
 
     >>> nights = [EarlierNight(f"2025-03-0{k}T19:30:00", "9-ball", 1.1) for k in (1, 2)]
-    >>> print(venue_words("9-ball", nights).partition(";")[0])
-    Your last 2 nights of 9-ball at this venue ran 10% longer than usual
+    >>> print(venue_words("9-ball", nights))
+    Your last 2 nights of 9-ball at this venue ran 10% longer than usual; the times are 5% longer
+    than usual, as part of that may be chance.
     """
     nights = nights_of(discipline, earlier)
     if not nights:
         return ""
-    ratio = float(np.exp(np.mean([np.log(one.ratio) for one in nights])))
-    off = percent(abs(ratio - 1.0))
-    ran = say("{share} longer than usual", share=off)
-    if ratio < 1.0:
-        ran = say("{share} shorter than usual", share=off)
-    if abs(ratio - 1.0) < 0.005:
-        ran = say("as long as usual")
+    ran = _against_usual(venue_ratio(nights, prior_nights=0.0))
+    times = _against_usual(venue_ratio(nights))
+    allowed = say("the times are {times}, as part of that may be chance", times=times)
     return say_count(
-        "Your last night of {game} at this venue ran {longer}; the times allow for it.",
-        "Your last {n} nights of {game} at this venue ran {longer}; the times allow for it.",
+        "Your last night of {game} at this venue ran {longer}; {allowed}.",
+        "Your last {n} nights of {game} at this venue ran {longer}; {allowed}.",
         len(nights),
         game=discipline,
         longer=ran,
+        allowed=say("the times allow for it") if times == ran else allowed,
     )
+
+
+def _against_usual(ratio: float) -> Sentence:
+    if round(ratio, 2) == 1.0:
+        return say("as long as usual")
+    share = percent(round(abs(ratio - 1.0), 2))
+    if ratio < 1.0:
+        return say("{share} shorter than usual", share=share)
+    return say("{share} longer than usual", share=share)
 
 
 def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> str:

@@ -122,7 +122,7 @@ def print_answer(answer: Answer, face: str, *, verbose: bool = False) -> None:
     elif face == "csv":
         from evenbreak.answers.faces.to_csv import to_csv
 
-        for line in "\n".join([answer.heading, *answer.sentences]).split("\n"):
+        for line in "\n".join(map(said, [answer.heading, *answer.sentences])).split("\n"):
             say(line)
         for line in to_csv(answer):
             click.echo(line.encode(), nl=False)

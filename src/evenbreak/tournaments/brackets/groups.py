@@ -96,13 +96,13 @@ def groups_then_knockout(
     count = whole(groups, "groups", at_least=1)
     going_on, best = whole(qualifiers, "qualifiers", at_least=1), 0
     if knockout_size is not None:
-        size = whole(knockout_size, "knockout_size", at_least=2)
+        size = whole(knockout_size, "knockout_size", at_least=2, at_most=len(names))
         going_on, best = divmod(size, count)
     fewest = max(2, going_on + (best > 0))
     if len(names) // count < fewest:
         raise InputError(
-            "{name} is {value!r} for {players} players; with fewer groups each has the "
-            "{fewest} players it needs",
+            "{name} is {value!r} for {players} players, but each group needs {fewest}; make fewer "
+            "groups, or let fewer players go on",
             name=Parameter("groups"),
             value=groups,
             players=len(names),

@@ -53,6 +53,23 @@ def nights_of(discipline: str, earlier: Iterable[EarlierNight]) -> list[EarlierN
     return [one for one in earlier if one.discipline == discipline]
 
 
+def venue_ratio(nights: Sequence[EarlierNight], prior_nights: float = _PRIOR_NIGHTS) -> float:
+    """Return how many times as long as usual matches take at a venue, from its earlier nights.
+
+    Parameters
+    ----------
+    nights
+        of one discipline.
+    prior_nights
+        how many nights at the usual pace are added; 0 for what the nights took on average.
+
+    >>> venue_ratio([EarlierNight("2025-03-01T19:30:00", "9-ball", 1.21)] * 2).__round__(3)
+    1.1
+    """
+    logs = [math.log(one.ratio) for one in nights]
+    return math.exp(sum(logs) / (len(logs) + prior_nights))
+
+
 def event_pace(pace: Pace | str, earlier: Iterable[EarlierNight] = ()) -> Pace:
     """Return the pace of a whole event: the calibrated one of a discipline, or a given pace.
 
@@ -80,12 +97,11 @@ def event_pace(pace: Pace | str, earlier: Iterable[EarlierNight] = ()) -> Pace:
         return kind_of(pace, "pace", Pace)
     usual = pace_of(pace)
     level, usual_sd = _EVENTS[pace]
-    logs = [math.log(one.ratio) for one in nights_of(pace, earlier)]
-    weight = len(logs) + _PRIOR_NIGHTS
-    not_known = 1.0 - _VENUE + _VENUE * _PRIOR_NIGHTS / weight
+    nights = nights_of(pace, earlier)
+    not_known = 1.0 - _VENUE + _VENUE * _PRIOR_NIGHTS / (len(nights) + _PRIOR_NIGHTS)
     evening_sd = usual_sd * math.sqrt(not_known)
     # The ratios are of middles, and the pace is a mean.
-    level *= math.exp(sum(logs) / weight + (evening_sd**2 - usual_sd**2) / 2.0)
+    level *= venue_ratio(nights) * math.exp((evening_sd**2 - usual_sd**2) / 2.0)
     return replace(_times(usual, level), evening_sd=evening_sd)
 
 
