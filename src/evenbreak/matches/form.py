@@ -143,7 +143,7 @@ def chance_in_form(
         the games played, which show some of it.
 
     >>> chance_in_form((5, 5), 0.5)([0.0, 1.0]).round(4)
-    array([0.5   , 0.9291])
+    array([0.5   , 0.8987])
     """
     at = np.linspace(-_FARTHEST, _FARTHEST, _GRID)
     nodes, weights = normal_rule(form, sum(needs), MOST_NODES)

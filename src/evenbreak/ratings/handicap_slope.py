@@ -84,7 +84,7 @@ def race_share(results: Results) -> Estimate | None:
     >>> season = Results.from_names(["Ann"] * 4, ["Bo", "Cy"] * 2, [7, 5, 7, 6], [4, 5, 4, 5],
     ...     race_a=[7] * 4, race_b=[5] * 4)
     >>> round(race_share(season).value, 2)
-    0.63
+    0.92
     """
     season = results.played().results
     implied = implied_difference(season)

@@ -115,7 +115,7 @@ def stretch_losses(
     ... )
     >>> found = stretch_losses(season, [{"prior_sd": 0.1}, {"prior_sd": 0.5}])
     >>> found.losses.shape, found.predicted, found.means.round(3)
-    ((2, 2), array([11., 11.]), array([0.688, 0.66 ]))
+    ((2, 2), array([11., 11.]), array([0.688, 0.676]))
     """
     return Stretches(results).losses(ways, progress=progress, share=share)
 
