@@ -96,7 +96,11 @@ def test_a_real_season_whose_first_column_wins_more():
 def test_races_of_a_length_that_favourites_win_less_are_named(sided, share, word):
     won = round(share * 4000)
     long = RaceLengths(6, 9, 4000, won, share, *wilson(share, 4000), 0.71)
-    text = said(dataclasses.replace(sided, lengths=(long,)), "races to")
+    short = RaceLengths(3, 5, 4000, 2600, 0.65, *wilson(0.65, 4000), 0.65)
+    text = said(dataclasses.replace(sided, lengths=(short, long)), "races")
     assert (text is not None) == (word is not None)
     if text:
-        assert "races to 6 to 9 games less often than predicted: 68% of 4,000 (71%" in text
+        assert text == (
+            "In the longer races (6 to 9 games), favourites win less often than predicted: 68% of "
+            "4,000 (71% predicted)."
+        )

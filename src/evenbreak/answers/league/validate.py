@@ -317,13 +317,13 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
 
 def _lengths(found: Validation) -> Iterator[str]:
     """Yield of which races favourites win more or less than predicted."""
-    for half in found.lengths:
+    for half, of in zip(found.lengths, ("shorter", "longer"), strict=False):
         share = Estimate(half.share, half.low, half.high)
         if way := clearly_off(share, half.predicted, tests=len(found.lengths)):
             yield (
-                f"Favourites win races to {span_of(half)} games {more_or_less(way > 0)} often than "
-                f"predicted: {percent(half.share)} of {half.matches:,} ({percent(half.predicted)} "
-                "predicted)."
+                f"In the {of} races ({span_of(half)} games), favourites win "
+                f"{more_or_less(way > 0)} often than predicted: {percent(half.share)} of "
+                f"{half.matches:,} ({percent(half.predicted)} predicted)."
             )
 
 

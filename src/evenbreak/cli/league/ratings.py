@@ -165,7 +165,7 @@ def validate(asked: Validate) -> Answer:
     prior_sd = prior_in_log_odds(asked, asked.scale) if isinstance(asked.prior, float) else None
     file = files.read_seasons(asked.results, **asked.reading)
     try:
-        with _workers(asked) as client, Progress("dates") as progress:
+        with _workers(asked) as client, Progress("steps") as progress:
             validation = validated(
                 file.results,
                 prior_sd=prior_sd,
