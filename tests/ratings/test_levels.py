@@ -9,6 +9,7 @@ from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings import Results, best_prior, fit, walk_forward
 from evenbreak.ratings.clear_gains import FEWEST_PLAYERS
 from evenbreak.ratings.levels import (
+    NEWER,
     RECENT,
     Levels,
     StatedStrength,
@@ -17,6 +18,8 @@ from evenbreak.ratings.levels import (
     joined_late,
     known_levels,
     means_of,
+    met_as_newcomers,
+    newness,
 )
 from evenbreak.ratings.validation.starts import starts
 from simulated_levels import SPREAD, TEAMS, givers, harm, league, race_covered, teams_covered
@@ -111,7 +114,22 @@ def test_a_handful_of_many_players_are_too_few_to_expect_less_of_those_who_join_
     (joined,) = [one for one in choice.evidence if one.of == "joined"]
     assert (joined.used, joined.too_few) == (False, True)
     assert joined.players == joined_late(results).sum()
-    assert choice.levels.joined == 0.0
+    # Nor may they come in by another door.
+    assert choice.levels.joined == choice.levels.newcomers == 0.0
+
+
+def test_who_met_others_as_a_newcomer_is_who_was_clearly_newer():
+    results, *_ = league(np.random.default_rng(3), days=8, below=0.5)
+    games, new = np.zeros(len(results.players)), set()
+    for a, b, m, n in zip(
+        results.player_a, results.player_b, results.score_a, results.score_b, strict=True
+    ):
+        for player, other in ((a, b), (b, a)):
+            if newness(games[player]) - newness(games[other]) > NEWER:
+                new.add(player)
+        games[[a, b]] += m + n
+    assert 0 < len(new) < len(games)
+    assert set(np.flatnonzero(met_as_newcomers(results))) == new
 
 
 @pytest.mark.slow

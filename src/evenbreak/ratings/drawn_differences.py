@@ -114,7 +114,7 @@ class DrawnDifferences:
             return skills
         if means.known is not None:
             skills += np.sqrt(means.information, dtype=np.float32)[:, None] * self._of_known
-        own = _signs(np.random.default_rng(SEED), len(means.precision), prior.shape[1])
+        own = _signs(np.random.default_rng([SEED, 1]), len(means.precision), prior.shape[1])
         levels = np.sqrt(means.precision)[:, None] * own - means.design.T @ prior
         return np.vstack([skills, levels.astype(np.float32)])
 

@@ -25,7 +25,7 @@ from scipy import sparse
 from scipy.sparse.linalg import cg
 from scipy.special import betaincinv, logit
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.checks import number
 from evenbreak.ratings.beginning import Beginning, Known, PriorMeans
 from evenbreak.ratings.first_evenings import FirstEvenings
@@ -152,6 +152,38 @@ def newness(games: Floats | Ints) -> Floats:
     array([1. , 0.5, 0.1])
     """
     return np.asarray(SETTLED / (SETTLED + games))
+
+
+NEWER = 0.25
+"""The part of a newcomer's disadvantage by which a player is clearly newer than an opponent."""
+
+
+def met_as_newcomers(results: Results) -> Bools:
+    """Return whether each player was ever clearly newer than an opponent, all matches being dated.
+
+    Where everybody has played alike, nobody was, and nothing can be said about first games.
+
+    >>> season = Results.from_names(
+    ...     ["Ann", "Ann"], ["Bo", "Cy"], [50, 5], [40, 7], date=["2026-01-01", "2026-02-05"]
+    ... )
+    >>> met_as_newcomers(season)
+    array([False, False,  True])
+    """
+    new, many = np.zeros(len(results.players), dtype=bool), len(results)
+    if results.date is None:
+        return new
+    order = np.argsort(results.date, kind="stable")
+    ends = np.concatenate([results.player_a[order], results.player_b[order]])
+    match = np.tile(np.arange(many), 2)
+    by_player = np.lexsort((match, ends))
+    games = games_of(results)[order][match][by_player]
+    before = np.cumsum(games) - games
+    first = np.searchsorted(ends[by_player], ends[by_player])
+    left = np.zeros(2 * many)
+    left[by_player] = newness(before - before[first])
+    newer = left - np.roll(left, many) > NEWER
+    new[ends[newer]] = True
+    return new
 
 
 class Knowledge:

@@ -27,7 +27,13 @@ from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.fit import PRIOR_SD
 from evenbreak.ratings.half_lives import half_lives_for
 from evenbreak.ratings.handicap_slope import race_share
-from evenbreak.ratings.levels import Levels, begun, joined_late, known_levels
+from evenbreak.ratings.levels import (
+    Levels,
+    begun,
+    joined_late,
+    known_levels,
+    met_as_newcomers,
+)
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.ratings.season_part import connected_part
@@ -75,8 +81,9 @@ ENOUGH = 30_000
 They tell steps of √2 in the width apart, and what anything gains a game to about 0.4e-4 nats.
 """
 
-MANY_JOINED = 20
-"""Players who joined late, or did not, that are enough, where they are not a tenth of all."""
+MANY_NEW = 20
+"""Players who joined late, or did not, or met others as newcomers, that are enough, where they are
+not a tenth of all."""
 
 STEP = 0.05
 """How far apart sizes are from which the standard error of the best one is taken."""
@@ -314,7 +321,11 @@ class _Search:
         played = results.select(results.counted)
         here = np.union1d(played.player_a, played.player_b)
         late = int(joined_late(played)[here].sum())
-        self._joined = min(late, len(here) - late), len(here)
+        self._enough_new = min(MANY_NEW, 0.1 * len(here))
+        self._new = {
+            "joined": min(late, len(here) - late),
+            "newcomers": int(met_as_newcomers(played).sum()),
+        }
         self._steps, self._done = steps, 0
         self._progress = progress
         # What each way lost, in stretches and in matches, so that none is tried twice.
@@ -410,10 +421,8 @@ class _Search:
 
     def _behind(self, name: str, of_sizes: StretchLosses, best: int) -> tuple[bool, int]:
         """Return whether a gain rests on enough players, and on how many."""
-        if name == "joined":
-            smaller, all_players = self._joined
-            if smaller < min(MANY_JOINED, 0.1 * all_players):
-                return False, smaller
+        if name in self._new and self._new[name] < self._enough_new:
+            return False, self._new[name]
         return by_enough_players(of_sizes, best)
 
     def sharpened(self, coarse: Evidence, way: Mapping[str, Any]) -> Evidence:
@@ -443,7 +452,7 @@ class _Search:
             return coarse
         apart = max(np.diff(coarse.tried).max(), 4.0 * STEP)
         value = coarse.value + float(np.clip(shift, -apart, apart))
-        if coarse.of != "race":
+        if value:
             value *= max(1.0 - (error / value) ** 2, 0.0)
         return coarse._replace(value=value, standard_error=error)
 
