@@ -12,10 +12,10 @@ from evenbreak.games import Race, Rack
 from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import NATURAL
+from evenbreak.handicaps.systems.by_match import PlayedMatch
 from evenbreak.handicaps.systems.catalogue import FAMILIES, SYSTEMS, system_of
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.handicaps.systems.npl import step_after
-from evenbreak.handicaps.systems.system import PlayedMatch
 from evenbreak.matches import final_scores, race_win_probability
 
 systems = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)

@@ -12,8 +12,8 @@ from scipy.special import chdtrc
 from evenbreak.errors import AccuracyError
 from evenbreak.games import Race, Rack
 from evenbreak.handicaps import chart, system_of
+from evenbreak.handicaps.systems.by_match import PlayedMatch
 from evenbreak.handicaps.systems.match_table import match_table
-from evenbreak.handicaps.systems.system import PlayedMatch
 from evenbreak.league import (
     FixedSchedule,
     LeaguePlayers,

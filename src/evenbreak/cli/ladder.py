@@ -50,7 +50,7 @@ def command(asked: LadderErrors) -> Answer:
 def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
     """Return the ladder that is asked for, the word for its opponents, and warnings."""
     step = asked.step
-    system = asked.system or handicaps.system_of("npl" if step is None else f"step {step}")
+    system = handicaps.steps_of(asked.system or ("npl" if step is None else f"step {step}"))
     system = on_scale(system, asked.scale)
     chart, warnings = chart_for(system, asked.chart)
     opponents, name, doubts = _opponents(asked, system.scale)
@@ -120,7 +120,7 @@ def _comparison(asked: LadderErrors) -> Answer:
     """Return systems and steps side by side."""
     from evenbreak.answers.ladder.comparison import compare_ladders, ladder_comparison_answer
 
-    npl = handicaps.system_of("npl")
+    npl = handicaps.steps_of("npl")
     chart, warnings = chart_for(npl, asked.chart)
     opponents, name, doubts = _opponents(asked, npl.scale, SAY_OTHERWISE)
     comparison = compare_ladders(chart, opponents, name)

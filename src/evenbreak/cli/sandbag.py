@@ -59,7 +59,7 @@ def pay(asked: SandbagPay) -> Answer:
         in_a_row=asked.in_a_row,
         prize=asked.prize,
     )
-    system = asked.system or handicaps.system_of("npl")
+    system = handicaps.steps_of(asked.system or "npl")
     if asked.compare:
         ladders = [_wide(system, chart) for chart in system.known_charts()]
         return sandbag_charts_answer(
@@ -74,7 +74,7 @@ def pay(asked: SandbagPay) -> Answer:
     return sandbag_pay_answer(findings, question, warnings)
 
 
-def _wide(system: handicaps.System, chart: handicaps.Chart) -> handicaps.Ladder:
+def _wide(system: handicaps.StepSystem, chart: handicaps.Chart) -> handicaps.Ladder:
     """Return a wide ladder against opponents who are correctly rated."""
     return handicaps.Ladder(
         system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling)
@@ -95,7 +95,7 @@ def watch(asked: SandbagWatch) -> Answer:
 
     first = files.read_roster(asked.roster)
     season = files.read_results(asked.results, **asked.reading)
-    system = asked.system or handicaps.system_of("npl")
+    system = handicaps.steps_of(asked.system or "npl")
     system, doubts = _moved(system, asked.scale, first, season)
     ladder, warnings = watched_ladder(asked, system)
     warnings += [*first.warnings, *season.warnings, *doubts]
@@ -135,7 +135,7 @@ def watch(asked: SandbagWatch) -> Answer:
 
 
 def watched_ladder(
-    asked: SandbagWatch, system: handicaps.System
+    asked: SandbagWatch, system: handicaps.StepSystem
 ) -> tuple[handicaps.Ladder, list[str]]:
     """Return the ladder whose rating errors the watch assumes, and warnings about its chart."""
     chart, warnings = chart_for(system, asked.chart)
@@ -144,11 +144,11 @@ def watched_ladder(
 
 
 def _moved(
-    system: handicaps.System,
+    system: handicaps.StepSystem,
     scale: Scale | None,
     first: files.RosterFile,
     season: files.ResultsFile,
-) -> tuple[handicaps.System, list[str]]:
+) -> tuple[handicaps.StepSystem, list[str]]:
     """Return the system on the scale of the list; refuse or doubt one that results contradict."""
     from evenbreak.answers.kit.scales import contradiction, far_doubts
 

@@ -64,10 +64,16 @@ from .ladders.settling import ladder_mixing as ladder_mixing
 from .ladders.settling import settling as settling
 from .ladders.unfairness import better_off as better_off
 from .ladders.unfairness import unfairness as unfairness
+from .systems.by_match import PlayedMatch as PlayedMatch
+from .systems.by_match import StepSystem as StepSystem
 from .systems.catalogue import SYSTEMS as SYSTEMS
+from .systems.catalogue import steps_of as steps_of
 from .systems.catalogue import system_of as system_of
 from .systems.elo import elo_system as elo_system
 from .systems.fixed import fixed_length_system as fixed_length_system
+from .systems.history import Entries as Entries
+from .systems.history import History as History
+from .systems.history import Matches as Matches
 from .systems.margin import margin_system as margin_system
 from .systems.match_table import MatchTable as MatchTable
 from .systems.match_table import match_table as match_table
@@ -79,7 +85,8 @@ from .systems.rating_changes import apply_results as apply_results
 from .systems.rating_changes import chart_of_night as chart_of_night
 from .systems.rating_changes import night_problems as night_problems
 from .systems.step import step_system as step_system
-from .systems.system import PlayedMatch as PlayedMatch
 from .systems.system import System as System
+from .systems.system import checked_races as checked_races
+from .systems.system import updated as updated
 from .systems.team_handicap import TeamHandicap as TeamHandicap
 from .systems.team_handicap import team_handicap as team_handicap

@@ -15,7 +15,7 @@ import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import seed_of
-from evenbreak.handicaps.systems.system import PlayedMatch, UpdateRule
+from evenbreak.handicaps.systems.by_match import PlayedMatch, UpdateRule
 from evenbreak.league.schedule import RandomPairing, Round
 from evenbreak.league.season import Season
 from evenbreak.ratings.results import Results

@@ -13,8 +13,8 @@ from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
-from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
@@ -104,7 +104,7 @@ class Watched:
 
 def watch(
     nights: Iterable[PlayedNight],
-    system: System,
+    system: StepSystem,
     error: Distribution,
     *,
     alpha: float = 0.01,
@@ -339,7 +339,7 @@ class PlayedNight(NamedTuple):
 
 
 def played_nights(
-    system: System,
+    system: StepSystem,
     roster: Roster,
     results: Results,
     *,

@@ -13,9 +13,9 @@ from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.by_match import StepSystem
+from evenbreak.handicaps.systems.catalogue import steps_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
-from evenbreak.handicaps.systems.system import System
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
@@ -73,8 +73,8 @@ class Season:
         if not isinstance(self.players, LeaguePlayers):
             raise InputError("{players} is {value!r}; give LeaguePlayers", value=self.players)
         put = object.__setattr__
-        if not isinstance(self.system, System):
-            put(self, "system", system_of(self.system))
+        if not isinstance(self.system, StepSystem):
+            put(self, "system", steps_of(self.system))
         if self.chart is None:
             put(self, "chart", self.system.usual_chart())
         else:

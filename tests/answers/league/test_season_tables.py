@@ -11,7 +11,7 @@ import pytest
 from evenbreak.answers.league.season_tables import fairness_frame, standings_frame, weeks_frame
 from evenbreak.handicaps.charts.chart import Chart, ChartRow
 from evenbreak.handicaps.ladders.comparison import near
-from evenbreak.handicaps.systems.system import System
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.league import (
     FixedSchedule,
     LeaguePlayers,
@@ -205,7 +205,9 @@ def test_one_replica_has_no_errors_and_somebody_who_never_plays_no_part():
 def near_after(weeks: int, step: int, times: int = 1) -> float:
     """The share of ratings near their skill, which they begin with; points are `times` as many."""
     points = times * step
-    system = System("even", Scale("even", 30.0 * times), (), lambda _: (points, -points), "", EVEN)
+    system = StepSystem(
+        "even", Scale("even", 30.0 * times), (), lambda _: (points, -points), "", EVEN
+    )
     rating = [times * one for one in (40, 50, 60, 70, 80, 90, 100, 110)]
     season = Season(LeaguePlayers.of(rating, skill=rating), system, weeks=weeks)
     tally = run_chunk(season, 500, np.random.SeedSequence(7))

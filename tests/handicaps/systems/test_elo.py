@@ -3,8 +3,8 @@
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.by_match import PlayedMatch
 from evenbreak.handicaps.systems.elo import elo_system
-from evenbreak.handicaps.systems.system import PlayedMatch
 
 
 def test_a_winner_may_lose_points_by_elos_update():

@@ -56,7 +56,7 @@ def test_nobody_writes_into_a_table():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (("npl",), "system is 'npl'; give a System"),
+        (("npl",), "system is 'npl'; give a StepSystem"),
         ((NPL, "nobody"), "chart is 'nobody'"),
     ],
 )

@@ -1,7 +1,7 @@
 """The National Pool League's rule, by hand."""
 
+from evenbreak.handicaps.systems.by_match import PlayedMatch
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch
 
 
 def test_the_pool_league_moves_a_point_a_match_whatever_the_match_was():

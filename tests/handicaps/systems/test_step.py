@@ -3,9 +3,9 @@
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.by_match import PlayedMatch
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.step import step_system
-from evenbreak.handicaps.systems.system import PlayedMatch
 
 
 def test_steps_may_differ_between_winner_and_loser():

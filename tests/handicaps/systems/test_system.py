@@ -6,8 +6,8 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import chart
+from evenbreak.handicaps.systems.by_match import PlayedMatch, points_of
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch, points_of
 
 
 @pytest.mark.parametrize("points", [(1.5, -1), 1, (1,), "12", None])

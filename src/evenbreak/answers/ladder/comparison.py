@@ -13,7 +13,7 @@ from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow, compare_syst
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import Opponents
 from evenbreak.handicaps.ladders.settling import settling
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalogue import steps_of
 from evenbreak.league.reestimate import Reestimated, reestimate
 from evenbreak.words import listed
 
@@ -63,11 +63,11 @@ def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComp
 
 def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
     """Return the National Pool League by all of its charts and by `chart`, and other systems."""
-    npl = system_of("npl")
+    npl = steps_of("npl")
     charts = [printed(name) for name in npl.charts]
     if chart not in charts:
         charts.append(chart)
-    others = [(name, chart if system_of(name).charts else None) for name in OTHERS]
+    others = [(name, chart if steps_of(name).charts else None) for name in OTHERS]
     rows = compare_systems([*(("npl", each) for each in charts), *others], opponents=opponents)
     place = charts.index(chart)
     return [*rows[: place + 1], _newcomer(rows[place], chart, opponents), *rows[place + 1 :]]

@@ -20,13 +20,13 @@ from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.rating_changes import (
     MatchChange,
     RatingChanges,
     apply_results,
     night_problems,
 )
-from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.provisional import established_from
 from evenbreak.ratings.results import Problem, Results
@@ -265,7 +265,7 @@ def _night_warnings(
 
 
 def nights_of_files(
-    system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+    system: StepSystem, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
@@ -307,7 +307,7 @@ def nights_of_files(
 
 
 def rating_changes_of_season(
-    system: System, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+    system: StepSystem, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
 ) -> RatingChanges:
     """Return how the results of one or several dates change the ratings of a list.
 
@@ -362,7 +362,7 @@ def _once(problems: Iterable[str]) -> list[str]:
 
 
 def rating_changes_of_files(
-    system: System, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
+    system: StepSystem, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from evenbreak.matches.pace import Pace
 
 
-def on_scale(system: handicaps.System, scale: Scale | None) -> handicaps.System:
+def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.StepSystem:
     """Return a system on another scale (None: its own), or refuse what does not go together."""
     from dataclasses import replace
 
@@ -40,7 +40,7 @@ MOST_SD = 4.0
 """Doublings of the odds by which the form of players varies at most."""
 
 
-def refuse_too_varying(asked: Question, system: handicaps.System, *names: str) -> None:
+def refuse_too_varying(asked: Question, system: handicaps.StepSystem, *names: str) -> None:
     """Refuse form that varies by more than a ladder of this scale can hold."""
     most = MOST_SD * system.scale.points_per_doubling
     for name in names:
@@ -89,7 +89,7 @@ def refuse_other_scale(
         refuse_to_read(file, scale, whose, remedy)
 
 
-def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
+def refuse_for_system(file: files.RosterFile, system: handicaps.StepSystem) -> None:
     """Refuse a list that a system cannot move: skill levels, or points of another scale."""
     whose = f"the system {system.name}"
     if file.scale is None:
@@ -115,7 +115,7 @@ def chart_by_difference(option: str, name: str) -> handicaps.Chart:
     return found
 
 
-def chart_for(system: handicaps.System, name: str | None) -> tuple[handicaps.Chart, list[str]]:
+def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps.Chart, list[str]]:
     """Return the chart of --chart (None: the system's own), and warnings about it."""
     from evenbreak.files.charts import find_chart_file
 

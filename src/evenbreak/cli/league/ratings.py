@@ -34,7 +34,7 @@ MANY = 2_000_000
 def rate(asked: Rate) -> Answer:
     """Rate players from their results."""
     if asked.system is not None:
-        return _by_system(asked, asked.system, asked.roster or "")
+        return _by_system(asked, handicaps.steps_of(asked.system), asked.roster or "")
     from evenbreak.ratings.scale import unstated_scale
 
     file = files.read_seasons(asked.results, **asked.reading)
@@ -98,7 +98,7 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 # A league's own rule.
 
 
-def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
+def _by_system(asked: Rate, system: handicaps.StepSystem, roster: str) -> Answer:
     """Return the list of ratings after a night, or after several, night by night.
 
     Without a chart the results say who won, or else the only one of the system's charts that fits

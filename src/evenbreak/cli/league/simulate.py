@@ -142,8 +142,8 @@ def _with_entrants(file: files.LeagueFile, path: str, asked: Simulate) -> files.
     )
 
 
-def _system(asked: Simulate) -> handicaps.System:
-    return on_scale(asked.system or handicaps.system_of("npl"), asked.scale)
+def _system(asked: Simulate) -> handicaps.StepSystem:
+    return on_scale(handicaps.steps_of(asked.system or "npl"), asked.scale)
 
 
 def season_of(file: files.LeagueFile, asked: Simulate) -> tuple[league.Season, list[str]]:

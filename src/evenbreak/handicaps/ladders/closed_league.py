@@ -26,7 +26,7 @@ from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.error_chain import error_on
 from evenbreak.handicaps.ladders.error_walk import long_run_law
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalogue import steps_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.stats.summary import Distribution
 
@@ -81,7 +81,7 @@ class ClosedPair:
     widest: int | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "system", system_of(self.system))
+        object.__setattr__(self, "system", steps_of(self.system))
         object.__setattr__(self, "skill_difference", float(self.skill_difference))
         if not np.isfinite(self.skill_difference):
             raise InputError(
@@ -191,7 +191,7 @@ def in_step_law(
     >>> round(in_step_law("npl", chart("npl_10")).sd, 2)
     4.3
     """
-    by = system_of(system)
+    by = steps_of(system)
     size = match_table(by, chart, widest=widest).widest
     table = match_table(by, chart, widest=2 * size)
     steps = np.unique(table.moves[..., 0][table.games[..., 0] >= 0])

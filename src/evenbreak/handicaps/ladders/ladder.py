@@ -29,9 +29,9 @@ from evenbreak.handicaps.ladders.error_walk import ErrorWalk
 from evenbreak.handicaps.ladders.form import deviation_grid, deviations, difference_law
 from evenbreak.handicaps.ladders.opponents import NATURAL, Opponents
 from evenbreak.handicaps.ladders.pairing import pairing_of
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.by_match import StepSystem
+from evenbreak.handicaps.systems.catalogue import steps_of
 from evenbreak.handicaps.systems.match_table import known_table
-from evenbreak.handicaps.systems.system import System
 from evenbreak.stats.summary import Distribution
 from evenbreak.words import Parameter
 
@@ -109,7 +109,7 @@ class Ladder(ErrorWalk):
     4.417
     """
 
-    system: System
+    system: StepSystem
     chart: Chart
     opponents: Opponents = NATURAL
     day_sd: float = 0.0
@@ -120,7 +120,7 @@ class Ladder(ErrorWalk):
 
     def __init__(
         self,
-        system: System | str | Chart,
+        system: StepSystem | str | Chart,
         chart: Chart | str | None = None,
         *,
         opponents: Opponents = NATURAL,
@@ -257,14 +257,14 @@ class Ladder(ErrorWalk):
         return Distribution(tuple(self.errors.tolist()), tuple(chances.tolist()))
 
 
-def _system_and_chart(system: Any, chart: Any) -> tuple[System, Chart]:
+def _system_and_chart(system: Any, chart: Any) -> tuple[StepSystem, Chart]:
     if isinstance(system, Chart):
         if chart is not None:
             raise InputError(
                 "chart is {chart!r}; a Chart was given as the system already", chart=chart
             )
-        return system_of("npl"), system
-    by = system_of(system)
+        return steps_of("npl"), system
+    by = steps_of(system)
     return by, by.usual_chart() if chart is None else chart_of(chart)
 
 
@@ -281,7 +281,7 @@ def _remedy(ladder: Ladder) -> str:
     )
 
 
-def _same_everywhere(system: System, chart: Chart) -> bool:
+def _same_everywhere(system: StepSystem, chart: Chart) -> bool:
     """Return whether a match is the same whatever the two ratings are."""
     table = known_table(system, chart)
     return all(bool((each == each[0]).all()) for each in (table.needs, table.moves))
@@ -289,7 +289,7 @@ def _same_everywhere(system: System, chart: Chart) -> bool:
 
 @lru_cache(maxsize=64)
 def _usual_width(
-    system: System,
+    system: StepSystem,
     chart: Chart,
     opponents: Opponents,
     day_sd: float,

@@ -25,8 +25,8 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.form import averages
 from evenbreak.handicaps.ladders.opponents import Opponents, farthest
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
-from evenbreak.handicaps.systems.system import System
 
 _FEW = 1 << 20
 """Up to this many products a sum is faster than a Fourier transform."""
@@ -199,7 +199,7 @@ class RatingGiven(Pairing):
 
 
 def pairing_of(
-    system: System,
+    system: StepSystem,
     chart: Chart,
     widest: int,
     opponents: Opponents,

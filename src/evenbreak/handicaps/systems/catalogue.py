@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.fixed import fixed_length_system
 from evenbreak.handicaps.systems.margin import margin_system
@@ -104,3 +105,21 @@ def system_of(name: Any) -> System:
         return family.make(*map(int, numbers))
     except InputError as error:
         raise InputError("system is {name!r}: {error}", name=name, error=error) from None
+
+
+def steps_of(name: Any) -> StepSystem:
+    """Return the system of this name if it moves ratings match by match, by whole points.
+
+    Raises
+    ------
+    InputError
+        if it names no system, or one without such a rule.
+    """
+    system = system_of(name)
+    if not isinstance(system, StepSystem):
+        raise InputError(
+            "the system {name} does not move ratings by whole points match by match, so there is "
+            "no chain to follow here; `evenbreak simulate` plays seasons of it",
+            name=system.name,
+        )
+    return system

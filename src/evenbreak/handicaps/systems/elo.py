@@ -16,7 +16,7 @@ from typing import Any
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.design import fixed_length_chart
-from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem, points_of
 from evenbreak.ratings.scale import SCALES
 
 _SCALE = SCALES["elo"]
@@ -39,7 +39,7 @@ class _PerGame:
         return points, -points
 
 
-def elo_system(k: Any = 16) -> System:
+def elo_system(k: Any = 16) -> StepSystem:
     """Return the system in which each game of a match moves the ratings by Elo's update.
 
     No league's chart is on Elo's scale, so the system's own chart has the most even races of at
@@ -60,7 +60,7 @@ def elo_system(k: Any = 16) -> System:
     ((-12, 12), (30, -30))
     """
     points = points_of(k, "k")
-    return System(
+    return StepSystem(
         f"elo {points}",
         _SCALE,
         (),

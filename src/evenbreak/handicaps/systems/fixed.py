@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import Any
 
 from evenbreak.handicaps.charts.design import fixed_length_chart
+from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import System
 
 
-def fixed_length_system(games: Any = 9) -> System:
+def fixed_length_system(games: Any = 9) -> StepSystem:
     """Return the National Pool League's system with races that all have the same longest length.
 
     The rule is the same, for newcomers too; only the chart differs: `fixed_length_chart(games)`.

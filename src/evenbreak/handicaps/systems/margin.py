@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem, points_of
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class _Margin:
         return points, -points
 
 
-def margin_system(most: Any = 2) -> System:
+def margin_system(most: Any = 2) -> StepSystem:
     """Return the system whose steps depend on the margin of the score, up to `most` points.
 
     Scale and charts are those of the National Pool League. Newcomers move like everybody else.
@@ -54,7 +54,7 @@ def margin_system(most: Any = 2) -> System:
     [(2, -2), (2, -2), (1, -1), (1, -1)]
     """
     points = points_of(most, "most")
-    return System(
+    return StepSystem(
         f"margin {points}",
         NPL.scale,
         NPL.charts,

@@ -26,7 +26,7 @@ from evenbreak.checks import complement, probability, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
 from evenbreak.matches.win import race_win_probability
 
 NOBODY = -1
@@ -72,7 +72,7 @@ class MatchTable:
     [0.062, 0.125, 0.156, 0.125, 0.188, 0.188, 0.156, 0.0]
     """
 
-    system: System
+    system: StepSystem
     chart: Chart
     widest: int
     needs: Ints
@@ -148,7 +148,7 @@ class MatchTable:
 
 
 def match_table(
-    system: System, chart: Chart | str | None = None, *, widest: Any = None
+    system: StepSystem, chart: Chart | str | None = None, *, widest: Any = None
 ) -> MatchTable:
     """Return all final scores of a system's matches, by the difference of the two ratings.
 
@@ -172,9 +172,9 @@ def match_table(
     >>> match_table(system_of("step 2")).moves[60].tolist()[4:6]
     [[2, -2], [-2, 2]]
     """
-    if not isinstance(system, System):
+    if not isinstance(system, StepSystem):
         raise InputError(
-            "{system} is {value!r}; give a System, such as system_of('npl')", value=system
+            "{system} is {value!r}; give a StepSystem, such as system_of('npl')", value=system
         )
     by = system.usual_chart() if chart is None else chart_of(chart)
     wanted = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest
@@ -202,7 +202,7 @@ def _scores(needs: Ints) -> tuple[Ints, Bools]:
     return np.where(real[..., None], np.stack([a, b], axis=2), NOBODY), won
 
 
-def _moves(system: System, needs: Ints, games: Ints, won: Bools) -> Ints:
+def _moves(system: StepSystem, needs: Ints, games: Ints, won: Bools) -> Ints:
     moves = np.zeros_like(games)
     size = len(needs) // 2
     for place, outcome in np.argwhere(games[..., 0] != NOBODY).tolist():

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from evenbreak.checks import whole
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
 from evenbreak.ratings.scale import SCALES
 
 # Longer steps for newcomers, so that a first guess of their rating is soon corrected.
@@ -55,7 +55,7 @@ def _a_point_a_match(match: PlayedMatch) -> tuple[int, int]:
     return step_after(winner), -step_after(loser)
 
 
-NPL = System(
+NPL = StepSystem(
     "npl",
     SCALES["npl"],
     ("npl_8", "npl_10", "npl_12", "npl_20"),

@@ -16,7 +16,7 @@ from evenbreak.arrays import Bools, Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
-from evenbreak.handicaps.systems.system import PlayedMatch, System
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
 from evenbreak.ratings.results import Problem, Results, find_problems, who_won
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
@@ -72,7 +72,7 @@ class RatingChanges:
         the number of rows that changed nothing: forfeits, and matches at 0-0.
     """
 
-    system: System
+    system: StepSystem
     before: Roster
     after: Roster
     matches: tuple[MatchChange, ...]
@@ -83,7 +83,7 @@ class RatingChanges:
 
 
 def apply_results(
-    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
+    system: StepSystem, roster: Roster, results: Results, *, chart: Chart | str | None = None
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
@@ -152,7 +152,7 @@ def apply_results(
     return RatingChanges(system, roster, after, matches, won, lost, forfeits, empty)
 
 
-def _match_changes(system: System, roster: Roster, night: NightTable) -> Iterator[MatchChange]:
+def _match_changes(system: StepSystem, roster: Roster, night: NightTable) -> Iterator[MatchChange]:
     """Yield what each match of the night did."""
     played = [None if many == NOT_STATED else many for many in roster.matches.tolist()]
     for row in np.flatnonzero(night.counted).tolist():
@@ -163,7 +163,7 @@ def _match_changes(system: System, roster: Roster, night: NightTable) -> Iterato
 
 
 def _match_change(
-    system: System, roster: Roster, night: NightTable, played: list[int | None], row: int
+    system: StepSystem, roster: Roster, night: NightTable, played: list[int | None], row: int
 ) -> MatchChange:
     """Return what the match in one row did, given the matches that each had played before."""
     results = night.results
@@ -191,7 +191,7 @@ def _match_change(
 
 
 def night_problems(
-    system: System, roster: Roster, results: Results, *, chart: Chart | str | None = None
+    system: StepSystem, roster: Roster, results: Results, *, chart: Chart | str | None = None
 ) -> list[Problem]:
     """Return every problem that keeps a night's results from changing ratings, by row.
 
@@ -225,7 +225,7 @@ def night_problems(
     return sorted(problems, key=lambda problem: problem.row)
 
 
-def chart_of_night(system: System, roster: Roster, results: Results) -> Chart | None:
+def chart_of_night(system: StepSystem, roster: Roster, results: Results) -> Chart | None:
     """Return the chart of the system that a night must have been played by, given its scores.
 
     It is the only one whose races all scores finish, for ratings rounded to whole points. None
@@ -286,7 +286,7 @@ def _no_end(roster: Roster, night: NightTable, chart: Chart, row: int) -> str:
     )
 
 
-def _no_winner(system: System, results: Results, row: int) -> str:
+def _no_winner(system: StepSystem, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
     return (
         f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
@@ -294,13 +294,13 @@ def _no_winner(system: System, results: Results, row: int) -> str:
     )
 
 
-def _give_chart(system: System) -> str:
+def _give_chart(system: StepSystem) -> str:
     *charts, last = system.charts or ("",)
     names = f" ({', '.join(charts)} or {last})" if charts else ""
     return f"give the chart that was used{names}, or the columns race_a and race_b"
 
 
-def _missing(system: System, night: NightTable) -> Iterator[Problem]:
+def _missing(system: StepSystem, night: NightTable) -> Iterator[Problem]:
     """Yield the matches without a score or race that the system's rule needs."""
     results = night.results
     for row in np.flatnonzero(night.counted & night.rated).tolist():

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem, points_of
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.system import PlayedMatch, System, points_of
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class _Step:
         return self.up, -self.down
 
 
-def step_system(up: Any, down: Any = None) -> System:
+def step_system(up: Any, down: Any = None) -> StepSystem:
     """Return the system in which the winner goes up by `up` points and the loser down by `down`.
 
     Scale and charts are those of the National Pool League. Newcomers move like everybody else.
@@ -43,7 +43,7 @@ def step_system(up: Any, down: Any = None) -> System:
     """
     won = points_of(up, "up")
     lost = won if down is None else points_of(down, "down", at_least=0)
-    return System(
+    return StepSystem(
         f"step {won}" if lost == won else f"step {won} {lost}",
         NPL.scale,
         NPL.charts,

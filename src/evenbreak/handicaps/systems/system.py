@@ -1,164 +1,139 @@
-"""What a handicap system is: a scale, the charts that set the races, and how ratings move.
+"""What a handicap system is: who starts with what, which race is played, and what is published.
 
-An update rule is a plain function from a match to the points that winner and loser move.
+A system is three methods, and says how its numbers are to be read. The simulated league, the
+list after a night and the watch for sandbaggers know a system by these alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from math import gcd
-from numbers import Integral
-from typing import Any, NamedTuple
+from abc import ABC, abstractmethod
+from typing import Any, ClassVar, Literal
 
-from evenbreak.checks import whole
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import Chart, chart
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.systems.history import Entries, History
 from evenbreak.ratings.scale import Scale
 
 
-class PlayedMatch(NamedTuple):
-    """A match as an update rule sees it, winner first.
+class System(ABC):
+    """A handicap system; one's own is a subclass with the three methods.
 
-    Parameters
-    ----------
-    rating
-        the two ratings before the match; a rule may use only their difference.
-    games
-        games won; None where only the winner is known.
-    race
-        games needed; None where that is not known.
-    played
-        matches each had played before; None: an established player.
-    """
-
-    rating: tuple[float, float]
-    games: tuple[int, int] | None
-    race: tuple[int, int] | None
-    played: tuple[int | None, int | None] = (None, None)
-
-
-UpdateRule = Callable[[PlayedMatch], tuple[int, int]]
-
-
-@dataclass(frozen=True)
-class System:
-    """A handicap system.
-
-    Parameters
+    Attributes
     ----------
     name
-        what the system is called; `system_of` finds it by this name.
-    scale
-        what a difference of its ratings means.
-    charts
-        the names of the printed charts that set its races; may be empty.
-    rule
-        from a match to the whole points that winner and loser move.
+        what the system is called.
     in_words
-        the rule in words.
-    own_chart
-        the chart used if no other is named; None: the first of `charts`.
+        its rule in words, with what is assumed.
+    publishes
+        'ratings' or 'levels': what `initial` and `update` return, and `race` reads.
+    scale
+        what a difference of its ratings means; None where that is not fixed (levels, averages).
+    chart
+        which sets its races; None where no chart does.
     asks
-        what the rule must know about a match besides who won: 'games', 'race', both or nothing.
-    conserving
-        whether the winner gains what the loser loses, once both are established. The
-        distribution of rating errors is then symmetric.
-    newcomer_steps
-        (matches, factor) for each stage of a newcomer: for that many matches a newcomer moves by
-        an established player's points times the factor. Empty: newcomers move like everybody
-        else.
+        what it needs of a match besides who won: 'games', 'race', 'innings'.
+    winner_never_falls
+        whether nobody's published number falls on a night without a lost match, all else equal.
+    vectorised
+        whether its methods take all replicas at once; False: a simulation calls `update` with
+        one league after the other.
     """
 
     name: str
-    scale: Scale
-    charts: tuple[str, ...]
-    rule: UpdateRule
-    in_words: str
-    own_chart: Chart | None = None
+    in_words: str = ""
+    publishes: Literal["ratings", "levels"] = "ratings"
+    scale: Scale | None = None
     asks: tuple[str, ...] = ()
-    conserving: bool = True
-    newcomer_steps: tuple[tuple[int, int], ...] = ()
+    winner_never_falls: bool = False
+    vectorised: ClassVar[bool] = True
 
-    def moves(self, match: PlayedMatch) -> tuple[int, int]:
-        """Return by how many points the rule moves the winner and the loser of a match.
+    @abstractmethod
+    def initial(self, entries: Entries) -> Floats:
+        """Return the published ratings (or levels) before the first night, shaped as `entries`."""
 
-        Raises
-        ------
-        InputError
-            if the rule does not return a pair of whole points.
+    @abstractmethod
+    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
+        """Return (m, n): the games needed by players of published ratings a and b, elementwise."""
 
-        >>> from evenbreak.handicaps import system_of
-        >>> system_of("step 2 1").moves(PlayedMatch((80, 75), (5, 3), (5, 5)))
-        (2, -1)
-        """
-        points: Any = self.rule(match)
-        pair = isinstance(points, tuple | list) and len(points) == 2
-        if not pair or not all(isinstance(point, Integral) for point in points):
-            raise InputError(
-                "the rule of the system {name} returned {points!r}; let it return a pair, "
-                "the whole points of the winner and of the loser, such as (1, -1)",
-                name=self.name,
-                points=points,
-            )
-        return int(points[0]), int(points[1])
+    @abstractmethod
+    def update(self, history: History) -> Floats:
+        """Return the published ratings after the last night, shaped as `history.ratings`."""
 
     @property
-    def cycle(self) -> int:
-        """After how many even matches a rating can be where it was: 2 if it moves up or down alike.
-
-        Ratings that move a point either way are an even number of points off after one match and
-        an odd number after the next, so shares of them swing from match to match. Their mean over
-        a cycle does not.
-
-        >>> from evenbreak.handicaps import system_of
-        >>> [system_of(name).cycle for name in ("npl", "step 4", "step 2 1", "step 5 1")]
-        [2, 2, 3, 6]
-        """
-        won, lost = self.moves(PlayedMatch((0.0, 0.0), (5, 4), (5, 5)))
-        apart = won - lost
-        return apart // gcd(won, apart) if apart > 0 else 1
-
-    def usual_chart(self) -> Chart:
-        """Return the chart used if no other is named.
-
-        Raises
-        ------
-        InputError
-            if the system has no chart of its own.
-
-        >>> from evenbreak.handicaps import system_of
-        >>> system_of("npl").usual_chart().name
-        'npl_10'
-        """
-        if self.own_chart is not None:
-            return self.own_chart
-        if not self.charts:
-            raise InputError("the system {name} has no chart of its own; give one", name=self.name)
-        return chart(self.charts[0])
-
-    def known_charts(self) -> tuple[Chart, ...]:
-        """Return the printed charts of the system, and its own if that is not one of them.
-
-        >>> from evenbreak.handicaps import system_of
-        >>> [chart.name for chart in system_of("fixed 9").known_charts()]
-        ['fixed_9']
-        """
-        printed = tuple(chart(name) for name in self.charts)
-        own = self.own_chart
-        return printed if own is None or own in printed else (*printed, own)
+    def chart(self) -> Chart | LevelChart | None:
+        """The chart that sets the races, if one does."""
+        return None
 
 
-_MOST_POINTS = 1000
-"""No league moves a rating further in one match."""
+def updated(system: System, history: History) -> Floats:
+    """Return what a system publishes after a night, whether or not it takes replicas at once.
 
+    Raises
+    ------
+    InputError
+        if the system returns another shape, or something that is not a finite number.
 
-def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
-    """Return the points by which a rule moves ratings, if they are whole and in range.
-
-    >>> points_of(5000, "up")
-    Traceback (most recent call last):
-    ...
-    evenbreak.errors.InputError: up is 5000; give a whole number from 1 to 1000
+    >>> from evenbreak.handicaps import Matches, system_of
+    >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [92.0], [80.0])
+    >>> begun = np.array([92.0, 80.0])
+    >>> updated(system_of("npl"), History(Entries.of(begun), begun, begun, 1, night))
+    array([93., 79.])
     """
-    return whole(value, name, at_least=at_least, at_most=_MOST_POINTS)
+    if history.ratings.ndim > 1 and not system.vectorised:
+        columns = (system.update(history.one(place)) for place in range(history.ratings.shape[1]))
+        ratings = np.stack([np.asarray(column, dtype=float) for column in columns], axis=1)
+    else:
+        ratings = np.asarray(system.update(history), dtype=float)
+    return checked_ratings(system, ratings, history.ratings.shape, "update")
+
+
+def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method: str) -> Floats:
+    """Return what a method of a system returned, or refuse a wrong shape or a missing number."""
+    values = np.asarray(ratings, dtype=float)
+    if values.shape != shape:
+        raise InputError(
+            "{method} of the system {name} returned the shape {got}; let it return one number "
+            "for each player, in the shape {shape}",
+            method=method,
+            name=system.name,
+            got=values.shape,
+            shape=shape,
+        )
+    wrong = ~np.isfinite(values)
+    if wrong.any():
+        raise InputError(
+            "{method} of the system {name} returned {value} for player {player}; let it return "
+            "finite numbers",
+            method=method,
+            name=system.name,
+            value=float(values[wrong].flat[0]),
+            player=int(np.argwhere(wrong)[0][0]) + 1,
+        )
+    return values
+
+
+def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
+    """Return the races of a system for pairs of ratings, or refuse one below 1 game."""
+    races = system.race(a, b)
+    if not isinstance(races, tuple) or len(races) != 2:
+        raise InputError(
+            "race of the system {name} returned {races!r}; let it return two arrays (m, n), the "
+            "games that each player needs",
+            name=system.name,
+            races=races,
+        )
+    shape = np.broadcast_shapes(np.shape(a), np.shape(b))
+    for needs in map(np.asarray, races):
+        if needs.shape != shape or not (needs >= 1).all() or (needs != np.floor(needs)).any():
+            raise InputError(
+                "race of the system {name} returned {needs!r}; let it return whole games, 1 or "
+                "more, for each pair of ratings",
+                name=system.name,
+                needs=needs,
+            )
+    m, n = (np.asarray(needs).astype(np.int64) for needs in races)
+    return m, n

@@ -1,0 +1,318 @@
+"""What a handicap system gets to see: who starts with what, and all matches played so far.
+
+Leagues are simulated many at a time, so arrays have the players or matches down and the replicas
+of the league across. The one league of a file is one column.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, MutableMapping
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Any, TypeVar
+
+import numpy as np
+
+from evenbreak.arrays import Bools, Floats, Ints
+
+NOBODY = -1
+"""The position of both players of a match that was not played."""
+
+_STATE = TypeVar("_STATE")
+
+
+@dataclass(frozen=True, eq=False)
+class Entries:
+    """The players as a list states them before the first night.
+
+    Parameters
+    ----------
+    rating, level
+        points and skill level; NaN where not stated. Shape (players,) or (players, replicas).
+    matches, games
+        how many each has played before; -1 where not stated.
+
+    >>> Entries.of([612.0, np.nan]).matches
+    array([-1, -1])
+    """
+
+    rating: Floats
+    level: Floats
+    matches: Ints
+    games: Ints
+
+    @classmethod
+    def of(
+        cls, rating: Any = None, level: Any = None, matches: Any = None, games: Any = None
+    ) -> Entries:
+        """Return entries from the columns that a list has; the others are not stated."""
+        shape = np.shape(next(x for x in (rating, level, matches, games) if x is not None))
+        columns = [
+            np.full(shape, missing) if column is None else np.array(column, dtype=kind)
+            for column, missing, kind in (
+                (rating, np.nan, float),
+                (level, np.nan, float),
+                (matches, -1, np.int64),
+                (games, -1, np.int64),
+            )
+        ]
+        return cls(*columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Matches:
+    """Matches in the order in which they were played, a row each; the replicas across.
+
+    Parameters
+    ----------
+    night
+        on which night, from 1, never falling; shape (matches,).
+    a, b
+        the positions of the two players; -1 for both where the match was not played.
+    score_a, score_b, race_a, race_b
+        games (or points) won and needed; who has won has the race. A race is 0 where it is not
+        known; the higher score has won then.
+    rating_a, rating_b
+        the published ratings (or levels) by which it was played.
+    innings_a, innings_b
+        innings less defensive shots of each player, None where nobody counted them.
+
+    All but `night` have the shape (matches, replicas), or (matches,) for one league.
+
+    >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
+    >>> night.won_a, night.in_innings
+    (array([ True]), False)
+    """
+
+    night: Ints
+    a: Ints
+    b: Ints
+    score_a: Ints
+    score_b: Ints
+    race_a: Ints
+    race_b: Ints
+    rating_a: Floats
+    rating_b: Floats
+    innings_a: Ints | None = None
+    innings_b: Ints | None = None
+
+    @classmethod
+    def of_night(cls, night: int, *columns: Any) -> Matches:
+        """Return the matches of one night from the other columns, in their order."""
+        arrays = [None if column is None else np.asarray(column) for column in columns]
+        first: Any = arrays[0]
+        return cls(np.full(len(first), night, dtype=np.int64), *arrays)  # type: ignore[arg-type]
+
+    def __len__(self) -> int:
+        return len(self.night)
+
+    def __getitem__(self, rows: Any) -> Matches:
+        return self._each(lambda column: column[rows])
+
+    def _each(self, view: Callable[[Any], Any]) -> Matches:
+        values = {name: value for name, value in vars(self).items() if value is not None}
+        return replace(self, **{name: view(value) for name, value in values.items()})
+
+    @property
+    def played(self) -> Bools:
+        """Which matches took place."""
+        return np.asarray(self.a >= 0)
+
+    @property
+    def won_a(self) -> Bools:
+        """Which matches player a won; False where none was played."""
+        known = (self.race_a > 0) & (self.race_b > 0)
+        by_race = (self.score_a >= self.race_a) & (self.score_b < self.race_b)
+        return np.where(known, by_race, self.score_a > self.score_b) & self.played
+
+    @property
+    def in_innings(self) -> bool:
+        """Whether innings were counted."""
+        return self.innings_a is not None
+
+    def nights(self) -> Iterator[Matches]:
+        """Yield the matches of each night that has any, in order."""
+        edges = np.flatnonzero(np.diff(self.night)) + 1
+        for start, end in pairwise([0, *edges.tolist(), len(self)]):
+            if end > start:
+                yield self[start:end]
+
+    def turned(self) -> Matches:
+        """Return the same matches seen from player b."""
+        pairs = ("score", "race", "rating", "innings")
+        swapped: dict[str, Any] = {"a": self.b, "b": self.a}
+        for name in pairs:
+            swapped[f"{name}_a"] = getattr(self, f"{name}_b")
+            swapped[f"{name}_b"] = getattr(self, f"{name}_a")
+        return replace(self, **swapped)
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """All that was played up to and with a night, and what was published before it.
+
+    Parameters
+    ----------
+    entries
+        the players as the list states them.
+    initial
+        what the system published before the first night: shape (players, replicas), or
+        (players,) for one league.
+    ratings
+        what is published now, before the update.
+    night
+        the number of the last night, from 1. It may have had no match.
+    matches
+        all matches up to and with that night.
+    day
+        days from the first night to the last; None: nights are a week apart.
+    kept
+        where a system may keep sums from one update to the next; it is private to the system and
+        the run. Without it the system does the same from the matches alone.
+    """
+
+    entries: Entries
+    initial: Floats
+    ratings: Floats
+    night: int
+    matches: Matches
+    days: Floats | None = None
+    kept: MutableMapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def players(self) -> int:
+        """How many players there are."""
+        return len(self.initial)
+
+    @property
+    def tonight(self) -> Matches:
+        """The matches of the last night."""
+        return self.matches[np.searchsorted(self.matches.night, self.night) :]
+
+    @property
+    def day(self) -> Floats:
+        """Days from the first night to that of each match, shape (matches,)."""
+        nights = self.matches.night
+        days = 7.0 * np.arange(self.night) if self.days is None else np.asarray(self.days)
+        return np.asarray(days[nights - 1], dtype=float)
+
+    def one(self, replica: int) -> History:
+        """Return the history of one replica: arrays without an axis for replicas."""
+
+        def column(values: Any) -> Any:
+            return values[:, min(replica, values.shape[1] - 1)] if np.ndim(values) > 1 else values
+
+        return replace(
+            self,
+            entries=Entries(*(column(values) for values in vars(self.entries).values())),
+            initial=column(self.initial),
+            ratings=column(self.ratings),
+            matches=self.matches._each(column),  # noqa: SLF001
+            kept=self.kept.setdefault(f"replica {replica}", {}),
+        )
+
+    def fold(
+        self, name: str, start: Callable[[], _STATE], add: Callable[[_STATE, Matches], _STATE]
+    ) -> _STATE:
+        """Return what all nights add up to: `add(state, matches of a night)` for each in turn.
+
+        Only nights that are new since the last update are added to the state in `kept`, so what
+        is added must depend on the matches alone.
+
+        >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
+        >>> begun = np.array([620.0, 560.0])
+        >>> history = History(Entries.of(begun), begun, begun, 1, night)
+        >>> history.fold("matches", lambda: 0, lambda many, night: many + len(night))
+        1
+        """
+        done, state = self.kept[name] if name in self.kept else (0, start())
+        for matches in self.matches[done:].nights():
+            state = add(state, matches)
+        self.kept[name] = len(self.matches), state
+        total: _STATE = state
+        return total
+
+    def counts(self, name: str, of_a: Callable[[Matches], Any]) -> Floats:
+        """Return a sum over the matches of each player, shaped as `initial`.
+
+        Parameters
+        ----------
+        name
+            under which it is kept.
+        of_a
+            from matches to what player a adds; it is asked again for the other side.
+
+        >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
+        >>> begun = np.array([620.0, 560.0])
+        >>> history = History(Entries.of(begun), begun, begun, 1, night)
+        >>> history.counts("games won", lambda matches: matches.score_a)
+        array([5., 3.])
+        """
+
+        def add(sums: Floats, matches: Matches) -> Floats:
+            for side in (matches, matches.turned()):
+                place = positions(side.a, self.initial.shape)
+                added = np.broadcast_to(of_a(side), side.a.shape)
+                weights = np.where(side.played, added, 0.0).ravel()
+                sums += np.bincount(place.ravel(), weights, sums.size).reshape(sums.shape)
+            return sums
+
+        return self.fold(name, lambda: np.zeros(self.initial.shape), add).copy()
+
+    def last(self, most: int, name: str, of_a: Callable[[Matches], Any]) -> Floats:
+        """Return the last scores of each player, the newest first; NaN where there are fewer.
+
+        Parameters
+        ----------
+        most
+            how many are wanted.
+        name, of_a
+            as in `counts`; a score that is NaN is left out.
+
+        Returns
+        -------
+        numpy.ndarray
+            shape (most,) followed by that of `initial`.
+
+        >>> night = Matches.of_night(1, [0, 0], [1, 1], [5, 2], [3, 4], [5, 5], [4, 4],
+        ...                          [620.0] * 2, [560.0] * 2)
+        >>> begun = np.array([620.0, 560.0])
+        >>> history = History(Entries.of(begun), begun, begun, 1, night)
+        >>> history.last(3, "games won", lambda matches: matches.score_a)
+        array([[ 2.,  4.],
+               [ 5.,  3.],
+               [nan, nan]])
+        """
+        size = self.initial.size
+
+        def add(state: tuple[Floats, Ints], matches: Matches) -> tuple[Floats, Ints]:
+            scores, count = state
+            sides = [(side.a, np.broadcast_to(of_a(side), side.a.shape)) for side in
+                     (matches, matches.turned())]  # fmt: skip
+            for row in range(len(matches)):
+                for who, values in sides:
+                    place = np.atleast_1d(positions(who, self.initial.shape)[row])
+                    value = np.atleast_1d(values[row]).astype(float)
+                    kept = np.atleast_1d(who[row] >= 0) & ~np.isnan(value)
+                    place = place[kept]
+                    scores[count[place] % most, place] = value[kept]
+                    count[place] += 1
+            return scores, count
+
+        def start() -> tuple[Floats, Ints]:
+            return np.full((most, size), np.nan), np.zeros(size, dtype=np.int64)
+
+        scores, count = self.fold(name, start, add)
+        turn = (count - 1 - np.arange(most)[:, None]) % most
+        newest = np.take_along_axis(scores, turn, axis=0)
+        return newest.reshape(most, *self.initial.shape)
+
+
+def positions(who: Ints, shape: tuple[int, ...]) -> Ints:
+    """Return where players are in a flattened array of players and replicas; 0 for nobody.
+
+    >>> positions(np.array([[1, 0]]), (2, 2))
+    array([[2, 1]])
+    """
+    first: Ints = np.maximum(who, 0)
+    return first * shape[1] + np.arange(shape[1]) if len(shape) > 1 else first
