@@ -164,6 +164,27 @@ def test_a_cap_keeps_out_who_would_break_it(tmp_path: Path) -> None:
         assert night.put(0, "Cleo").status == 400
 
 
+def test_the_page_says_when_the_next_set_starts_and_when_the_night_ends(tmp_path: Path) -> None:
+    with night_of(tmp_path / "tonight.db", tables="2", discipline="9-ball") as night:
+        plan = night.state.plan
+        assert (plan.tables, plan.discipline) == (2, "9-ball")
+        for number, picks in enumerate((((0, "Ann"), (1, "Wim")), ((1, "Vic"), (0, "Bo"))), 1):
+            assert f"Set {number} can start now" in night.captains[0].open("/team").words
+            for side, name in picks:
+                night.put(side, name)
+        for phone in (*night.captains, night.guest):
+            words = phone.open("/team").words
+            assert re.search(r"Set 3 starts at about \d\d:\d\d; eight times out of ten", words)
+            assert re.search(r"the night ends at about \d\d:\d\d; eight times", words)
+        assert "the night ends at about" in night.guest.open("/screen").words
+        for number in (1, 2, 3):
+            if number == 3:
+                for side, one in enumerate(("Dan", "Uli")):
+                    night.put(side, one)
+            night.direct("result", number=number, a=4, b=1)
+        assert "ends at about" not in night.guest.open("/team").words
+
+
 PAGES = ("/team", "/screen", "/", "/desk", "/team/history", "/team/new")
 
 

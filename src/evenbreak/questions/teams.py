@@ -21,6 +21,7 @@ from evenbreak.questions.common import (
     Sure,
 )
 from evenbreak.teams.evening.events import COUNTS
+from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import say
 
 MOST_SETS = 25
@@ -285,6 +286,14 @@ class Lineup(OfTeams, Capped):
             section="Ratings",
         ),
     ] = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnTables:
+    """What a team night asks for, to say when it ends."""
+
+    discipline: Discipline = "8-ball"
+    tables: Annotated[Tables, Says(label=say("Tables for this match"))] = 1
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.teams.night import TeamNight, mirrored, order_of
-from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws
+from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws, set_lengths
 from evenbreak.teams.squad import Squad
 
 SEALED = "sealed"
@@ -79,6 +80,17 @@ class Meeting:
             for size in set(self.sizes)
         }
         return [made[size] for size in self.sizes]
+
+    @cached_property
+    def lengths(self) -> tuple[Floats, ...]:
+        """How many games each set takes, by pick; see `set_lengths`."""
+        made = {
+            size: set_lengths(
+                self.ours, self.theirs, self.race, scale=self.scale, size=size, form=self.form
+            )
+            for size in set(self.sizes)
+        }
+        return tuple(made[size] for size in self.sizes)
 
     def needs(self, ours: Sequence[str], theirs: Sequence[str]) -> tuple[int, int]:
         """Return the games that our pick and theirs need in a set against each other."""

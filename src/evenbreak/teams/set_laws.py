@@ -122,15 +122,56 @@ def set_laws(
     points, errors = Gap(points, errors, scale, form).normal
     reach = _reach(needs_1, needs_2, count)
     law = np.zeros((*points.shape, 2, 2 * reach + 1))
+    for i, j, m, n, endings in _endings(points, errors, needs_1, needs_2, scale):
+        for who, ends in enumerate(endings):
+            for length, margin in _margins(m, n, who, count):
+                law[i, j, who, reach + margin] += ends[length]
+    return np.minimum(law, 1.0)  # a sum may round to more
+
+
+def set_lengths(
+    ours: Roster,
+    theirs: Roster,
+    race: Race,
+    *,
+    scale: Scale | str | float = "fargo",
+    size: int = 1,
+    form: float = 0.0,
+) -> Floats:
+    """Return how many games a set takes, for each of our picks against each of theirs.
+
+    Parameters
+    ----------
+    ours, theirs, race, scale, size, form
+        as for `set_laws`.
+
+    Returns
+    -------
+    numpy.ndarray
+        P(the set takes k games), shape (our picks, their picks, longest + 1).
+
+    >>> set_lengths(Roster(["Ann"], [600]), Roster(["Cy"], [600]), 2).tolist()
+    [[[0.0, 0.0, 0.5, 0.5]]]
+    """
+    points, errors = rating_differences(ours, theirs, size)
+    scale = scale_of(scale)
+    needs_1, needs_2 = games_needed(points, race, scale)
+    points, errors = Gap(points, errors, scale, form).normal
+    chance = np.zeros((*points.shape, int((needs_1 + needs_2).max())))
+    for i, j, m, n, (won, lost) in _endings(points, errors, needs_1, needs_2, scale):
+        chance[i, j, : m + n] = (won + lost)[: m + n].T
+    return chance
+
+
+def _endings(
+    points: Floats, errors: Floats, needs_1: Ints, needs_2: Ints, scale: Scale
+) -> Iterator[tuple[Ints, Ints, int, int, list[Floats]]]:
+    """Yield the pairs that play each race, and P(it is won, or lost, in k games) of each."""
     for m, n in set(zip(needs_1.ravel().tolist(), needs_2.ravel().tolist(), strict=True)):
         i, j = np.nonzero((needs_1 == m) & (needs_2 == n))
         nodes, weights = averaging_rule(float(errors[i, j].max()), m + n, scale)
         p = scale.win_probability(points[i, j] + nodes[:, None] * errors[i, j])
-        won, lost = (weights @ ends for ends in race_endings(m, n, Rack(p), None, 1))
-        for who, ends in enumerate((won, lost)):
-            for length, margin in _margins(m, n, who, count):
-                law[i, j, who, reach + margin] += ends[length]
-    return np.minimum(law, 1.0)  # a sum may round to more
+        yield i, j, m, n, [weights @ ends for ends in race_endings(m, n, Rack(p), None, 1)]
 
 
 def law_in_play(

@@ -18,7 +18,7 @@ from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
-from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup
+from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup, OnTables
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
 from evenbreak.teams.evening.events import NightPlan, TeamSheet
@@ -42,6 +42,9 @@ FIELDS = fields_named(
     Lineup, "sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"
 )
 """What the form asks as `evenbreak lineup` does."""
+
+TIMES = fields_named(OnTables, "discipline", "tables")
+"""What it asks to say when the night ends."""
 
 
 def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
@@ -82,6 +85,7 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         times=rules["times"],
         scale=scale.text,
         match_form=form_of_lists(one.file.form for one in lists),
+        **{one.name: value_of(one, form) for one in TIMES},
     )
     warnings = [
         line for name, one in zip(names, lists, strict=True) for line in warnings_of(one.file, name)

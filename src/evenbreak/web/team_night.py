@@ -12,11 +12,12 @@ from typing import Any, NamedTuple
 from starlette.requests import Request
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.team.clock import clock_words, night_clock
 from evenbreak.answers.team.lineup import lineup_answer, sealed_answer
 from evenbreak.files.store.team_night import read_team_events, team_night_of
 from evenbreak.teams.advice import Advice, advice
 from evenbreak.teams.evening.events import Event
-from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.teams.evening.fold import EVERYBODY, TeamEvening
 from evenbreak.teams.evening.outlook import Side, chance, point_of, side_of
 from evenbreak.teams.sealed import SealedNight
 from evenbreak.teams.solve import SolvedNight
@@ -105,6 +106,16 @@ class TeamNights:
 
         found: tuple[float, float] | None = await self._worked_out((len(now.events),), work)
         return found
+
+    async def times(self, now: TeamNow, at: str) -> list[str]:
+        """Return when the next set starts and the night ends; nothing while it is worked out."""
+
+        def work() -> list[str]:
+            seen = now.state.seen_by(EVERYBODY)  # the times must not give away an unseen pick
+            return list(clock_words(seen, night_clock(seen, at)))
+
+        found: list[str] | None = await self._worked_out((len(now.events), at[:16], "times"), work)
+        return found or []
 
     async def advised(self, now: TeamNow, team: int) -> Advised | None:
         """Return what a team's captain is advised; None: it is being worked out, or not known.

@@ -88,6 +88,10 @@ class NightPlan:
         of the ratings, as `scale_of` reads it.
     match_form
         the form of the day of the ratings: how much the log-odds of a game vary from set to set.
+    discipline
+        the game, for how long sets take.
+    tables
+        how many sets can be played at once.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -103,6 +107,8 @@ class NightPlan:
     times: Annotated[int, Between(1, 100)] = 1
     scale: str = "fargo"
     match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
+    discipline: str = "8-ball"
+    tables: Annotated[int, Between(1, 100)] = 1
 
 
 @lru_cache(maxsize=8)

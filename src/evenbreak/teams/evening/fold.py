@@ -45,6 +45,8 @@ class SetLine:
         how it ended; None: it has not.
     hidden
         which team's pick is in, but left out here.
+    named_at, over_at
+        when both picks were in, and when the result first counted; '' if that is to come.
     """
 
     number: int
@@ -52,6 +54,8 @@ class SetLine:
     said: tuple[Score | None, Score | None] = (None, None)
     score: Score | None = None
     hidden: tuple[bool, bool] = (False, False)
+    named_at: str = ""
+    over_at: str = ""
 
     @property
     def missing(self) -> tuple[int, ...]:
@@ -224,6 +228,7 @@ def team_evening(events: Iterable[Event]) -> TeamEvening | None:
     lines = [SetLine(number) for number in range(1, plan.sets + 1)]
     for _, event in kept[begun[-1] + 1 :]:
         _take(lines, event.what)
+        lines = [_stamped(line, event.at) for line in lines]
     return TeamEvening(plan, began, tuple(lines), kept[-1][1])
 
 
@@ -242,6 +247,13 @@ def _take(lines: list[SetLine], what: What) -> None:
                 lines[number - 1] = replace(line, said=said, score=agreed)
         case Result(number, score):
             lines[number - 1] = replace(lines[number - 1], score=score)
+
+
+def _stamped(line: SetLine, at: str) -> SetLine:
+    """Return a set with the time at which it came as far as it is."""
+    named = line.named_at or (at if line.named else "")
+    over = line.over_at or (at if line.score else "")
+    return replace(line, named_at=named, over_at=over)
 
 
 def _put(lines: list[SetLine], team: int, number: int, pick: Pick) -> None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
@@ -197,18 +198,45 @@ def _under_way(
         )
     ends = np.concatenate([laws[match.match].ends[one, other], laws[match.match].ends[other, one]])
     games = np.tile(np.arange(len(ends) // 2), 2)
-    usual = np.maximum(pace.mean_minutes(games) - pace.mean_minutes(match.games), 1e-9)
-    median = evening[:, None] * usual * lognormal(0.0, pace.match_sd)
+    usual = pace.mean_minutes(games) - pace.mean_minutes(match.games)
+    kind, left = minutes_left(ends, usual, pace.match_sd, evening, elapsed, rng)
+    return kind < len(ends) // 2, left
+
+
+def minutes_left(
+    chances: Floats, usual: Floats, match_sd: float, evening: Floats, elapsed: float, rng: Generator
+) -> tuple[Ints, Floats]:
+    """Return how a match under way ends in each run, and the minutes it still takes.
+
+    Parameters
+    ----------
+    chances, usual
+        the chance of each way in which it may end, and its minutes in all at the usual pace.
+    match_sd
+        how much the minutes of a match vary, as for `Pace`.
+    evening
+        the pace of the evening, for each run.
+    elapsed
+        the minutes that it has taken. Given those, longer ways are the likelier.
+    rng
+        the source of luck.
+
+    Returns
+    -------
+    tuple
+        the position of the way, and the minutes left, each of shape (runs,).
+    """
+    median = evening[:, None] * np.maximum(usual, 1e-9) * lognormal(0.0, match_sd)
     with np.errstate(divide="ignore"):
-        passed = np.log(elapsed / median) / max(pace.match_sd, 1e-9)
+        passed = np.log(elapsed / median) / max(match_sd, 1e-9)
     lasts = ndtr(-passed)  # P(it takes longer than it has)
-    reached = np.cumsum(ends * lasts, axis=1)
+    reached = np.cumsum(chances * lasts, axis=1)
     luck = stratified_uniforms(rng, len(evening)) * reached[:, -1]
-    kind = np.minimum((reached < luck[:, None]).sum(axis=1), len(ends) - 1)
+    kind = np.minimum((reached < luck[:, None]).sum(axis=1), len(chances) - 1)
     row = np.arange(len(evening))
     tail = np.maximum(lasts[row, kind] * (1.0 - stratified_uniforms(rng, len(evening))), 1e-300)
-    total = median[row, kind] * np.exp(-pace.match_sd * ndtri(tail))
-    return kind < len(ends) // 2, np.maximum(total - elapsed, 0.0)
+    total = median[row, kind] * np.exp(-match_sd * ndtri(tail))
+    return kind, np.maximum(total - elapsed, 0.0)
 
 
 _AT_ONCE = 0.62  # with table and players free, so many real turnovers take under a minute

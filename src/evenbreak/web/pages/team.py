@@ -51,7 +51,7 @@ from evenbreak.web.sessions import (
     wrong_pin,
 )
 from evenbreak.web.site import Site
-from evenbreak.web.team_form import FIELDS, plan_of
+from evenbreak.web.team_form import FIELDS, TIMES, plan_of
 from evenbreak.web.team_night import TeamNow, night_on
 from evenbreak.web.team_view import captain_values, plain_options, set_views
 from evenbreak.words import Sentence, say
@@ -81,15 +81,17 @@ async def team(request: Request) -> Response:
 
 async def seen_values(request: Request, now: TeamNow, viewer: int | None) -> dict[str, Any]:
     """Return what a reader may see of a night: a captain (0 or 1), or `EVERYBODY`."""
-    chances = await site_of(request).teams.chances(now)
-    seen = now.state.seen_by(viewer)
+    site, seen = site_of(request), now.state.seen_by(viewer)
+    chances = await site.teams.chances(now)
+    is_over = decided(seen, chances)
     return {
         "state": seen,
         "sets": set_views(seen),
         "played": night_words(seen),
         "needed": needed_words(seen, chances),
         "chances": chances,
-        "decided": decided(seen, chances),
+        "decided": is_over,
+        "times": [] if is_over else await site.teams.times(now, site.clock()),
         "chance_words": chance_words(seen, chances) if chances else "",
         "waiting": waiting_words(seen),
         "due": now.state.due,
@@ -143,7 +145,7 @@ async def _choices(site: Site) -> dict[str, Any]:
     """Return what there is to choose from, and what the page warns of."""
     return {
         "on": await site.teams.now(),
-        "fields": {one.name: one for one in form_fields(FIELDS)},
+        "fields": {one.name: one for one in form_fields([*FIELDS, *TIMES])},
         "orders": ORDERS,
         "races": RACES,
         "charts": CHARTS,
