@@ -35,11 +35,16 @@ from .charts.level_chart import LevelChart as LevelChart
 from .charts.level_chart import PointsChart as PointsChart
 from .charts.level_chart import level_chart as level_chart
 from .charts.level_chart import points_chart as points_chart
+from .charts.level_skills import LevelSkills as LevelSkills
+from .charts.level_skills import level_skills as level_skills
 from .charts.measure import ChartMeasure as ChartMeasure
 from .charts.measure import last_difference as last_difference
 from .charts.measure import measure_chart as measure_chart
 from .charts.played_chart import PlayedCell as PlayedCell
 from .charts.played_chart import PlayedChart as PlayedChart
+from .charts.points_odds import PointsOdds as PointsOdds
+from .charts.points_odds import loser_share as loser_share
+from .charts.points_odds import points_odds as points_odds
 from .charts.race_of_pair import Fairest as Fairest
 from .ladders.closed_league import ClosedPair as ClosedPair
 from .ladders.closed_league import in_step_law as in_step_law

@@ -78,7 +78,7 @@ class LevelChart:
         wanted = self._wanted
         mine = whole(level_1, "level_1", at_least=None, wanted=wanted)
         theirs = whole(level_2, "level_2", at_least=None, wanted=wanted)
-        i, j = int(self._places(mine, "level_1")), int(self._places(theirs, "level_2"))
+        i, j = int(self.places(mine, "level_1")), int(self.places(theirs, "level_2"))
         return self.needs[i][j], self.needs[j][i]
 
     @property
@@ -101,12 +101,19 @@ class LevelChart:
         >>> level_chart("apa_8ball").races([5, 3], 3)
         (array([4, 2]), array([2, 2]))
         """
-        i, j = self._places(levels_1, "levels_1"), self._places(levels_2, "levels_2")
+        i, j = self.places(levels_1, "levels_1"), self.places(levels_2, "levels_2")
         together(levels_1=i, levels_2=j)
         needs = np.array(self.needs)
         return needs[i, j], needs[j, i]
 
-    def _places(self, levels: ArrayLike, name: str) -> Ints:
+    def places(self, levels: ArrayLike, name: str = "levels") -> Ints:
+        """Return where levels are in the chart's list of them, elementwise.
+
+        Raises
+        ------
+        InputError
+            if the chart does not have one of the levels.
+        """
         array = whole_numbers(levels, name, wanted=self._wanted)
         own_levels = np.array(self.levels)
         place = np.minimum(np.searchsorted(own_levels, array), len(own_levels) - 1)

@@ -1,0 +1,183 @@
+"""The odds of a match by a chart of points, and how its match points are shared.
+
+The players are taken to shoot as the audit of such a chart takes them to (`level_audit`): each shot
+is made with the same chance, counts a point, and a miss ends the inning. After j innings a player
+then has k points with the chance C(j + k - 1, k) p^k (1 - p)^j, and reaches the last of N points in
+inning i with the chance C(i + N - 2, N - 1) p^N (1 - p)^(i - 1); both are exact here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from evenbreak.arrays import Floats, own_arrays
+from evenbreak.checks import number, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import catalogue_rows
+from evenbreak.handicaps.charts.chart_of import points_chart_of
+from evenbreak.handicaps.charts.level_audit import INNINGS
+from evenbreak.handicaps.charts.level_chart import PointsChart, points_chart
+
+MATCH_POINTS = 20
+"""The match points that the two players of an APA 9-ball match share."""
+
+
+def loser_share(level: Any, points: Any) -> int:
+    """Return the match points of 20 that the loser of an APA 9-ball match gets.
+
+    The winner gets the rest.
+
+    Parameters
+    ----------
+    level
+        the loser's skill level, 1 to 9.
+    points
+        the points that they made, fewer than the level needs.
+
+    Raises
+    ------
+    InputError
+        if there is no such level, or a loser of this level cannot have so many points.
+
+    Notes
+    -----
+    Source: the table of the association's score sheet, as two public score programs have it.
+
+    >>> loser_share(3, 21), loser_share(9, 17), loser_share(5, 37)
+    (7, 0, 8)
+    """
+    needs, _ = points_chart("apa_9ball").race(level, level)
+    made = whole(points, "points", wanted=f"0 to {needs - 1}")
+    if made >= needs:
+        raise InputError("points is {made}; give 0 to {most}", made=made, most=needs - 1)
+    limits = next(row[1:] for row in catalogue_rows("apa_9ball_shares") if row[0] == level)
+    return int(np.searchsorted(limits, made))
+
+
+@own_arrays
+@dataclass(frozen=True, eq=False)
+class PointsOdds:
+    """How a match by a chart of points ends.
+
+    Parameters
+    ----------
+    needs
+        the points that player 1 and player 2 need from 0 on.
+    lost_1, lost_2
+        `lost_1[k]`: P(player 1 loses with k points, those of the score with them); the same of
+        player 2.
+    share_1, share_2
+        the mean match points of each, of 20; None for another chart than APA 9-ball.
+    mean_innings
+        the innings that the match goes on, on average, the last one with it.
+    """
+
+    needs: tuple[int, int]
+    lost_1: Floats
+    lost_2: Floats
+    share_1: float | None
+    share_2: float | None
+    mean_innings: float
+
+    @property
+    def p_win_1(self) -> float:
+        """P(player 1 wins)."""
+        return float(self.lost_2.sum())
+
+    @property
+    def p_win_2(self) -> float:
+        """P(player 2 wins)."""
+        return float(self.lost_1.sum())
+
+
+def points_odds(
+    chart: PointsChart | str,
+    level_1: Any,
+    level_2: Any,
+    *,
+    score: tuple[int, int] = (0, 0),
+    innings: float = INNINGS,
+) -> PointsOdds:
+    """Return how a match of two skill levels by a chart of points ends.
+
+    Either player is next at the table with chance 1/2.
+
+    Parameters
+    ----------
+    chart
+        the chart, or its name in `POINTS_CHARTS`.
+    level_1, level_2
+        the skill levels.
+    score
+        the points that the two have.
+    innings
+        how many innings a player needs on average to reach their points.
+
+    Raises
+    ------
+    InputError
+        if the chart does not have a level, or the score ends the match.
+
+    >>> odds = points_odds("apa_9ball", 5, 3)
+    >>> odds.needs, round(odds.p_win_1, 3), round(odds.share_1, 2)
+    ((38, 25), 0.496, 9.91)
+    """
+    chart = points_chart_of(chart)
+    needs = chart.race(level_1, level_2)
+    innings = number(innings, "innings", low=1.0, high=1000.0)
+    left = []
+    for need, has in zip(needs, score, strict=True):
+        points = whole(has, "score")
+        if points >= need:
+            raise InputError("score is {points} of {need}: the match is over", points=points, need=need)
+        left.append(need - points)
+    chance = [need / (innings + need) for need in needs]
+    reach = [_reaches(n, p) for n, p in zip(left, chance, strict=True)]
+    longest = max(len(law) for law in reach)
+    reach = [np.pad(law, (0, longest - len(law))) for law in reach]
+    has = [_points(n, p, longest) for n, p in zip(left, chance, strict=True)]
+    lost, length = [np.zeros(need) for need in needs], 0.0
+    turns = np.arange(1, longest + 1)
+    for winner, loser in ((0, 1), (1, 0)):
+        for completed in (0, 1):  # the loser's innings before the winner's last: i - 1 or i
+            law = has[loser][completed : longest + completed]
+            lost[loser][score[loser] :] += reach[winner] @ law / 2.0
+            length += reach[winner] * turns @ law.sum(axis=1) / 2.0
+    shares = _shares(chart, (level_1, level_2), lost)
+    return PointsOdds(needs, *lost, *shares, float(length))
+
+
+def _reaches(points: int, p: float) -> Floats:
+    """Return P(the last of some points comes in inning 1, 2, ...)."""
+    from scipy.stats import nbinom
+
+    last = int(nbinom.isf(1e-14, points, p)) + 1
+    return np.asarray(nbinom.pmf(np.arange(last + 1), points, p))
+
+
+def _points(points: int, p: float, innings: int) -> Floats:
+    """Return P(k points after j innings), j = 0 to `innings`, k = 0 to one less than `points`."""
+    from scipy.stats import nbinom
+
+    made = np.arange(points)
+    law = np.zeros((innings + 1, points))
+    law[0, 0] = 1.0
+    law[1:] = nbinom.pmf(made, np.arange(1, innings + 1)[:, None], 1.0 - p)
+    return law
+
+
+def _shares(
+    chart: PointsChart, levels: tuple[Any, Any], lost: list[Floats]
+) -> tuple[float, float] | tuple[None, None]:
+    own = points_chart("apa_9ball")
+    if (chart.levels, chart.points) != (own.levels, own.points):
+        return None, None
+    means = [
+        sum(p * loser_share(level, k) for k, p in enumerate(law.tolist()))
+        for level, law in zip(levels, lost, strict=True)
+    ]
+    p_1, p_2 = (float(law.sum()) for law in lost[::-1])
+    return means[0] + MATCH_POINTS * p_1 - means[1], means[1] + MATCH_POINTS * p_2 - means[0]
