@@ -48,7 +48,8 @@ def test_the_losers_share_is_the_score_sheets(level, points, share):
 def test_a_loser_gets_eight_at_most_one_point_short():
     for level, *limits in catalogue_rows("apa_9ball_shares"):
         needs = points_chart("apa_9ball").race(level, level)[0]
-        assert limits == sorted(limits) and limits[-1] == needs - 1
+        assert limits == sorted(limits)
+        assert limits[-1] == needs - 1
         assert loser_share(level, needs - 1) == 8
         with pytest.raises(InputError, match=f"give 0 to {needs - 1}"):
             loser_share(level, needs)

@@ -132,7 +132,9 @@ def points_odds(
     for need, has in zip(needs, score, strict=True):
         points = whole(has, "score")
         if points >= need:
-            raise InputError("score is {points} of {need}: the match is over", points=points, need=need)
+            raise InputError(
+                "score is {points} of {need}: the match is over", points=points, need=need
+            )
         left.append(need - points)
     chance = [need / (innings + need) for need in needs]
     reach = [_reaches(n, p) for n, p in zip(left, chance, strict=True)]
