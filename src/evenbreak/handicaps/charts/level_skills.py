@@ -312,4 +312,4 @@ class _Season:
     def _curvature(self, weight: Floats) -> sparse.csc_matrix:
         p = expit(self._contrast @ self._at)
         of_games = self._contrast.multiply((self._played * p * (1.0 - p))[:, None])
-        return (self._contrast.T @ of_games + sparse.diags(weight)).tocsc()
+        return sparse.csc_matrix(self._contrast.T @ of_games + sparse.diags(weight))

@@ -126,30 +126,28 @@ def points_odds(
     ((38, 25), 0.496, 9.91)
     """
     chart = points_chart_of(chart)
-    needs = chart.race(level_1, level_2)
+    needs: tuple[int, int] = chart.race(level_1, level_2)
     innings = number(innings, "innings", low=1.0, high=1000.0)
     left = []
     for need, has in zip(needs, score, strict=True):
-        points = whole(has, "score")
-        if points >= need:
-            raise InputError(
-                "score is {points} of {need}: the match is over", points=points, need=need
-            )
-        left.append(need - points)
+        made = whole(has, "score")
+        if made >= need:
+            raise InputError("score is {made} of {need}: the match is over", made=made, need=need)
+        left.append(need - made)
     chance = [need / (innings + need) for need in needs]
     reach = [_reaches(n, p) for n, p in zip(left, chance, strict=True)]
     longest = max(len(law) for law in reach)
     reach = [np.pad(law, (0, longest - len(law))) for law in reach]
-    has = [_points(n, p, longest) for n, p in zip(left, chance, strict=True)]
+    points = [_points(n, p, longest) for n, p in zip(left, chance, strict=True)]
     lost, length = [np.zeros(need) for need in needs], 0.0
     turns = np.arange(1, longest + 1)
     for winner, loser in ((0, 1), (1, 0)):
         for completed in (0, 1):  # the loser's innings before the winner's last: i - 1 or i
-            law = has[loser][completed : longest + completed]
+            law = points[loser][completed : longest + completed]
             lost[loser][score[loser] :] += reach[winner] @ law / 2.0
-            length += reach[winner] * turns @ law.sum(axis=1) / 2.0
-    shares = _shares(chart, (level_1, level_2), lost)
-    return PointsOdds(needs, *lost, *shares, float(length))
+            length += float(reach[winner] * turns @ law.sum(axis=1)) / 2.0
+    share_1, share_2 = _shares(chart, (level_1, level_2), lost)
+    return PointsOdds(needs, lost[0], lost[1], share_1, share_2, length)
 
 
 def _reaches(points: int, p: float) -> Floats:
