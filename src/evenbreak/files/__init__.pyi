@@ -14,11 +14,11 @@ from .lists.entrants import read_entrants as read_entrants
 from .lists.entrants import roster_of_entrants as roster_of_entrants
 from .lists.roster import RosterFile as RosterFile
 from .lists.roster import read_roster as read_roster
-from .lists.season import LeagueFile as LeagueFile
 from .lists.season import ScheduleFile as ScheduleFile
+from .lists.season import SeasonPlayers as SeasonPlayers
 from .lists.season import league_of_entrants as league_of_entrants
-from .lists.season import read_league as read_league
 from .lists.season import read_schedule as read_schedule
+from .lists.season import read_season_players as read_season_players
 from .lists.teams import TeamList as TeamList
 from .lists.teams import TeamMatches as TeamMatches
 from .lists.teams import TeamNames as TeamNames

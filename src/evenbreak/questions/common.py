@@ -10,7 +10,8 @@ from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, Text, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale, scale_of
+from evenbreak.files.league.values import SCALE
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 
 HIGHEST_SEED = 2**32 - 1
@@ -37,10 +38,6 @@ SPAN = TwoWhole(
     metavar="LO..HI",
     rising=True,
 )
-SCALE = Named(
-    scale_of, "npl|fargo|elo|POINTS", offers="scales", spelled=lambda scale: str(scale.text)
-)
-
 _SCALE = Field(
     SCALE,
     "The scale of the ratings: POINTS double the odds of winning a game.",

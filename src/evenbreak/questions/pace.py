@@ -5,19 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from evenbreak.fields.kinds import File, Number
+from evenbreak.fields.kinds import File
 from evenbreak.fields.question import Field, Question
+from evenbreak.files.league import values
 from evenbreak.tournaments.evening.format import Discipline
 
 MINUTES = Field(
-    Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5"),
+    values.MINUTES,
     "How long a game takes on average, instead of the usual time of the discipline.",
     metavar="MINUTES",
 )
 Turnover: TypeAlias = Annotated[
     float | None,
     Field(
-        Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0"),
+        values.TURNOVER,
         "The time between two matches on a table, on average.",
         metavar="MINUTES",
     ),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-from evenbreak.fields.kinds import Named, Number
+from evenbreak.fields.kinds import Number
 from evenbreak.fields.question import Field, Question, Says
+from evenbreak.files.league.values import SYSTEM
 from evenbreak.questions.common import ChartName
 
 if TYPE_CHECKING:
@@ -15,17 +16,10 @@ else:  # systems take a quarter of a second to load, which most questions do wit
     System = Any
 
 
-def _system(text: str) -> System:
-    from evenbreak.handicaps.systems.catalogue import system_of
-
-    system: System = system_of(text)
-    return system
-
-
 SystemOf: TypeAlias = Annotated[
     System | None,
     Field(
-        Named(_system, "NAME", offers="systems", spelled=lambda system: str(system.name)),
+        SYSTEM,
         "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].",
         usual="npl",
         more="Put a name with a blank in quotes, or write a hyphen: `step-2`. See "

@@ -7,8 +7,17 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import Choice, File, Flag, Named, Number, Text, Whole
+from evenbreak.fields.kinds import Choice, File, Flag, Named, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
+from evenbreak.files.league.values import (
+    CAP,
+    MOST_SETS,
+    SETS,
+    STRONG,
+    TABLE_POINTS,
+    TIES,
+    names_in,
+)
 from evenbreak.questions.common import (
     SCORE,
     ChartOfRaces,
@@ -23,8 +32,6 @@ from evenbreak.questions.common import (
 from evenbreak.teams.evening.events import COUNTS
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import say
-
-MOST_SETS = 25
 
 _RULES, _SO_FAR = "Rules", "The match so far"
 
@@ -52,42 +59,6 @@ def sets_in(text: str) -> tuple[int, ...]:
     return tuple(sorted({int(part) for part in text.split(",")}))
 
 
-def strong_in(text: str) -> tuple[int, float]:
-    """Return how many players of which level a text allows.
-
-    >>> strong_in("2:6"), strong_in("1 of 5.5+")
-    ((2, 6.0), (1, 5.5))
-    """
-    match = re.fullmatch(
-        r"\s*(\d{1,3})\s*(?::|x|of)\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", text, re.ASCII
-    )
-    if match is None:
-        raise InputError(
-            "{value!r}: write how many players of which level, such as 2:6.", value=text
-        )
-    return int(match[1]), float(match[2])
-
-
-def _points_of_match(text: str) -> tuple[float, ...]:
-    """Return the points of a win, a draw, a loss and each set won."""
-    if text.strip().lower() == "sets":
-        return 0.0, 0.0, 0.0, 1.0
-    try:
-        win, draw, loss = (Number(0.0, 100.0).read(part) for part in text.split(","))
-    except (InputError, ValueError):
-        message = f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0, or sets"
-        raise InputError(message) from None
-    return win, draw, loss, 0.0
-
-
-def _spelled(points: tuple[float, ...]) -> str:
-    return "sets" if points[3] else ",".join(f"{part:g}" for part in points[:3])
-
-
-def _names_in(text: str) -> tuple[str, ...]:
-    return tuple(part.strip() for part in text.split(",") if part.strip())
-
-
 def _pair_in(text: str) -> tuple[str, ...]:
     """Return the player in a text, or the two of a pair."""
     return tuple(part.strip() for part in re.split(r",|&|\band\b", text) if part.strip())
@@ -109,9 +80,7 @@ def set_in_play(text: str) -> InPlay:
 
 
 InPlay: TypeAlias = tuple[tuple[str, ...], tuple[str, ...], tuple[int, int]]
-Sets: TypeAlias = Annotated[
-    int | None, Field(Whole(1, MOST_SETS), "How many sets are played.", metavar="K")
-]
+Sets: TypeAlias = Annotated[int | None, Field(SETS, "How many sets are played.")]
 Order: TypeAlias = Annotated[
     str,
     Field(
@@ -158,7 +127,7 @@ class Capped(Question):
     cap: Annotated[
         float | None,
         Field(
-            Number(0.001, 1e6, "; give a number above 0, such as 23", metavar="TOTAL"),
+            CAP,
             "The largest sum of the skill levels of a line-up, such as 23.",
             label=say("Cap: the largest sum of skill levels, such as 23 (blank: none)"),
             more="Without a column `level`, of the ratings.",
@@ -167,7 +136,7 @@ class Capped(Question):
     at_most: Annotated[
         tuple[int, float] | None,
         Field(
-            Named(strong_in, "K:LEVEL", spelled=lambda limit: f"{limit[0]}:{limit[1]:g}"),
+            STRONG,
             "At most K players of this level or above, such as 2:6.",
             label=say(
                 "Limit on strong players: how many at which level or above, such as 2:6 (blank: "
@@ -204,7 +173,7 @@ class Lineup(OfTeams, Capped):
     used: Annotated[
         tuple[str, ...],
         Field(
-            Named(_names_in, "NAME,..."),
+            Named(names_in, "NAME,..."),
             "Who has played already, of both teams.",
             more="Where both teams have a player of that name, write `ours:Ann` or `theirs:Ann`.",
         ),
@@ -399,7 +368,7 @@ class Season(Question):
     table_points: Annotated[
         tuple[float, ...],
         Field(
-            Named(_points_of_match, "W,D,L|sets", spelled=_spelled),
+            TABLE_POINTS,
             "The points of a win, a draw and a loss, or a point for each set won.",
             section=_TABLE,
             old=("points",),
@@ -408,7 +377,7 @@ class Season(Question):
     ties: Annotated[
         tuple[str, ...],
         Field(
-            Named(_names_in, "RULE,...", spelled=",".join),
+            TIES,
             "What separates teams with equal points, in this order: difference and scored (sets), "
             "wins, head-to-head; then lots.",
             section=_TABLE,

@@ -14,11 +14,12 @@ from evenbreak.answers.kit.wording import some_of
 from evenbreak.answers.league.prior import starters_words
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
+from evenbreak.files.league.values import MOST_SETS
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
-from evenbreak.questions.teams import MOST_SETS, ORDERS, Lineup, OnTables
+from evenbreak.questions.teams import ORDERS, Lineup, OnTables
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
 from evenbreak.teams.evening.events import NightPlan, TeamSheet

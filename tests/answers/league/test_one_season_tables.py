@@ -6,7 +6,7 @@ import pytest
 
 from evenbreak.answers.league.season_tables import matches_frame, truth_frame
 from evenbreak.files.csv_writer import to_csv
-from evenbreak.files.lists.season import read_league
+from evenbreak.files.lists.season import read_season_players
 from evenbreak.files.results.results_file import read_results
 from evenbreak.league import LeaguePlayers, PlayedSeason, Season, season_matches
 
@@ -52,7 +52,7 @@ def test_the_truth_is_read_back_as_a_league(played, tmp_path):
     assert truth["rating_end"].tolist() == one.rating.tolist()
     assert truth["skill_end"].tolist() == one.skill_after.tolist()
     (tmp_path / "truth.csv").write_bytes(to_csv(truth))
-    back = read_league(tmp_path / "truth.csv").players
+    back = read_season_players(tmp_path / "truth.csv").players
     assert list(back.names or ()) == NAMES
     assert back.rating.tolist() == [90, 84, 50, 60, 61]
     assert back.skill.tolist() == [95, 80, 70, 55, 62]

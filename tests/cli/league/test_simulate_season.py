@@ -4,7 +4,7 @@ import pytest
 
 from evenbreak.cli.league.simulate import matches_to_play, season_of
 from evenbreak.fields.question import AskedError
-from evenbreak.files.lists.season import read_league
+from evenbreak.files.lists.season import read_season_players
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.questions.league import WEEKS, Simulate
 from places import DATA
@@ -14,7 +14,7 @@ FIXTURES = str(DATA / "demo_schedule.csv")
 
 @pytest.fixture(scope="module")
 def league():
-    return read_league(str(DATA / "demo_league_roster.csv"))
+    return read_season_players(str(DATA / "demo_league_roster.csv"))
 
 
 def asked(roster="r", **fields):

@@ -5,7 +5,7 @@ import xlsxwriter
 from evenbreak.errors import DataError
 from evenbreak.files.lists.entrants import read_entrants, roster_of_entrants
 from evenbreak.files.lists.roster import read_roster
-from evenbreak.files.lists.season import league_of_entrants, read_league
+from evenbreak.files.lists.season import league_of_entrants, read_season_players
 
 LEAGUE = "player,rating,standard_error,games,scale\nAnn Lee,92,6,140,npl\nBo Diaz,71,9,60,npl\n"
 
@@ -115,7 +115,7 @@ def test_two_scales_are_refused(written):
 
 
 def test_a_season_of_entrants(written):
-    league = read_league(written(LEAGUE, "club.csv"))
+    league = read_season_players(written(LEAGUE, "club.csv"))
     entrants = read_entrants(written("Cy\nAnn Lee\n"))
     file = league_of_entrants(league, entrants, starter=80.0, starter_sd=30.0)
     assert file.players.names == ("Cy", "Ann Lee")
@@ -131,7 +131,7 @@ def test_skill_levels_and_points_do_not_mix(written):
     path = written(league, "league.csv")
     for join in (
         lambda: roster_of_entrants(read_roster(path), entrants),
-        lambda: league_of_entrants(read_league(path), entrants, starter=75, starter_sd=30),
+        lambda: league_of_entrants(read_season_players(path), entrants, starter=75, starter_sd=30),
     ):
         with pytest.raises(DataError, match="skill levels"):
             join()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.lists.season import read_league
+from evenbreak.files.lists.season import read_season_players
 from evenbreak.league.players import ESTABLISHED
 
 WHOLE = """\
@@ -26,7 +26,7 @@ def club(folder: Path, text: str) -> Path:
 
 
 def test_every_column_is_read(tmp_path: Path) -> None:
-    file = read_league(club(tmp_path, WHOLE), day_sd=6.0)
+    file = read_season_players(club(tmp_path, WHOLE), day_sd=6.0)
     players = file.players
     assert players.names == ("Ann", "Bo", "Cy")
     assert players.rating.tolist() == [92, 72, 60]
@@ -44,7 +44,7 @@ def test_every_column_is_read(tmp_path: Path) -> None:
 
 
 def test_a_plain_roster_is_enough(tmp_path: Path) -> None:
-    file = read_league(club(tmp_path, "player,rating,standard_error\nAnn,92,9\nBo,71,12\n"))
+    file = read_season_players(club(tmp_path, "player,rating,standard_error\nAnn,92,9\nBo,71,12\n"))
     assert file.players.skill.tolist() == [92.0, 71.0]
     assert file.players.skill_sd.tolist() == [9.0, 12.0]
     assert file.players.day_sd.tolist() == [0.0, 0.0]
@@ -63,7 +63,7 @@ Ed,20000,80,,,9,3,,
 Flo,80,,,,-2,x,,
 """
     with pytest.raises(DataError) as caught:
-        read_league(club(tmp_path, text))
+        read_season_players(club(tmp_path, text))
     told = "\n".join(caught.value.problems)
     for line, words in (
         (2, "rating 'six' is not a number"),
@@ -97,4 +97,4 @@ Flo,80,,,,-2,x,,
 )
 def test_a_file_that_is_no_league_is_refused(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(DataError, match=words):
-        read_league(club(tmp_path, text))
+        read_season_players(club(tmp_path, text))

@@ -9,7 +9,7 @@ from evenbreak.files.arcs import read_arcs
 from evenbreak.files.charts import read_chart, read_chart_file
 from evenbreak.files.csv_writer import text_cell
 from evenbreak.files.lists.roster import read_roster
-from evenbreak.files.lists.season import read_league, read_pairs, read_schedule
+from evenbreak.files.lists.season import read_pairs, read_schedule, read_season_players
 from evenbreak.files.practice import read_drill_log, read_scores
 from evenbreak.files.results.results_file import read_aliases, read_results
 from evenbreak.files.tables.names import clean_name
@@ -39,7 +39,7 @@ READERS = {
         "player,rating,standard_error,games,component\nAnn,90.5,4,120,1\nBo,,,0,\n",
     ),
     "league": (
-        read_league,
+        read_season_players,
         "player,rating,standard_error,matches,skill,day_sd,drift,joins,leaves,absence\n"
         "Ann,90.5,4,12,92,5,0.1,1,20,0.2\nBo,80,,,,,,,,\n",
     ),

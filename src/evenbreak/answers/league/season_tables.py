@@ -286,7 +286,7 @@ def truth_frame(season: Season, played: PlayedSeason) -> pd.DataFrame:
     -------
     pandas.DataFrame
         player; rating and skill, at the start; rating_end and skill_end, after the last week.
-        `read_league` reads it as a roster.
+        `read_season_players` reads it as a roster.
     """
     return pd.DataFrame(
         {

@@ -56,7 +56,7 @@ def refuse_too_varying(asked: Question, system: handicaps.StepSystem, *names: st
 
 
 def refuse_other_scale(
-    file: files.RosterFile | files.LeagueFile,
+    file: files.RosterFile | files.SeasonPlayers,
     scale: Scale,
     whose: str,
     remedy: str,
@@ -99,7 +99,7 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.StepSystem) -> N
     )
 
 
-def refuse_levels(file: files.RosterFile | files.LeagueFile, remedy: str) -> None:
+def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str) -> None:
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:
         refuse(

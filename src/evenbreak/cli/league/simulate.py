@@ -40,10 +40,10 @@ def command(asked: Simulate) -> Answer:
     from evenbreak.answers.faces.to_csv import to_csv
     from evenbreak.answers.league.season import season_answer
     from evenbreak.answers.league.season_tables import season_tables
-    from evenbreak.files.lists.season import read_league
+    from evenbreak.files.lists.season import read_season_players
     from evenbreak.files.store.folder import check_folder
 
-    file = read_league(asked.roster, day_sd=asked.day_sd)
+    file = read_season_players(asked.roster, day_sd=asked.day_sd)
     if asked.players_file is not None:
         file = _with_entrants(file, asked.players_file, asked)
     season, warnings = season_of(file, asked)
@@ -127,7 +127,7 @@ def _pictures(tables: SeasonTables) -> dict[str, bytes]:
 # The season that is asked for.
 
 
-def _with_entrants(file: files.LeagueFile, path: str, asked: Simulate) -> files.LeagueFile:
+def _with_entrants(file: files.SeasonPlayers, path: str, asked: Simulate) -> files.SeasonPlayers:
     """Return the league with those players who have entered.
 
     New ones start in the middle of the scale, or of the league if the scale has none.
@@ -146,7 +146,7 @@ def _system(asked: Simulate) -> handicaps.StepSystem:
     return on_scale(handicaps.steps_of(asked.system or "npl"), asked.scale)
 
 
-def season_of(file: files.LeagueFile, asked: Simulate) -> tuple[league.Season, list[str]]:
+def season_of(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Season, list[str]]:
     """Return the season that is asked for, and warnings about roster, chart and schedule."""
     from evenbreak.answers.kit.scales import league_doubts
 
@@ -166,7 +166,7 @@ def season_of(file: files.LeagueFile, asked: Simulate) -> tuple[league.Season, l
     return league.Season(file.players, system, chart, schedule, weeks, play), warnings
 
 
-def _schedule(file: files.LeagueFile, asked: Simulate) -> tuple[league.Schedule, int, list[str]]:
+def _schedule(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Schedule, int, list[str]]:
     """Return who plays whom, for how many weeks, and warnings."""
     matches, weeks = asked.matches or 1, asked.weeks
     if asked.schedule is None:

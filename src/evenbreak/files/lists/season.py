@@ -42,7 +42,7 @@ SEASON = (
 
 
 @dataclass(frozen=True, eq=False)
-class LeagueFile:
+class SeasonPlayers:
     """What a league's roster contains.
 
     Parameters
@@ -75,7 +75,7 @@ class LeagueFile:
     levels: bool = False
 
 
-def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
+def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlayers:
     r"""Read the roster of a season from a CSV file; '-' is standard input.
 
     It has the columns of a roster and those of `OF_SEASON`. A skill that is not stated is drawn for
@@ -100,7 +100,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "club.csv"
     ...     _ = path.write_text("player,rating,se,skill\nAnn,92.5,9,\nBo,71,9,75\nCy,60,,\n")
-    ...     club = read_league(path)
+    ...     club = read_season_players(path)
     >>> club.players.rating, club.players.skill, club.players.skill_sd
     (array([93, 71, 60]), array([92.5, 75. , 60. ]), array([9., 0., 0.]))
     """
@@ -143,7 +143,7 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
             rounded,
         )
         warnings.append(warning(table.source, None, note))
-    return LeagueFile(
+    return SeasonPlayers(
         players,
         roster,
         table.source,
@@ -156,8 +156,8 @@ def read_league(path: str | Path, *, day_sd: float = 0.0) -> LeagueFile:
 
 
 def league_of_entrants(
-    file: LeagueFile, entrants: RosterFile, *, starter: float, starter_sd: float
-) -> LeagueFile:
+    file: SeasonPlayers, entrants: RosterFile, *, starter: float, starter_sd: float
+) -> SeasonPlayers:
     """Return the league of the entrants, with new players where they are not on its list.
 
     Parameters

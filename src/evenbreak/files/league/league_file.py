@@ -1,0 +1,459 @@
+"""`league.toml`, the file of a league: what it holds, and how it is read.
+
+Each key is declared once, with the kind of its values, by the classes below; the reference has a
+table of them. Commands take their defaults from it (`evenbreak.questions.of_league`).
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import date, time
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.fields.kinds import Choice, Kind, Whole
+from evenbreak.fields.question import Declared, Field, declared
+from evenbreak.files.league import values
+from evenbreak.files.league.toml_lines import Keys, lines_of
+from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.rows import content_of
+from evenbreak.ratings.scale import Scale
+from evenbreak.tournaments.evening.format import DISCIPLINES, LONGEST_RACE, MOST_TABLES
+from evenbreak.words import say
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.system import System
+else:
+    System = Any
+
+LEAGUE_TOML = "league.toml"
+"""What the file is called."""
+
+_NOTHING: Mapping[str, str] = {}
+Section = TypeVar("Section")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeagueFiles:
+    """`[files]`: the files of the league's folder."""
+
+    roster: Annotated[
+        str | None, Field(values.FILE, "The players: rating, skill level or both, and team.")
+    ] = None
+    fixtures: Annotated[str | None, Field(values.FILE, "Who plays whom, and when.")] = None
+    teams: Annotated[
+        str | None, Field(values.FILE, "All teams, with points they have besides.")
+    ] = None
+    team_results: Annotated[
+        str | None, Field(values.FILE, "The results of teams: home, away and the sets of each.")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """`[[results]]`: a file of match results; there is one of these tables for each file."""
+
+    file: Annotated[str, Field(values.FILE, "The file.")]
+    columns: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
+    """The titles that its columns have, where they are not known ones."""
+    dates: Annotated[
+        str | None,
+        Field(Choice(("mdy", "dmy")), "The order in dates such as 9/3/2024, if no date shows it."),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TeamRules:
+    """`[team]`: the rules of a team match."""
+
+    players: Annotated[int | None, Field(Whole(1, 100), "How many players a team puts up.")] = None
+    sets: Annotated[int | None, Field(values.SETS, "How many sets are played.")] = None
+    cap: Annotated[
+        float | None, Field(values.CAP, "The largest sum of the skill levels of a line-up.")
+    ] = None
+    at_most: Annotated[
+        tuple[int, float] | None,
+        Field(values.STRONG, "At most this many players of this level or above, such as 2:6."),
+    ] = None
+    order: Annotated[
+        str | None, Field(values.ORDER, "Who names first, as for `evenbreak lineup`.")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StandingsRules:
+    """`[standings]`: how a table of teams or players is made."""
+
+    points: Annotated[
+        tuple[float, ...] | None,
+        Field(values.TABLE_POINTS, "The points of a win, a draw and a loss, or `sets`."),
+    ] = None
+    ties: Annotated[
+        tuple[str, ...] | None,
+        Field(values.TIES, "What separates those with equal points, in this order."),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prices:
+    """`[prices]`: what it costs to play."""
+
+    entry: Annotated[float | None, Field(values.MONEY, "What each player pays to enter.")] = None
+    currency: Annotated[str | None, Field(values.CURRENCY, "The sign of the currency.")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Published:
+    """`[publish]`: what the league's site shows."""
+
+    color: Annotated[str | None, Field(values.COLOR, "The color of the site.")] = None
+    logo: Annotated[str | None, Field(values.FILE, "A picture for its head.")] = None
+    names: Annotated[
+        str, Field(values.NAMES, "Players' names in full, as initials, or not at all (hidden).")
+    ] = "full"
+    players: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
+    """The same for single players."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeagueFile:
+    """What a league's file says; what it leaves out is None or empty.
+
+    Attributes
+    ----------
+    folder
+        the league's folder, in which its files are.
+    aliases
+        from a name as it may be written to the name that is meant.
+    """
+
+    folder: Path
+    name: Annotated[str | None, Field(values.LINE, "The name of the league.")] = None
+    discipline: Annotated[str | None, Field(Choice(DISCIPLINES), "The game.")] = None
+    scale: Annotated[
+        Scale | None,
+        Field(values.SCALE, "The scale of the ratings; left out in a league of skill levels."),
+    ] = None
+    chart: Annotated[
+        str | None, Field(values.FILE, "The chart of the races: a name, or a file of the folder.")
+    ] = None
+    race: Annotated[
+        int | None, Field(Whole(1, LONGEST_RACE), "Without a chart: even races to so many games.")
+    ] = None
+    race_to: Annotated[
+        int | None,
+        Field(
+            Whole(1, LONGEST_RACE),
+            "Without a chart: the stronger player races to so many games, and the weaker gets the "
+            "fairest race.",
+        ),
+    ] = None
+    system: Annotated[
+        System | None, Field(values.SYSTEM, "The handicap system: how ratings move.")
+    ] = None
+    begins: Annotated[date | None, Field(values.DAY, "The first day of the season.")] = None
+    ends: Annotated[date | None, Field(values.DAY, "Its last day.")] = None
+    venue: Annotated[str | None, Field(values.LINE, "Where it is played.")] = None
+    tables: Annotated[int | None, Field(Whole(1, MOST_TABLES), "The number of tables.")] = None
+    hours: Annotated[
+        tuple[time, time] | None, Field(values.HOURS, "When a night starts and ends.")
+    ] = None
+    minutes_per_game: Annotated[
+        float | None,
+        Field(values.MINUTES, "How long a game takes, if not as usual in the discipline."),
+    ] = None
+    turnover: Annotated[
+        float | None, Field(values.TURNOVER, "The minutes between two matches on a table.")
+    ] = None
+    paper: Annotated[str | None, Field(values.PAPER, "The paper of sheets.")] = None
+    files: LeagueFiles = LeagueFiles()
+    results: tuple[Source, ...] = ()
+    aliases: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
+    team: TeamRules = TeamRules()
+    standings: StandingsRules = StandingsRules()
+    prices: Prices = Prices()
+    publish: Published = Published()
+
+    @property
+    def path(self) -> Path:
+        """The file itself."""
+        return self.folder / LEAGUE_TOML
+
+    def place(self, name: str) -> str:
+        """Return the path of one of its files, as a command takes it."""
+        return str(self.folder / name)
+
+
+SECTIONS: Mapping[str, type] = {
+    "files": LeagueFiles,
+    "team": TeamRules,
+    "standings": StandingsRules,
+    "prices": Prices,
+    "publish": Published,
+}
+"""The tables of the file that have keys of their own; `[[results]]` are `Source`."""
+
+_FREE = {"aliases", "columns", "players"}
+"""The tables whose keys are names."""
+
+
+def find_league(folder: str | Path = ".") -> Path | None:
+    """Return the league's file in a folder; None if it has none.
+
+    The folders above are not looked at: a file far away would change an answer unseen.
+    """
+    path = Path(folder) / LEAGUE_TOML
+    return path if path.is_file() else None
+
+
+def read_league(place: str | Path = ".") -> LeagueFile:
+    r"""Read the file of a league; the place is its folder, or the file.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file, a line each: what cannot be read, unknown keys with the
+        nearest one that is known, values that are not allowed, files that are not there.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = pathlib.Path(folder, "league.toml").write_text(
+    ...         'name = "Tuesday 8-Ball"\nchart = "apa_8ball"\n[team]\ncap = 23\n')
+    ...     league = read_league(folder)
+    >>> league.name, league.chart, league.team.cap, league.scale
+    ('Tuesday 8-Ball', 'apa_8ball', 23.0, None)
+    """
+    path = Path(place)
+    if path.is_dir():
+        path = path / LEAGUE_TOML
+    source, content = content_of(path)
+    problems = Problems(source)
+    try:
+        text = content.decode("utf-8-sig")
+        table = tomllib.loads(text)
+    except UnicodeDecodeError:
+        problems.add(None, "is not UTF-8; save it as UTF-8 in a text editor")
+    except tomllib.TOMLDecodeError as error:
+        what, _, place_of = str(error).partition(" (at ")
+        line = re.match(r"line (\d+)", place_of)
+        problems.add(
+            int(line[1]) if line else text.count("\n") + 1,
+            'cannot be read: {what}; write a key, = and a value, and text in quotes: name = "Ann"',
+            what=what,
+        )
+    problems.raise_any()
+    reader = _Reader(path.parent, problems, lines_of(text))
+    league: LeagueFile = reader.section(LeagueFile, table, (), folder=path.parent)
+    problems.raise_any()
+    return league
+
+
+class _Reader:
+    """Reads the tables of a file, and notes every problem."""
+
+    def __init__(self, folder: Path, problems: Problems, lines: Mapping[Keys, int]) -> None:
+        self.folder, self.problems, self.lines = folder, problems, lines
+
+    def note(self, keys: Keys, template: str, /, **said: Any) -> None:
+        """Note a problem in the line in which a key stands."""
+        at = next(self.lines[keys[:k]] for k in range(len(keys), 0, -1) if keys[:k] in self.lines)
+        self.problems.add(at, template, **said)
+
+    def section(self, of: type[Section], table: Mapping[str, Any], at: Keys, **more: Any) -> Any:
+        """Return a table of the file as an object of its class."""
+        fields = {one.name: one for one in declared(cast(Any, of))}
+        tables = _tables(of)
+        read = dict(more)
+        for key, value in table.items():
+            keys = (*at, key)
+            if key in fields:
+                read[key] = self.value(fields[key], value, keys)
+            elif key not in tables:
+                self.unknown(key, [*fields, *tables], keys)
+            elif key == "results":
+                read[key] = self.sources(value, keys)
+            elif not isinstance(value, Mapping):
+                self.note(
+                    keys,
+                    "{key} is a table; write its keys below a line [{path}]",
+                    key=quoted(key),
+                    path=_dotted(keys),
+                )
+            elif key in _FREE:
+                read[key] = getattr(self, key)(value, keys)
+            else:
+                read[key] = self.section(SECTIONS[key], value, keys)
+        missing = [name for name, one in fields.items() if one.required and name not in table]
+        for name in missing:
+            self.note(at, '{key} is missing; add {key} = "..."', key=name)
+        if missing:
+            return None
+        league: Any = of(**read)
+        if isinstance(league, LeagueFile):
+            self.whole(league)
+        return league
+
+    def whole(self, league: LeagueFile) -> None:
+        """Note what does not go together."""
+        if league.begins and league.ends and league.ends < league.begins:
+            self.note(("ends",), "ends before it begins; correct one of the two dates")
+        races = [name for name in ("chart", "race", "race_to") if getattr(league, name) is not None]
+        if len(races) > 1:
+            self.note(
+                (races[1],),
+                "{key} and {other} each say how long races are; keep one",
+                key=races[1],
+                other=races[0],
+            )
+
+    def value(self, one: Declared, value: Any, keys: Keys) -> Any:
+        """Return a value as its kind reads it; None if it is refused."""
+        text = _text_of(value)
+        if text is None:
+            self.note(keys, "{key} takes a single value; write {key} = ...", key=_dotted(keys))
+            return None
+        if one.kind is values.FILE:
+            return self.file(one.name, text, keys)
+        return self.read(one.kind, text, keys)
+
+    def read(self, kind: Kind, text: str, keys: Keys) -> Any:
+        """Return the value of a text, or note why there is none."""
+        try:
+            return kind.read(text)
+        except InputError as error:
+            self.note(keys, "{key}: {why}", key=_dotted(keys), why=error.sentence)
+            return None
+
+    def file(self, key: str, name: str, keys: Keys) -> str | None:
+        """Return the name of a file of the folder, or note that it is not there."""
+        if (self.folder / name).is_file():
+            return name
+        if key == "chart":
+            from evenbreak.files.charts import find_chart_file
+
+            try:
+                find_chart_file(name)
+            except DataError as error:
+                for problem in error.problems:
+                    self.note(keys, "chart: {problem}", problem=problem)
+            return name
+        near = get_close_matches(name, [one.name for one in self.folder.iterdir()], n=1)
+        self.note(
+            keys,
+            "there is no file {name} in the folder; correct the name{near}, or delete the line",
+            name=quoted(name),
+            near=say(" (there is {near})", near=quoted(near[0])) if near else "",
+        )
+        return None
+
+    def sources(self, value: Any, keys: Keys) -> tuple[Source, ...]:
+        """Return the files of results."""
+        if not isinstance(value, list) or not all(isinstance(one, Mapping) for one in value):
+            self.note(keys, 'write a line [[results]] for each file, and below it file = "..."')
+            return ()
+        every = [self.section(Source, one, (*keys, k)) for k, one in enumerate(value)]
+        names = [one.get("file") for one in value]
+        for k, name in enumerate(names):
+            if name is not None and name in names[:k]:
+                self.note((*keys, k, "file"), "{file} is listed twice; keep one", file=quoted(name))
+        return tuple(filter(None, every))
+
+    def names(self, table: Mapping[str, Any], keys: Keys) -> Iterator[tuple[str, str]]:
+        """Yield the texts of a table whose keys are names."""
+        for name, value in table.items():
+            if isinstance(value, str) and value.strip():
+                yield name, value
+            else:
+                self.note((*keys, name), "{name} takes a text in quotes", name=quoted(name))
+
+    def columns(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
+        """Return the titles of columns by what they are."""
+        from evenbreak.files.results.columns import RESULTS_FILE
+
+        every = dict(self.names(table, keys))
+        for name in every:
+            if name not in RESULTS_FILE.columns:
+                self.unknown(name, list(RESULTS_FILE.columns), (*keys, name))
+        return every
+
+    def players(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
+        """Return how the names of single players are published."""
+        return {
+            name: self.read(values.NAMES, text, (*keys, name))
+            for name, text in self.names(table, keys)
+        }
+
+    def aliases(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
+        """Return which names mean which players."""
+        from evenbreak.files.tables.names import clean_name
+
+        means = {clean_name(name): clean_name(text) for name, text in self.names(table, keys)}
+        for name in table:
+            meant = means.get(clean_name(name), "")
+            if means.get(meant, meant) != meant:
+                self.note(
+                    (*keys, name),
+                    "{name} means {meant}, which means {other}; write the player's real name in "
+                    "both lines",
+                    name=quoted(name),
+                    meant=quoted(meant),
+                    other=quoted(means[meant]),
+                )
+        return {name: meant for name, meant in means.items() if name != meant}
+
+    def unknown(self, key: str, known: Sequence[str], keys: Keys) -> None:
+        """Note a key that there is not, with where it may belong or the nearest one."""
+        if section := _belongs(key, keys[:-1]):
+            self.note(
+                keys,
+                "{key} does not belong here; move it {place}",
+                key=quoted(key),
+                place=section,
+            )
+        elif near := get_close_matches(key, known, n=1):
+            self.note(
+                keys, "there is no key {key}; write {near}", key=quoted(key), near=quoted(near[0])
+            )
+        else:
+            self.note(
+                keys,
+                "there is no key {key}; here are {known}",
+                key=quoted(key),
+                known=", ".join(known),
+            )
+
+
+def _tables(of: type) -> list[str]:
+    """Return the tables that a table of the file may have in it."""
+    if of is LeagueFile:
+        return ["results", "aliases", *SECTIONS]
+    return {Source: ["columns"], Published: ["players"]}.get(of, [])
+
+
+def _belongs(key: str, at: Keys) -> str:
+    """Return where a key belongs that stands in another table; '' if nowhere."""
+    if at and any(one.name == key for one in declared(LeagueFile)):
+        return say("to the top, above the first [table]")
+    places = [name for name, of in SECTIONS.items() if key in {one.name for one in declared(of)}]
+    return say("below a line [{table}]", table=places[0]) if len(places) == 1 else ""
+
+
+def _dotted(keys: Keys) -> str:
+    return ".".join(str(key) for key in keys if isinstance(key, str))
+
+
+def _text_of(value: Any) -> str | None:
+    """Return a value as the option takes it; None of a table."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        parts = [_text_of(one) for one in value]
+        return None if None in parts else ",".join(filter(None, parts))
+    if isinstance(value, date | time):
+        return value.isoformat()
+    return None if isinstance(value, Mapping) else str(value)

@@ -1,0 +1,161 @@
+"""The kinds of values that `league.toml` and the options of commands both read."""
+
+from __future__ import annotations
+
+import re
+from datetime import date, time
+from typing import TYPE_CHECKING, Any
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, Named, Number, Text, Whole
+from evenbreak.ratings.scale import scale_of
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.system import System
+else:  # systems take a quarter of a second to load, which most questions do without
+    System = Any
+
+SCALE = Named(
+    scale_of, "npl|fargo|elo|POINTS", offers="scales", spelled=lambda scale: str(scale.text)
+)
+"""A scale of ratings."""
+
+
+def _system(text: str) -> System:
+    from evenbreak.handicaps.systems.catalogue import system_of
+
+    system: System = system_of(text)
+    return system
+
+
+SYSTEM = Named(_system, "NAME", offers="systems", spelled=lambda system: str(system.name))
+"""A handicap system."""
+
+MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
+TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
+
+
+def strong_in(text: str) -> tuple[int, float]:
+    """Return how many players of which level a text allows.
+
+    >>> strong_in("2:6"), strong_in("1 of 5.5+")
+    ((2, 6.0), (1, 5.5))
+    """
+    match = re.fullmatch(
+        r"\s*(\d{1,3})\s*(?::|x|of)\s*(\d{1,4}(?:\.\d+)?)\s*\+?\s*", text, re.ASCII
+    )
+    if match is None:
+        raise InputError(
+            "{value!r}: write how many players of which level, such as 2:6.", value=text
+        )
+    return int(match[1]), float(match[2])
+
+
+STRONG = Named(strong_in, "K:LEVEL", spelled=lambda limit: f"{limit[0]}:{limit[1]:g}")
+CAP = Number(0.001, 1e6, "; give a number above 0, such as 23", metavar="TOTAL")
+MOST_SETS = 25
+SETS = Whole(1, MOST_SETS, metavar="K")
+
+
+def _points_of_match(text: str) -> tuple[float, ...]:
+    """Return the points of a win, a draw, a loss and each set won."""
+    if text.strip().lower() == "sets":
+        return 0.0, 0.0, 0.0, 1.0
+    try:
+        win, draw, loss = (Number(0.0, 100.0).read(part) for part in text.split(","))
+    except (InputError, ValueError):
+        message = f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0, or sets"
+        raise InputError(message) from None
+    return win, draw, loss, 0.0
+
+
+def _spelled_points(points: tuple[float, ...]) -> str:
+    return "sets" if points[3] else ",".join(f"{part:g}" for part in points[:3])
+
+
+TABLE_POINTS = Named(_points_of_match, "W,D,L|sets", spelled=_spelled_points)
+
+
+def names_in(text: str) -> tuple[str, ...]:
+    """Return the words of a list with commas."""
+    return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
+TIES = Named(names_in, "RULE,...", spelled=",".join)
+
+# What only the file has.
+
+
+def _order(text: str) -> str:
+    from evenbreak.teams.night import order_of
+
+    if text.strip().lower() != "sealed":
+        order_of(text, MOST_SETS)
+    return text.strip()
+
+
+ORDER = Named(_order, "PATTERN")
+
+
+def _day(text: str) -> date:
+    from evenbreak.files.tables.dates import read_date
+
+    day = read_date(text.strip(), None)
+    if day is None:
+        raise InputError("{value!r} is not a date; write it as 2026-09-01", value=text)
+    return date.fromisoformat(str(day))
+
+
+DAY = Named(_day, "DATE")
+
+
+def _hours(text: str) -> tuple[time, time]:
+    """Return when a night starts and ends.
+
+    >>> _hours("19:00,23:00")[0].hour
+    19
+    """
+    try:
+        start, end = (time.fromisoformat(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise InputError(
+            '{value!r}: write when a night starts and ends, as in ["19:00", "23:00"]', value=text
+        ) from None
+    return start, end
+
+
+HOURS = Named(_hours, spelled=lambda hours: ",".join(f"{one:%H:%M}" for one in hours))
+
+
+def _color(text: str) -> str:
+    if not re.fullmatch(r"#[0-9A-Fa-f]{6}", text.strip()):
+        raise InputError('{value!r} is not a color; write one such as "#1b6e53"', value=text)
+    return text.strip().lower()
+
+
+COLOR = Named(_color, "COLOR")
+PAPER = Choice(("letter", "a4"))
+NAMES = Choice(("full", "initials", "hidden"))
+MONEY = Number(0.0, 1e6, "; give an amount of money, such as 10")
+
+
+def _currency(text: str) -> str:
+    if not 1 <= len(text.strip()) <= 5 or not text.isprintable():
+        raise InputError('{value!r} is no sign of a currency; write one such as "$"', value=text)
+    return text.strip()
+
+
+CURRENCY = Named(_currency)
+
+
+def _line(text: str) -> str:
+    from evenbreak.files.tables.names import clean_name, is_name
+
+    line: str = clean_name(text)
+    if not is_name(line):
+        raise InputError("{value!r} can't be printed on a line; shorten it", value=text[:40])
+    return line
+
+
+LINE = Named(_line)
+FILE = Text("FILE")
