@@ -23,3 +23,9 @@ from .schedule import Schedule as Schedule
 from .season import Season as Season
 from .season import Tally as Tally
 from .simulate import simulate as simulate
+from .tables.rules import TableRules as TableRules
+from .tables.table import LeagueTable as LeagueTable
+from .tables.table import TableMatches as TableMatches
+from .tables.table import league_table as league_table
+from .tables.table import player_matches as player_matches
+from .tables.table import team_matches as team_matches

@@ -19,7 +19,6 @@ from .season.chances import score_chances as score_chances
 from .season.chances import scores_of as scores_of
 from .season.chances import season_chances as season_chances
 from .season.chances import team_strengths as team_strengths
-from .season.season import TableRules as TableRules
 from .season.season import TeamSeason as TeamSeason
 from .season.season import circle as circle
 from .season.season import still_to_play as still_to_play

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.teams import TableRules, TeamSeason, circle, score_chances, scores_of, season_chances
+from evenbreak.league import TableRules
+from evenbreak.teams import TeamSeason, circle, score_chances, scores_of, season_chances
 
 NAMES = ["Acers", "Bankers", "Caroms", "Diamonds"]
 PLAYED = [[0, 1, 3, 2], [2, 3, 5, 0], [1, 2, 2, 3], [3, 0, 1, 4]]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from evenbreak import files, handicaps, ratings, teams
+from evenbreak import files, handicaps, league, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
@@ -146,7 +146,7 @@ def season(asked: Season) -> Answer:
                 ahead[0],
                 scores,
                 teams.score_chances(strengths.estimate[None], ahead[0], scores),
-                rules=teams.TableRules(win, draw, loss, a_set, asked.ties),
+                rules=league.TableRules(win, draw, loss, a_set, asked.ties),
                 head_start=start,
             ),
             places=tuple(dict.fromkeys(places)),

@@ -20,10 +20,10 @@ from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.checks import seed_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
+from evenbreak.league.tables.ladder import ranks_of, standings_of
 from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
-from evenbreak.teams.season.ranking import ranks_of, standings_of
 from evenbreak.teams.season.season import TeamSeason
 from evenbreak.workers import in_order
 
@@ -333,7 +333,7 @@ class _Counts:
 
 def _counted(season: TeamSeason, watched: Watched, ends: Ints, weights: Floats) -> Counted:
     """Return the sums over endings."""
-    ranks = ranks_of(season, ends)
+    ranks = ranks_of(season.record(ends))
     standings = standings_of(ranks)
     results = np.sign(season.scores[:, 0] - season.scores[:, 1])[ends[list(watched.matches)]]
     of_result = [np.where(results == sign, weights, 0.0) for sign in (1, 0, -1)]

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from evenbreak.errors import InputError
+from evenbreak.league.tables.ladder import places_by_wins
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Slot, Source, some_of
 
 NOBODY = -1
@@ -274,33 +274,5 @@ def ranked(
     beats = np.zeros((len(seat), len(seat)), dtype=np.int16)
     for (one, other), won in zip(pairs, winners, strict=True):
         beats[seat[won], seat[other if won == one else one]] += 1
-    ahead: list[int] = players_ahead(beats).tolist()
+    ahead: list[int] = places_by_wins(beats).tolist()
     return ahead
-
-
-def players_ahead(beats: NDArray[np.int16]) -> NDArray[np.int16]:
-    """Return how many players are ranked ahead of each.
-
-    Players are ranked by wins. Ties are broken by wins among the tied players, again among
-    those who are still tied, until nothing changes.
-
-    Parameters
-    ----------
-    beats
-        beats[..., i, j]: how often i beat j.
-    """
-    wins = beats.sum(axis=-1, dtype=np.int16)
-    ahead = _ahead(wins, np.ones(beats.shape, dtype=bool))
-    while True:
-        level = ahead[..., :, None] == ahead[..., None, :]
-        among = np.where(level, beats, 0).sum(axis=-1, dtype=np.int16)
-        more = _ahead(among, level)
-        if not more.any():
-            return ahead
-        ahead = ahead + more
-
-
-def _ahead(score: NDArray[np.int16], compared: NDArray[np.bool_]) -> NDArray[np.int16]:
-    better = score[..., None, :] > score[..., :, None]
-    counted: NDArray[np.int16] = (better & compared).sum(axis=-1, dtype=np.int16)
-    return counted

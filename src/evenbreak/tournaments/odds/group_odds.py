@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from evenbreak.tournaments.brackets.standing import players_ahead
+from evenbreak.league.tables.ladder import places_by_wins
 
 MOST_MATCHES = 21
 """The largest number of matches whose results are enumerated: 7 players who meet once."""
@@ -56,7 +56,7 @@ def rank_orders(members: int, pairs: tuple[tuple[int, int], ...]) -> RankOrders:
             won = ((results >> k) & 1).astype(np.int16)
             beats[:, one, other] += won
             beats[:, other, one] += 1 - won
-        codes[results] = players_ahead(beats).astype(np.int64) @ power
+        codes[results] = places_by_wins(beats).astype(np.int64) @ power
     distinct, order_of = np.unique(codes, return_inverse=True)
     orders = (distinct[:, None] // power % members).astype(np.int16)
     return RankOrders(order_of.astype(np.int32), orders)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.arrays import Floats
+from evenbreak.league.tables.ladder import places_by_wins
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Slot, Source
-from evenbreak.tournaments.brackets.standing import players_ahead
 from evenbreak.tournaments.odds.chances import Chances
 from evenbreak.tournaments.odds.plan import Players
 
@@ -172,7 +172,7 @@ def _ordered(
         one, other = seat[pair[0]], seat[pair[1]]
         beats[:, one, other] += first_won[name]
         beats[:, other, one] += ~first_won[name]
-    lots = players_ahead(beats) + rng.random((runs, len(seat)))
+    lots = places_by_wins(beats) + rng.random((runs, len(seat)))
     members = np.array(group.members, dtype=np.int16)
     by_rank = np.argsort(lots, axis=1)
     wins = np.take_along_axis(beats.sum(axis=2, dtype=np.int16), by_rank, axis=1)

@@ -1,0 +1,249 @@
+"""Who is ahead of whom in a table, for one ending of a season or many at once.
+
+Everything in it is a sum over matches, so that the order of the rows never matters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.league.tables.rules import (
+    DIFFERENCE,
+    FORFEITS,
+    HEAD_TO_HEAD,
+    POINTS,
+    SCORED,
+    WIN_SHARE,
+    WINS,
+    Outcomes,
+    TableRules,
+)
+
+_FINE = 100.0  # points are compared to a hundredth
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What a ladder reads: the matches played, and those to come with many endings at once.
+
+    Parameters
+    ----------
+    sides
+        how many players or teams there are.
+    rules
+        the rules of the table.
+    pairs, outcomes
+        who met whom (positions), and how it ended.
+    start
+        the points that each has besides its matches.
+    counted
+        for which side of a match it counts: both, or 1 and 0 in a table of those at home.
+    to_come, kinds, ends
+        who will meet whom; how a match can end; and for each ending of the season the kind of each
+        match, shape (matches, endings).
+    """
+
+    sides: int
+    rules: TableRules
+    pairs: Ints
+    outcomes: Outcomes
+    start: Floats
+    counted: tuple[int, int] = (1, 1)
+    to_come: Ints = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
+    kinds: Outcomes = field(default_factory=lambda: Outcomes([]))
+    ends: Ints = field(default_factory=lambda: np.zeros((0, 1), dtype=np.int64))
+
+    def total(self, gains: Callable[[Outcomes], NDArray[Any]]) -> Ints:
+        """Return sums of what matches bring to both sides, shape (sides, endings)."""
+        now = np.zeros(self.sides, dtype=np.int64)
+        np.add.at(now, self.pairs, gains(self.outcomes) * np.array(self.counted))
+        total = np.repeat(now[:, None], self.ends.shape[1], axis=1)
+        gain = np.asarray(gains(self.kinds), dtype=np.int64)
+        for (home, away), end in zip(self.to_come.tolist(), self.ends, strict=True):
+            total[home] += gain[end, 0]
+            total[away] += gain[end, 1]
+        return total
+
+    def points(self, outcomes: Outcomes) -> Ints:
+        """Return the points of matches, in hundredths."""
+        return np.round(self.rules.points_of(outcomes) * _FINE).astype(np.int64)
+
+    def values(self, rule: str, code: Ints) -> Ints:
+        """Return what a rule compares, higher is better; `code` says who is level so far."""
+        if rule == HEAD_TO_HEAD:
+            return self._among_the_level(code)
+        if rule == WIN_SHARE:
+            twice = self.total(lambda of: 1 + of.won - 1 * of.won[:, ::-1])
+            most = np.maximum(2 * self.total(lambda of: np.ones(of.score.shape, dtype=np.int64)), 1)
+            # Quotients of small numbers are equal as floats exactly where they are equal.
+            return np.unique(twice / most, return_inverse=True)[1].reshape(twice.shape)
+        if rule == POINTS:
+            return self.total(self.points) + np.round(self.start * _FINE).astype(np.int64)[:, None]
+        return self.total(_GAINS[rule])
+
+    def _among_the_level(self, code: Ints) -> Ints:
+        """Return a number for the points of the meetings of those who are level, and so on."""
+        sides, endings = code.shape
+        if (np.diff(np.sort(code, axis=0), axis=0) > 0).all():
+            return np.zeros_like(code)
+        found = np.empty_like(code)
+        own, kinds = self.points(self.outcomes), self.points(self.kinds)
+        one, other = self.pairs.T
+        now = np.zeros((sides, sides), dtype=np.int64)
+        np.add.at(now, (one, other), own[:, 0])
+        np.add.at(now, (other, one), own[:, 1])
+        step = max(1, (1 << 20) // sides**2)
+        for first in range(0, endings, step):
+            part = slice(first, first + step)
+            ends = self.ends[:, part]
+            met = np.repeat(now[None], ends.shape[1], axis=0)
+            for (home, away), end in zip(self.to_come.tolist(), ends, strict=True):
+                met[:, home, away] += kinds[end, 0]
+                met[:, away, home] += kinds[end, 1]
+            found[:, part] = -by_meetings(met, _ahead(code[:, part].T)).T
+        return found
+
+
+_GAINS: dict[str, Callable[[Outcomes], NDArray[Any]]] = {
+    WINS: lambda of: of.won,
+    SCORED: lambda of: of.score,
+    DIFFERENCE: lambda of: of.score - of.score[:, ::-1],
+    FORFEITS: lambda of: -1 * (of.won[:, ::-1] & of.forfeit[:, None]),
+}
+
+
+def ladder(record: Record) -> Iterator[tuple[str, Ints]]:
+    """Yield each rule with a number for each side and ending, larger for the side ahead so far.
+
+    Sides that no rule so far separates have equal numbers.
+    """
+    code = np.zeros((record.sides, record.ends.shape[1]), dtype=np.int64)
+    for rule in record.rules.ladder:
+        value = record.values(rule, code)
+        low, high = int(value.min(initial=0)), int(value.max(initial=0))
+        code = _dense(code) * (high - low + 1) + (value - low)
+        yield rule, code
+
+
+def ranks_of(record: Record) -> Ints:
+    """Return a number for each side and ending that is larger for the side ahead.
+
+    >>> met = Record(3, TableRules(ties=("head-to-head",)), np.array([[0, 1], [1, 2], [2, 0]]),
+    ...              Outcomes([[3, 2], [3, 2], [3, 2]]), np.zeros(3))
+    >>> len(set(ranks_of(met).ravel().tolist()))  # all beat one another: level for good
+    1
+    """
+    *_, (_, code) = ladder(record)
+    return code
+
+
+def _dense(code: Ints) -> Ints:
+    """Return smaller numbers in the same order, so that products stay within 64 bits."""
+    if code.size and int(code.max()) - int(code.min()) < 1 << 30:
+        return np.asarray(code - code.min())
+    return np.asarray(np.unique(code, return_inverse=True)[1]).reshape(code.shape)
+
+
+def by_meetings(met: NDArray[Any], ahead: NDArray[Any]) -> NDArray[Any]:
+    """Return how many are ahead of each once those who are level are told apart by their meetings.
+
+    Those who are level are ranked by what they won from one another; those who are still level,
+    by what they won from one another, and so on until nothing changes.
+
+    Parameters
+    ----------
+    met
+        met[..., i, j]: what i won in the meetings with j.
+    ahead
+        how many are ahead of each so far; equal numbers are level.
+    """
+    while True:
+        level = ahead[..., :, None] == ahead[..., None, :]
+        among = np.where(level, met, 0).sum(axis=-1, dtype=met.dtype)
+        more = _ahead(among, level)
+        if not more.any():
+            return ahead
+        ahead = ahead + more
+
+
+def _ahead(score: NDArray[Any], compared: NDArray[np.bool_] | bool = True) -> NDArray[Any]:
+    better = score[..., None, :] > score[..., :, None]
+    counted: NDArray[Any] = (better & compared).sum(axis=-1, dtype=score.dtype)
+    return counted
+
+
+def places_by_wins(beats: NDArray[np.int16]) -> NDArray[np.int16]:
+    """Return how many players are ahead of each in a round robin: by wins, then by meetings.
+
+    Parameters
+    ----------
+    beats
+        beats[..., i, j]: how often i beat j.
+
+    >>> places_by_wins(np.array([[0, 1, 1], [0, 0, 1], [0, 0, 0]], dtype=np.int16)).tolist()
+    [0, 1, 2]
+    """
+    return by_meetings(beats, _ahead(beats.sum(axis=-1, dtype=np.int16)))
+
+
+class Standings(NamedTuple):
+    """Where each side stands in each ending, shapes (sides, endings).
+
+    Parameters
+    ----------
+    ahead
+        how many are ahead of it.
+    level
+        how many no rule separates from it, itself included; lots decide among them.
+    """
+
+    ahead: Ints
+    level: Ints
+
+    def places(self, weights: Floats) -> Floats:
+        """Return the weight with which each side takes each place, shape (sides, places).
+
+        >>> standings_of(np.array([[5], [5], [9]])).places(np.ones(1)).tolist()
+        [[0.0, 0.5, 0.5], [0.0, 0.5, 0.5], [1.0, 0.0, 0.0]]
+        """
+        sides = len(self.ahead)
+        found = np.zeros((sides, sides))
+        wide = sides + 1
+        for side, (ahead, level) in enumerate(zip(self.ahead, self.level, strict=True)):
+            both = np.bincount(ahead * wide + level, weights, minlength=sides * wide)
+            for at in np.flatnonzero(both):
+                first, many = divmod(int(at), wide)
+                found[side, first : first + many] += both[at] / many
+        return found
+
+    def share_of(self, places: int) -> Floats:
+        """Return each side's chance of one of the first places: 0, 1, or by lot.
+
+        >>> standings_of(np.array([[5], [5], [9]])).share_of(2).ravel().tolist()
+        [0.5, 0.5, 1.0]
+        """
+        return np.asarray(np.clip((places - self.ahead) / self.level, 0.0, 1.0))
+
+
+def standings_of(ranks: Ints) -> Standings:
+    """Return who is ahead of whom, from numbers as `ranks_of` returns them."""
+    sides, endings = ranks.shape
+    order = np.argsort(ranks, axis=0)
+    ordered = np.take_along_axis(ranks, order, axis=0)
+    new = np.ones((sides, endings), dtype=bool)
+    new[1:] = ordered[1:] != ordered[:-1]
+    steps = np.arange(sides)[:, None]
+    first = np.maximum.accumulate(np.where(new, steps, 0), axis=0)
+    last = np.ones((sides, endings), dtype=bool)
+    last[:-1] = new[1:]
+    end = np.minimum.accumulate(np.where(last, steps, sides)[::-1], axis=0)[::-1]
+    ahead, level = np.empty_like(order), np.empty_like(order)
+    np.put_along_axis(ahead, order, sides - 1 - end, axis=0)
+    np.put_along_axis(level, order, end - first + 1, axis=0)
+    return Standings(ahead, level)
