@@ -43,7 +43,10 @@ from .objects import PoolTable as PoolTable
 from .objects import density_range as density_range
 from .objects import floats_in as floats_in
 from .objects import volume_range as volume_range
+from .offset import MOST_ENGLISH_OFFSET as MOST_ENGLISH_OFFSET
 from .offset import NATURAL_ROLL_OFFSET as NATURAL_ROLL_OFFSET
+from .offset import SQUIRTS as SQUIRTS
+from .offset import TIPS_OF_MOST_ENGLISH as TIPS_OF_MOST_ENGLISH
 from .offset import ContactPoint as ContactPoint
 from .offset import ball_speed_ratio as ball_speed_ratio
 from .offset import best_lag_offset as best_lag_offset
@@ -56,8 +59,10 @@ from .offset import roll_side as roll_side
 from .offset import roll_speed_ratio as roll_speed_ratio
 from .offset import small_circle_point as small_circle_point
 from .offset import spin_of_offset as spin_of_offset
+from .offset import squirt_angle as squirt_angle
 from .offset import strike_side as strike_side
 from .offset import stun_offset as stun_offset
+from .offset import tips_of_side as tips_of_side
 from .rolling import MOON_GRAVITY as MOON_GRAVITY
 from .rolling import SHAPES as SHAPES
 from .rolling import TABLE_SPEEDS as TABLE_SPEEDS

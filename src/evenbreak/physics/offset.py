@@ -27,6 +27,25 @@ In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand
 """
 
 
+MOST_ENGLISH_OFFSET = 0.5
+"""The offset to the side, over R, of 100 % english: beyond it the tip usually slips."""
+
+TIPS_OF_MOST_ENGLISH = 1.4
+"""By how many widths of a tip the cue is then to the side of the ball's centre.
+
+D. G. Alciatore ("Dr. Dave"), frequently asked questions on english, billiards.colostate.edu. It is
+that of a usual tip; thin or flat tips give less english by the tip.
+"""
+
+SQUIRTS = {"regular": 2.5, "low": 1.8}
+"""Degrees by which the cue ball starts off the line of a level cue at 100 % english, by the shaft.
+
+Alciatore's figures for a usual and for a common low-deflection shaft. R. Shepard (2001, "Everything
+you always wanted to know about cue ball squirt") has 0.5 to 2.3 degrees, and robots 1.3 to 2.3.
+Squirt is nearly in proportion to the offset, and the same at any speed.
+"""
+
+
 class ContactPoint(NamedTuple):
     """A point of the ball seen from behind: y to the left and z above the cloth, over R.
 
@@ -68,6 +87,37 @@ def offset_for(spin: FloatOrArray) -> FloatOrArray:
     0.4
     """
     return plain(numbers(spin, "spin") / 2.5)
+
+
+def tips_of_side(side: FloatOrArray) -> FloatOrArray:
+    """Return by how many tips of english a cue that is level gives a sidespin J.
+
+    Parameters
+    ----------
+    side
+        J_z just after the hit, above 0 for right english; beyond 1.4 tips the tip slips.
+
+    >>> tips_of_side(1.25), round(tips_of_side(-0.5), 2)
+    (1.4, -0.56)
+    """
+    return plain(np.asarray(offset_for(side)) * TIPS_OF_MOST_ENGLISH / MOST_ENGLISH_OFFSET)
+
+
+def squirt_angle(side: FloatOrArray, most: float = SQUIRTS["regular"]) -> FloatOrArray:
+    """Return by how many degrees the cue ball starts off the line of the cue, away from the side.
+
+    Parameters
+    ----------
+    side
+        J_z just after the hit; the same beyond 100 % english as at it.
+    most
+        the degrees at 100 % english, as in `SQUIRTS`.
+
+    >>> squirt_angle(0.5), squirt_angle(-1.25, 1.8)
+    (1.0, -1.8)
+    """
+    share = np.asarray(offset_for(side)) / MOST_ENGLISH_OFFSET
+    return plain(most * np.clip(share, -1.0, 1.0))
 
 
 def strike_side(y: FloatOrArray) -> FloatOrArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeAlias
 
@@ -38,6 +39,62 @@ def friction(text: str) -> Any:
 
         return SlipFriction()
     return Number(0.0, 1.0, example="0.06, or by-speed").read(text)
+
+
+_AMOUNT = re.compile(
+    r"\s*(?P<many>\d+(?:[.,]\d+)?|\d+/\d+|half an?|an?|one|two)\s*(?P<unit>tips?|%)?(?: of)?\s+"
+    r"(?P<way>right|left|inside|outside)(?: english)?\s*",
+    re.IGNORECASE | re.ASCII,
+)
+_WORDS = {"half a": 0.5, "half an": 0.5, "a": 1.0, "an": 1.0, "one": 1.0, "two": 2.0}
+
+
+def english_in(text: str) -> tuple[float, str]:
+    """Return the sidespin J of some english, and the side: right, left, inside or outside.
+
+    >>> english_in("1.4 tips outside"), english_in("50% right"), english_in("half a tip left")[1]
+    ((1.25, 'outside'), (0.625, 'right'), 'left')
+    """
+    from evenbreak.physics import MOST_ENGLISH_OFFSET, TIPS_OF_MOST_ENGLISH, spin_of_offset
+
+    match = _AMOUNT.fullmatch(text)
+    if match is None or (match["unit"] == "%" and match["many"].lower() in _WORDS):
+        raise InputError(
+            "{value!r}; write how much and to which side, such as 1 tip outside, 1/2 tip left or "
+            "50% right",
+            value=text,
+        )
+    word = match["many"].lower().replace(",", ".")
+    over, _, under = word.partition("/")
+    if under and not int(under):
+        raise InputError("{value!r} is no part of a tip", value=text)
+    many = _WORDS[word] if word in _WORDS else float(over) / float(under or 1.0)
+    share = many / 100.0 if match["unit"] == "%" else many / TIPS_OF_MOST_ENGLISH
+    if not 0.0 <= share <= 1.0:
+        raise InputError(
+            "{value!r} is more than the tip can give: beyond {tips:g} tips (100%) it slips",
+            value=text,
+            tips=TIPS_OF_MOST_ENGLISH,
+        )
+    return spin_of_offset(MOST_ENGLISH_OFFSET * share), match["way"].lower()
+
+
+def english_words(value: tuple[float, str]) -> str:
+    """Return some english as it is typed."""
+    return f"{80.0 * value[0]:.4g}% {value[1]}"
+
+
+def squirt_in(text: str) -> float:
+    """Return the degrees of squirt at most english.
+
+    >>> squirt_in("low"), squirt_in("2.1")
+    (1.8, 2.1)
+    """
+    from evenbreak.physics import SQUIRTS
+
+    if text.strip().lower() in SQUIRTS:
+        return SQUIRTS[text.strip().lower()]
+    return Number(0.0, 10.0, "; give regular, low, or degrees such as 2.1").read(text)
 
 
 def place(text: str) -> tuple[float, float]:
@@ -102,9 +159,21 @@ class Hit(Units, BallFriction):
         ),
     ]
     topspin: Annotated[float, Field(SPIN, "1 is natural roll, 0 stun, below 0 draw.")] = 1.0
-    side: Annotated[float, Field(SPIN, "Sidespin: right english above 0, left english below.")] = (
-        0.0
-    )
+    english: Annotated[
+        tuple[float, str] | None,
+        Field(
+            Named(english_in, "ENGLISH", spelled=english_words),
+            'Sidespin as players say it, such as "1 tip outside", "1/2 tip left" or "50% right".',
+            more="1.4 tips are 100%, more than which the tip usually slips.",
+        ),
+    ] = None
+    side: Annotated[
+        float,
+        Field(
+            SPIN,
+            "Sidespin as J: right english above 0, left english below; 1.25 is 100%.",
+        ),
+    ] = 0.0
     speed: Annotated[
         float | None,
         Field(
@@ -114,7 +183,13 @@ class Hit(Units, BallFriction):
     ] = None
 
     def check(self) -> None:
-        """Refuse a speed that changes nothing, and a friction that needs one."""
+        """Refuse a speed that changes nothing, a friction that needs one, and two englishes."""
+        if self.english is not None and self.side:
+            self.refuse("{english} and {side} cannot be combined; leave one out")
+        if self.english is not None and not self.cut and self.english[1].endswith("side"):
+            self.refuse(
+                "a full hit has no inside and outside; say whether {english} is left or right"
+            )
         by_speed = self.mu is not None and not isinstance(self.mu, float)
         if by_speed and self.speed is None:
             self.refuse(
@@ -127,6 +202,15 @@ class Hit(Units, BallFriction):
                 pace=self.speed,
                 fixed=self.mu,
             )
+
+    @property
+    def sidespin(self) -> float:
+        """J_z, above 0 for right english."""
+        if self.english is None:
+            return self.side
+        size, way = self.english
+        inside = math.copysign(size, self.cut)
+        return {"right": size, "left": -size, "inside": inside, "outside": -inside}[way]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,9 +308,18 @@ class Aim(Hit):
     examples = """\
   evenbreak physics aim --cut 14.5 --distance 36
   evenbreak physics aim --cut 30 --distance 36 --topspin 0 --speed 60
-  evenbreak physics aim --cut 30 --distance 100 --side 0.2 --metric
+  evenbreak physics aim --cut 30 --distance 36 --english "1 tip outside"
 """
     distance: Annotated[float, Field(LENGTH, "From the object ball to the pocket.")]
+    squirt: Annotated[
+        float,
+        Field(
+            Named(squirt_in, "SHAFT", spelled=lambda most: f"{most:g}"),
+            "Squirt: that of a regular or a low-deflection shaft (low), or your own, in degrees at "
+            "100% english.",
+            more="`regular` is 2.5 degrees, `low` 1.8; `0` leaves squirt out.",
+        ),
+    ] = 2.5
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.errors import InputError
 from evenbreak.physics import SlipFriction, shot, strike_for_speed
 from evenbreak.physics.units import INCH
+from evenbreak.questions.physics import Aim, english_in
 
 INCHES = IMPERIAL.length
 MU = 4 / 72
@@ -100,9 +101,67 @@ def test_a_hard_shot_needs_less_allowance():
 def test_english_brings_what_is_left_out_into_every_answer_about_a_line():
     for side in (-0.3, 0.0, 0.3):
         answers = [
-            aim_answer(hit(14.5, side=side), 0.9, METRIC),
+            aim_answer(hit(14.5, side=side), 0.9, METRIC, squirt=0.0),
             shot_answer(shot(strike_for_speed(1.1, 0.0, side), 0.5, 0.5), METRIC),
         ]
         for answer in answers:
             words = " ".join(answer.sentences)
             assert ("Squirt and swerve are left out" in words) == bool(side)
+
+
+@pytest.mark.parametrize(
+    ("side", "most", "words"),
+    [
+        (-1.25, 2.5, "2.50 degrees to the left of the line"),
+        (0.625, 1.8, "0.90 degrees to the right of the line"),
+        (3.0, 2.5, "2.50 degrees to the right of the line"),
+    ],
+)
+def test_the_cue_points_to_the_side_of_the_english(side, most, words):
+    answer = aim_answer(hit(30.0, side=side), 0.9, IMPERIAL, squirt=most)
+    assert words in answer.sentences[0]
+    assert ("right" if side < 0 else "left") in answer.sentences[0].split("squirts")[1]
+    assert "Swerve is left out" in answer.sentences[1]
+    per_foot = 12 * math.tan(math.radians(abs(answer.to_dict()["squirt_deg"])))
+    assert f"{per_foot:.2f} inches a foot" in answer.sentences[0]
+
+
+def test_gearing_english_at_a_half_ball_hit_is_two_fifths_outside():
+    """Alciatore's rule: at 30 degrees 40 % outside english takes all throw away."""
+    size, way = english_in("40% outside")
+    found = aim(30.0, side=-size)
+    assert way == "outside"
+    assert found["throw_deg"] == pytest.approx(0.0, abs=1e-9)
+    assert found["english"] == "outside"
+
+
+@pytest.mark.parametrize(
+    ("text", "cut", "side"),
+    [
+        ("1 tip right", 30, 1.25 / 1.4),
+        ("1 tip inside", 30, 1.25 / 1.4),
+        ("1 tip inside", -30, -1.25 / 1.4),
+        ("one tip of outside english", 30, -1.25 / 1.4),
+        ("Half a tip left", 30, -0.625 / 1.4),
+        ("1/2 tip outside", -30, 0.625 / 1.4),
+        ("100% left", 0, -1.25),
+        ("1,4 tips right", 0, 1.25),
+    ],
+)
+def test_english_is_read_as_players_say_it(text, cut, side):
+    asked = Aim(cut=cut, distance=36, english=english_in(text))
+    assert asked.sidespin == pytest.approx(side)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "right", "1", "1 tip", "2 tips left", "1/0 tip left", "-1 tip left", "120% left"]
+)
+def test_what_is_no_english_is_refused(text):
+    with pytest.raises(InputError):
+        english_in(text)
+
+
+@pytest.mark.parametrize(("cut", "more"), [(0, {}), (30, {"side": 0.5})])
+def test_english_that_cannot_be_told_is_refused(cut, more):
+    with pytest.raises(InputError):
+        Aim(cut=cut, distance=36, english=english_in("1 tip inside"), **more).check()

@@ -58,5 +58,5 @@ def test_in_words():
     assert cut_words(-1.0).endswith("1 degree to the left")
     assert cut_words(2.0).endswith("2 degrees to the right")
     assert "outside (right)" in hit(-30.0, side=0.2).description
-    assert hit(0.0, side=-0.2).description.endswith("left english")
+    assert hit(0.0, side=-0.2).description.endswith("left english, 0.22 tips")
     assert spin_words(0.25) == "topspin (0.25)"

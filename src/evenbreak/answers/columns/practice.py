@@ -83,6 +83,7 @@ PHYSICS = registry(
     detail("energy", "energy\njoules", 3),
     detail("end_energy", "at end\njoules", 3),
     number("throw_deg", "throw of the object ball, degrees", 2),
+    detail("squirt_deg", "squirt of the cue ball, to the side away from the english, degrees", 2),
     number("aim_cut_deg", "cut angle to aim for, degrees", 2),
     number("offset_to_aim", "aim to the right of the middle of the pocket, {units}", 2, "offset"),
     number("rule_offset", "the same by the rule of thumb, {units}", 2),

@@ -20,8 +20,15 @@ from evenbreak.physics.deflection import (
     split_roll_cut,
 )
 from evenbreak.physics.friction import SlipFriction
+from evenbreak.physics.offset import (
+    SQUIRTS,
+    TIPS_OF_MOST_ENGLISH,
+    squirt_angle,
+    tips_of_side,
+)
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensitivity
+from evenbreak.words import Parameter, Sentence, joined, say
 
 degrees = decimals(2)
 """How an angle in degrees is shown."""
@@ -100,11 +107,14 @@ class Hit(NamedTuple):
         """What is hit and how, in a line.
 
         >>> Hit(30.0, 1.0, -0.3, 0.0556, "limited").description
-        'A cut of 30 degrees to the right; natural roll, outside (left) english'
+        'A cut of 30 degrees to the right; natural roll, outside (left) english, 0.34 tips'
         """
         english = f"{self.english or 'no'} english"
         if self.english in ("inside", "outside"):
             english = f"{self.english} ({'right' if self.side > 0.0 else 'left'}) english"
+        tips = abs(tips_of_side(self.side))
+        if 0.0 < tips <= TIPS_OF_MOST_ENGLISH + 1e-9:
+            english += f", {tips:.2g} {'tip' if round(tips, 2) == 1.0 else 'tips'}"
         return f"{cut_words(self.cut)}; {spin_words(self.topspin)}, {english}"
 
     def asked(self, found: Collision, speed: Unit) -> list[Quantity]:
@@ -191,7 +201,47 @@ def spin_words(topspin: float) -> str:
     return named.get(topspin) or f"{kind} ({degrees(topspin)})"
 
 
-def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
+SWERVE = say(
+    "Swerve is left out: a raised cue makes the ball curve back to the side of the english, most "
+    "in soft, long shots. Cues differ: shoot the length of the table hard with 100% english, and "
+    "give {squirt} the degrees by which the ball lands off line.",
+    squirt=Parameter("squirt"),
+)
+"""What an answer about where to aim does not know where squirt is allowed for."""
+
+
+def squirt_words(angle: float, units: Units) -> Sentence:
+    """Return where to point the cue, so that the cue ball travels along its line.
+
+    Parameters
+    ----------
+    angle
+        of the squirt, in degrees, above 0 with right english.
+    units
+        in which the answer is given.
+
+    >>> from evenbreak.answers.physics.units import IMPERIAL
+    >>> print(squirt_words(-1.0, IMPERIAL))
+    Point the cue 1.00 degrees to the left of the line on which the cue ball has to go
+    (0.21 inches a foot): with left english it squirts to the right.
+    """
+    side, other = ("right", "left") if angle > 0.0 else ("left", "right")
+    apart, far = (12.0, "foot") if units.length.key == "in" else (100.0, "meter")
+    return say(
+        "Point the cue {angle} degrees to the {side} of the line on which the cue ball has to go "
+        "({apart:.2f} {words} a {far}): with {side} english it squirts to the {other}.",
+        angle=degrees(abs(angle)),
+        side=side,
+        apart=apart * math.tan(math.radians(abs(angle))),
+        words=units.length.words,
+        far=far,
+        other=other,
+    )
+
+
+def aim_answer(
+    hit: Hit, distance: float, units: Units, *, squirt: float = SQUIRTS["regular"]
+) -> Answer:
     """Return where to aim so that the object ball, thrown, reaches its target.
 
     Parameters
@@ -202,6 +252,8 @@ def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
         from the object ball to the middle of the pocket, in metres.
     units
         in which the answer is given.
+    squirt
+        of the shaft, in degrees at 100 % english; 0 leaves it out.
 
     Raises
     ------
@@ -228,10 +280,16 @@ def aim_answer(hit: Hit, distance: float, units: Units) -> Answer:
         length.quantity("offset_to_aim", offset),
         length.quantity("rule_offset", hit.hand * found.offset_of_text),
     ]
-    left_out = [SQUIRT] if hit.side else []
+    off = squirt_angle(hit.side, squirt)
+    quantities += quantities_of({"squirt_deg": off})
+    lines: list[str] = [aim_words(offset, hit.hand * found.cut, hit, length)]
+    if off:
+        lines = [joined([*lines, squirt_words(off, units)]), SWERVE]
+    elif hit.side:
+        lines.append(SQUIRT)
     return Answer(
         hit.heading(aimed, units.speed, f"{length.typed(distance)} to the pocket"),
-        [aim_words(offset, hit.hand * found.cut, hit, length), *left_out, Quantities(quantities)],
+        [*lines, Quantities(quantities)],
     )
 
 

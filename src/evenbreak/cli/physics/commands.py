@@ -45,7 +45,7 @@ def hit_of(asked: questions.Hit) -> Hit:
         pace = asked.speed * units_of(asked).speed.size
     if mu is None:
         mu = physics.BALL_FRICTION if pace is None else physics.SlipFriction()
-    return Hit(asked.cut, asked.topspin, asked.side, mu, asked.friction, pace)
+    return Hit(asked.cut, asked.topspin, asked.sidespin, mu, asked.friction, pace)
 
 
 @command_of(questions.TableSpeed, "speed")
@@ -85,11 +85,11 @@ def aim(asked: questions.Aim) -> Answer:
 
     units, hit = units_of(asked), hit_of(asked)
     try:
-        answer = aim_answer(hit, asked.distance * units.length.size, units)
+        answer = aim_answer(hit, asked.distance * units.length.size, units, squirt=asked.squirt)
     except InputError:
         asked.refuse(
             "{cut} {angle:g} cannot be reached: friction throws every hit fuller than that; give a "
-            "smaller cut angle, or another {topspin} or {side}",
+            "smaller cut angle, or another {topspin} or {english}",
             angle=asked.cut,
         )
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))
