@@ -1,6 +1,12 @@
+from .contest import Contest as Contest
+from .contest import play_systems as play_systems
 from .dump_cycle import DumpCycle as DumpCycle
 from .dump_cycle import best_cycle as best_cycle
 from .dump_cycle import dump_cycle as dump_cycle
+from .judged import MEASURES as MEASURES
+from .judged import PARTS as PARTS
+from .judged import Estimate as Estimate
+from .judged import estimate as estimate
 from .many_seasons import run_chunk as run_chunk
 from .one_season import PlayedSeason as PlayedSeason
 from .one_season import season_matches as season_matches
@@ -29,3 +35,4 @@ from .tables.table import TableMatches as TableMatches
 from .tables.table import league_table as league_table
 from .tables.table import player_matches as player_matches
 from .tables.table import team_matches as team_matches
+from .world import World as World

@@ -16,6 +16,7 @@ from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.fair import fair_races
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.handicaps.charts.level_chart import level_chart
+from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.matches.pace import own_pace
 from evenbreak.matches.races import race_odds
 from evenbreak.ratings.roster import Roster
@@ -115,22 +116,23 @@ def test_it_says_where_no_race_is_fair():
 
 
 def test_levels():
-    roster = Roster(["Ann", "Bo"], [5, 3])
-    frame = roster_matchups(
-        roster, all_pairs(roster), scale=scale_of(2), chart=level_chart("apa_8ball")
-    ).frame
-    assert frame[["chart_race_a", "chart_race_b"]].to_numpy().tolist() == [[4, 2]]
-    assert frame["p_game_a"].tolist() == pytest.approx([2 / 3])
+    roster, skills = Roster(["Ann", "Bo"], [600, 400], level=[5, 3]), level_skills("apa_8ball")
+    pairs, asked = np.array([[0, 1]]), {"scale": scale_of("fargo"), "chart": skills.chart}
+    by_rating = roster_matchups(roster, pairs, **asked).frame
+    by_level = roster_matchups(roster, pairs, levels=skills, **asked).frame
+    for frame, p in ((by_rating, 0.8), (by_level, 0.721)):
+        assert frame[["chart_race_a", "chart_race_b"]].to_numpy().tolist() == [[4, 2]]
+        assert frame["p_game_a_plug_in"].tolist() == pytest.approx([p])
 
 
 def test_a_roster_that_does_not_suit_is_refused_with_its_lines(tmp_path):
     path = tmp_path / "roster.csv"
-    path.write_text("player,rating,se,qse\nAnn,5,,\nBo,9,,\nCy,3,700,\nDi,3,9,600\n")
+    path.write_text("player,level,se,qse\nAnn,5,,\nBo,9,,\nCy,3,700,\nDi,3,9,600\n")
     file = read_roster(path)
     with pytest.raises(DataError) as caught:
         check_roster(file, file.roster, level_chart("apa_8ball"), scale_of(100))
     problems = [problem.partition("roster.csv:")[2] for problem in caught.value.problems]
-    begins = ["3: rating 9 of 'Bo'", "4: standard_error 700", "5: quasi_error 600"]
+    begins = ["3: 'Bo' has skill level 9", "4: standard_error 700", "5: quasi_error 600"]
     assert [text[: len(begin)] for text, begin in zip(problems, begins, strict=True)] == begins
     assert "2, 3, 4, 5, 6, 7" in problems[0]
     assert "500" in problems[1]

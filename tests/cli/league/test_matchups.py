@@ -1,6 +1,7 @@
 import csv
 import io
 import json
+from pathlib import Path
 
 import click
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.cli.program import program
+from evenbreak.files.charts import read_chart
 from evenbreak.handicaps import audit_levels
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import Turnover
@@ -123,33 +125,64 @@ def test_a_middle_far_from_all_ratings_is_no_starter(run, roster, words, doubted
     assert ("--starter" in run("matchups", path, *SURE, *words).stderr) == doubted
 
 
-def test_levels_are_as_strong_as_the_chart_makes_them(run, roster):
-    path = roster("player,skill level\nAnn,7\nBo,4\nCy,2\n")
-    result = run("matchups", path, "--chart", "apa_8ball", "--json")
-    assert (result.exit_code, result.stderr) == (0, "")
-    found = json.loads(result.stdout)
-    audited = {(cell.level, cell.opponent_level): cell for cell in audit_levels("apa_8ball").cells}
+LEVELS = "player,skill level\nAnn,7\nBo,4\nCy,2\n"
+
+
+def test_levels_of_an_own_chart_are_as_strong_as_it_makes_them(run, roster):
+    text = run("chart", "show", "apa_8ball", "--csv").stdout.replace("7,2,7,2", "7,2,8,2")
+    chart = roster(text.replace("2,7,2,7", "2,7,2,8"), "ours.csv")
+    found = answer(run, roster(LEVELS), "--chart", chart)
+    audited = audit_levels(read_chart(chart)).cells
+    cells = {(cell.level, cell.opponent_level): cell for cell in audited}
     for row, levels in zip(found["pairs"], [(7, 4), (7, 2), (4, 2)], strict=True):
-        cell = audited[levels]
+        cell = cells[levels]
         assert (row["chart_race_a"], row["chart_race_b"]) == (cell.needs, cell.opponent_needs)
         assert row["chart_p_win_a"] == pytest.approx(cell.p_win_middle, rel=1e-9)
-    assert found["levels"]["2"] == 2.0
-    assert "chart audit apa_8ball" in run("matchups", path, "--chart", "apa_8ball").stderr
+    assert found["levels"]["source"] == "chart"
+    assert "an assumption" in run("matchups", roster(LEVELS), "--chart", chart).stderr
 
 
-def test_a_page_says_how_strong_levels_are(run, roster, tmp_path):
-    path, page = roster("player,skill level\nAnn,5\nBo,3\n"), tmp_path / "tonight.html"
-    assert run("matchups", path, "--chart", "apa_8ball", "--html", str(page)).exit_code == 0
-    assert "by 1.36 on average" in page.read_text(encoding="utf-8")
+def test_levels_are_as_strong_as_elsewhere_unless_own_results_show_it(run, roster):
+    path, page = roster(LEVELS), roster("", "tonight.html")
+    words = (path, "--chart", "apa_8ball")
+    usual = answer(run, *words)
+    assert usual["levels"]["source"] == "measured"
+    assert run("matchups", *words, "--html", page).exit_code == 0
+    assert "some 40,000 matches" in Path(page).read_text(encoding="utf-8")
+    rows = "".join(f"P{k % 9},Q{k % 7},{2 + k % 2},{3 - k % 3},5,4\n" for k in range(120))
+    results = roster("player_a,player_b,score_a,score_b,level_a,level_b\n" + rows, "season.csv")
+    own = answer(run, *words, "--results", results)
+    assert (own["levels"]["source"], own["levels"]["matches"]) == ("results", 120)
+    assert own["pairs"] != usual["pairs"]
 
 
-def test_levels_on_a_scale(run, roster):
-    path = roster("player,skill level\nAnn,5\nBo,3\n")
-    (row,) = answer(run, path, "--chart", "apa_8ball", "--scale", "2")["pairs"]
+def test_ratings_beside_levels_give_the_chances(run, roster):
+    text = "player,Fargo rating,level\nAnn,600,5\nBo,500,3\n"
+    (row,) = answer(run, roster(text), "--chart", "apa_8ball")["pairs"]
     assert (row["chart_race_a"], row["chart_race_b"]) == (4, 2)
-    result = run("matchups", roster(), "--chart", "apa_8ball", "--scale", "2")
-    assert (result.exit_code, result.stdout) == (3, "")
-    assert "roster.csv:2: rating 92 of 'Ann'" in result.stderr
+    assert row["p_game_a"] == pytest.approx(2 / 3)
+    assert answer(run, roster(text), "--race-to", "5")["levels"] is None
+
+
+@pytest.mark.parametrize(
+    ("text", "more", "words"),
+    [
+        (LEVELS, ("--scale", "2"), "--scale is for ratings"),
+        ("player,level\nAnn,7\nBo,8\n", (), "roster.csv:3: 'Bo' has skill level 8; the levels"),
+        ("player,level\nAnn,7\nBo,\n", (), "roster.csv:3: 'Bo' has no skill level"),
+        ("player,rating\nAnn,92\nBo,71\n", (), "needs skill levels"),
+        ("player,rating,level\nAnn,92,5\nBo,71,4\n", ("--results", "x"), "come from ratings"),
+    ],
+)
+def test_what_is_no_list_of_levels_is_refused(run, roster, text, more, words):
+    result = run("matchups", roster(text), "--chart", "apa_8ball", *more)
+    assert result.exit_code in (2, 3)
+    assert words in result.stderr
+
+
+def test_own_results_are_for_levels(run, roster):
+    result = run("matchups", roster(LEVELS), "--race-to", "5", "--results", "season.csv")
+    assert "give --chart apa_8ball" in result.stderr
 
 
 def test_the_evening_is_in_every_face(run, roster):

@@ -1,0 +1,113 @@
+"""The scores of races between players of any skill, looked up by the gap of their skills."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+from scipy.special import gammaln, xlog1py, xlogy
+
+from evenbreak.arrays import Floats, Ints
+
+STEPS = 128
+"""Steps of the grid of gaps a doubling: a chance of a game is off by .0007 at most."""
+
+WIDEST = 6
+"""Wider gaps of skill, in doublings, are treated as this one."""
+
+_GAPS = np.arange(-WIDEST * STEPS, WIDEST * STEPS + 1) / STEPS
+_MOST = 128
+"""No race is longer."""
+
+
+class RaceTables:
+    """The chances of all races that were asked for, by number and gap of skills.
+
+    Parameters
+    ----------
+    form
+        standard deviation of the form of a player, in doublings: chances given the true skills are
+        means over the form of both.
+
+    >>> tables = RaceTables(0.0)
+    >>> place = tables.places(np.array([5, 5]), np.array([5, 4]), np.array([0.0, 0.0]))
+    >>> tables.chances.take(place).round(3)
+    array([0.5  , 0.363])
+    >>> tables.scores(place, np.array([5, 5]), np.array([5, 4]), np.array([0.01, 0.99]))
+    (array([5, 0]), array([0, 4]))
+    """
+
+    def __init__(self, form: float) -> None:
+        self.form = form
+        self.number = np.full(_MOST * _MOST, -1, dtype=np.int64)
+        self.chances: Floats = np.zeros(0)
+        self.reached = np.zeros((0, 32), dtype=np.float32)
+        self.races: list[tuple[int, int]] = []
+
+    def places(self, m: Ints, n: Ints, gap: Floats) -> Ints:
+        """Return where races m:n between players this far apart are in the tables."""
+        code = m * _MOST + n
+        number = self.number.take(code)
+        if (number < 0).any():
+            for new in np.unique(code[number < 0]).tolist():
+                self.number[new] = len(self.races)
+                self.races.append(divmod(new, _MOST))
+            self._extend()
+            number = self.number.take(code)
+        at = np.clip(np.rint(gap * STEPS), -WIDEST * STEPS, WIDEST * STEPS).astype(np.int64)
+        place: Ints = number * len(_GAPS) + at + WIDEST * STEPS
+        return place
+
+    def scores(
+        self, place: Ints, m: Ints, n: Ints, luck: NDArray[np.floating[Any]]
+    ) -> tuple[Ints, Ints]:
+        """Return the final scores that the luck of each match makes of its chances.
+
+        The better the luck of player a the better their score, from m:0 down to 0:n, so that the
+        same luck is worth alike in races of different lengths.
+        """
+        width = self.reached.shape[1]
+        where, flat = place * width, self.reached.ravel()
+        number = np.zeros(place.shape, dtype=np.int64)
+        step = width // 2
+        while step:
+            number += step * (luck > flat.take(where + number + (step - 1)))
+            step //= 2
+        won = number < n
+        return np.where(won, m, m + n - 1 - number), np.where(won, number, n)
+
+    def _extend(self) -> None:
+        done = len(self.chances) // len(_GAPS)
+        width = 32
+        while width < max(m + n for m, n in self.races):
+            width *= 2
+        if width > self.reached.shape[1]:
+            more = width - self.reached.shape[1]
+            self.reached = np.pad(self.reached, ((0, 0), (0, more)), constant_values=2.0)
+        chances, reached = [self.chances], [self.reached]
+        for m, n in self.races[done:]:
+            law = score_law(m, n, 1.0 / (1.0 + 2.0**-_GAPS))
+            wins = law[:, :n].sum(axis=1)
+            if self.form:
+                wins = gaussian_filter1d(wins, np.sqrt(2.0) * self.form * STEPS, mode="nearest")
+            chances.append(wins)
+            table = np.full((len(_GAPS), width), 2.0, dtype=np.float32)
+            table[:, : m + n - 1] = np.cumsum(law, axis=1)[:, :-1]
+            reached.append(table)
+        self.chances, self.reached = np.concatenate(chances), np.concatenate(reached)
+
+
+def score_law(m: int, n: int, p: Floats) -> Floats:
+    """Return the chances of the scores m:0, m:1, ..., m:n-1, m-1:n, ..., 0:n, a row for each p.
+
+    >>> score_law(2, 1, np.array([0.5]))
+    array([[0.25, 0.25, 0.5 ]])
+    """
+    a = np.concatenate([np.full(n, m), np.arange(m - 1, -1, -1)])
+    b = np.concatenate([np.arange(n), np.full(m, n)])
+    winner, loser = np.where(a == m, m, n), np.where(a == m, b, a)
+    orders = gammaln(winner + loser) - gammaln(winner) - gammaln(loser + 1)
+    law: Floats = np.exp(orders + xlogy(a, p[:, None]) + xlog1py(b, -p[:, None]))
+    return law
