@@ -40,7 +40,7 @@ SCHEMAS = {
     "season": roster.OF_SEASON,
     "pairs": season.PAIRS,
     "schedule": season.SCHEDULE.only("week"),
-    "team": teams.OF_TEAM,
+    "team": teams.TEAM.only("level"),
     "team results": teams.TEAM_RESULTS,
     "teams": teams.TEAMS,
 }

@@ -24,11 +24,9 @@ from .charts.fair_scale import league_chart as league_chart
 from .charts.gap import Gap as Gap
 from .charts.level_audit import LevelAudit as LevelAudit
 from .charts.level_audit import LevelCell as LevelCell
-from .charts.level_audit import LevelScale as LevelScale
 from .charts.level_audit import PointsAudit as PointsAudit
 from .charts.level_audit import audit_levels as audit_levels
 from .charts.level_audit import audit_points as audit_points
-from .charts.level_audit import level_scale as level_scale
 from .charts.level_chart import LEVEL_CHARTS as LEVEL_CHARTS
 from .charts.level_chart import POINTS_CHARTS as POINTS_CHARTS
 from .charts.level_chart import LevelChart as LevelChart

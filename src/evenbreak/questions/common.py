@@ -69,6 +69,16 @@ EntrantsFile: TypeAlias = Annotated[
 ]
 Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
 ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
+LevelResults: TypeAlias = Annotated[
+    str | None,
+    Field(
+        File("RESULTS.csv"),
+        "With a chart by skill level: the league's own results, which show how strong its levels "
+        "are.",
+        usual="what was measured in other leagues, else what the chart assumes",
+        more="See [what a level is worth](../../explanation/charts.md#skill-levels).",
+    ),
+]
 _RACE = Whole(1, LONGEST_RACE)
 EvenRace: TypeAlias = Annotated[int | None, Field(_RACE, "Even races to N games.")]
 HandicappedRace: TypeAlias = Annotated[

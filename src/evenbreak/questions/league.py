@@ -15,6 +15,7 @@ from evenbreak.questions.common import (
     FormOfDay,
     Jobs,
     Lengths,
+    LevelResults,
     OutFolder,
     ScaleOf,
     Seed,
@@ -56,7 +57,9 @@ class Matchups(Lengths, Starters, Pace):
         ChartName,
         Says(
             "The league's chart, by name or in a file.",
-            more="Ratings are rounded to whole points to look it up.",
+            more="Ratings are rounded to whole points to look it up. A chart by skill level, such "
+            "as apa_8ball, is looked up with the column level; the chances come from the ratings "
+            "if there are any, else from the levels.",
         ),
     ] = None
     race_to: Annotated[int | None, RACE_TO] = None
@@ -64,12 +67,12 @@ class Matchups(Lengths, Starters, Pace):
     pairs: Annotated[str | None, Field(File("PAIRS.csv"), "Who meets whom.", usual="all pairs")] = (
         None
     )
+    results: LevelResults = None
     scale: Annotated[
         ScaleOf,
         Says(
             usual="the one that the file states, else the chart's, else what the ratings show",
-            more="For skill levels, where the chart's own races put them. See "
-            "[the scale of a list](../files.md#the-scale-of-a-list).",
+            more="See [the scale of a list](../files.md#the-scale-of-a-list).",
         ),
     ] = None
     discipline: Annotated[

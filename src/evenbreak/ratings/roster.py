@@ -57,6 +57,9 @@ class Roster:
         the names, each once.
     rating
         points, one for each player; NaN for a new player who has none yet.
+    level
+        the skill level, by which a chart by skill level gives races and a cap counts; NaN where it
+        is not stated. Where a list states levels alone, the ratings are those levels.
     standard_error
         how far a rating may be off, in points (one standard deviation); NaN where not
         stated. The error of a difference is taken to be the root of the sum of two squares,
@@ -95,6 +98,7 @@ class Roster:
     component: Ints
     matches: Ints
     provisional: Bools
+    level: Floats
 
     def __init__(
         self,
@@ -106,6 +110,7 @@ class Roster:
         component: ArrayLike | None = None,
         matches: ArrayLike | None = None,
         provisional: ArrayLike | None = None,
+        level: ArrayLike | None = None,
     ) -> None:
         object.__setattr__(self, "players", names(players, "players"))
         many = len(self.players)
@@ -115,6 +120,7 @@ class Roster:
             ("games", games, np.int64, NOT_STATED),
             ("component", component, np.int64, 0),
             ("matches", matches, np.int64, NOT_STATED),
+            ("level", level, np.float64, math.nan),
         ):
             values = np.full(many, unstated) if stated is None else stated
             object.__setattr__(self, name, column(values, name, many, "players", kind))
@@ -212,4 +218,5 @@ class Roster:
             component=self.component,
             matches=self.matches,
             provisional=self.provisional,
+            level=self.level,
         )

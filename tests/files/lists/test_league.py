@@ -69,7 +69,6 @@ Flo,80,,,,-2,x,,
         (2, "rating 'six' is not a number"),
         (3, "player 'Ann' is already in line 2"),
         (3, "skill 'strong' is not a number"),
-        (4, "rating is empty"),
         (5, "skill '20000' is not a number from -10,000 to 10,000"),
         (5, "day_sd '-1' is not a number from 0 to 1,000"),
         (5, "drift '2000' is not a number from -1,000 to 1,000"),
@@ -84,7 +83,18 @@ Flo,80,,,,-2,x,,
         (7, "leaves 'x' is not a whole number"),
     ):
         assert f"club.csv:{line}: {words}" in told
-    assert len(caught.value.problems) == 13
+    assert len(caught.value.problems) == 12
+
+
+def test_a_player_without_a_rating_is_a_newcomer_at_the_median(tmp_path: Path) -> None:
+    file = read_league(club(tmp_path, "player,rating,level\nAnn,90,6\nBo,70,4\nCy,84,\nDi,,5\n"))
+    assert file.players.rating.tolist() == [90, 70, 84, 84]
+    assert file.players.skill_sd[3] == pytest.approx(np.std([90, 70, 84]))
+    assert file.players.played[3] == 0
+    assert file.roster.level[:2].tolist() == [6.0, 4.0]
+    assert file.warnings == (
+        f"{tmp_path / 'club.csv'}: 'Di' has no rating and starts as a newcomer at the median, 84",
+    )
 
 
 @pytest.mark.parametrize(

@@ -44,6 +44,16 @@ def test_all_columns(read):
     assert file.warnings == ()
 
 
+def test_ratings_and_levels_stand_side_by_side(read):
+    both = read("player,Fargo rating,skill level\nAnn,612,6\nBo,,4\n")
+    assert (both.levels, both.scale) == (False, SCALES["fargo"])
+    assert both.roster.rating[0] == 612.0
+    assert both.roster.level.tolist() == [6.0, 4.0]
+    alone = read("player,SL\nAnn,6\nBo,\n")
+    assert alone.levels
+    np.testing.assert_array_equal(alone.roster.rating, alone.roster.level)
+
+
 def test_a_quasi_error_is_taken_where_it_stands(read):
     roster = read(
         "player,rating,standard_error,quasi_error\nAnn,92,9,6\nBo,80,8,\nCy,70,,5\n"

@@ -17,6 +17,8 @@ from evenbreak.answers.kit.wording import clock, count_of, percent, race
 from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, OfferedRaces, unfair
 from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
 from evenbreak.files.csv_writer import rows_of
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import NOT_STATED
 
@@ -54,9 +56,10 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     if tonight.pace is not None and not tonight.evening:
         parts.append(about_time(tonight))
     if doubtful(tonight):
-        parts.append("'A wins' is averaged over how far the ratings may be off.")
+        whose = "ratings" if tonight.levels is None else "levels"
+        parts.append(f"'A wins' is averaged over how far the {whose} may be off.")
     parts += filter(None, [form_used_words(tonight.form, tonight.scale)])
-    parts += [" ".join(about_levels(tonight))] if tonight.levels is not None else []
+    parts += [tonight.levels.why] if tonight.levels is not None else []
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
     parts += [Remarks(remarks)] if remarks else []
     method = list(about_method(tonight))
@@ -69,8 +72,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
             "evening": tonight.evening,
             "pace": _pace(tonight),
             "form": tonight.form,
-            "levels": tonight.levels
-            and dict(zip(tonight.levels.levels, tonight.levels.strengths, strict=True)),
+            "levels": None if tonight.levels is None else levels_data(tonight.levels),
         },
         csv=table,
     )
@@ -242,6 +244,8 @@ def _pairs(rows: pd.DataFrame) -> list[str]:
 
 def about_players(tonight: Round) -> Iterator[Remark]:
     """Yield whose rating or standard error was filled in or is missing, of those who meet."""
+    if tonight.levels is not None:
+        return
     read, started = tonight.file.roster, tonight.roster
     here = np.zeros(len(started), dtype=bool)
     here[np.unique(tonight.pairs)] = True
@@ -281,9 +285,14 @@ def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Re
 
 def about_method(tonight: Round) -> Iterator[Remark]:
     """Yield what the numbers rest on."""
-    if tonight.chart is not None:
+    if isinstance(tonight.chart, Chart):
         yield Remark(
             f"Chart {tonight.chart.name}", "looked up with ratings rounded to whole points"
+        )
+    elif tonight.chart is not None and tonight.levels is None:
+        yield Remark(
+            f"Chart {tonight.chart.name}",
+            "looked up with the skill levels; the chances come from the ratings",
         )
     if doubtful(tonight):
         yield Remark(
@@ -308,32 +317,30 @@ def about_method(tonight: Round) -> Iterator[Remark]:
 
 
 def doubtful(tonight: Round) -> bool:
-    """Return whether the error of any rating is stated."""
+    """Return whether the error of any rating is stated, or how far off levels may be is known."""
+    if tonight.levels is not None:
+        return tonight.levels.is_known
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
 
 
 def ratings_words(tonight: Round) -> str:
     """Return what the ratings are, in a few words."""
     if tonight.levels is not None:
-        return f"Ratings are skill levels of {tonight.levels.chart}"
+        return f"Skill levels of {tonight.levels.chart.name}"
     return f"Ratings {scale_words(tonight.scale)}"
 
 
-def about_levels(tonight: Round) -> Iterator[str]:
-    """Yield how strong skill levels are taken to be, and what that means for the chances."""
-    if tonight.levels is None:
-        return
-    name, times = tonight.levels.chart, tonight.levels.odds_of_a_level
-    yield (
-        f"How strong a level is comes from the chart itself (`evenbreak chart audit {name}`): with "
-        f"the strengths that make its races as even as possible, one level more multiplies the "
-        f"odds of winning a game by {times:.2f} on average. All players are taken to be average "
-        "for their level."
-    )
-    yield (
-        "So the chances show which races favour a player by the chart's own measure, not whether "
-        "your players have the right levels."
-    )
+def levels_data(levels: LevelSkills) -> dict[str, Any]:
+    """Return what the chances rest on where they come from skill levels, for JSON."""
+    off = [None if np.isnan(error) else float(error) for error in levels.standard_error]
+    return {
+        "chart": levels.chart.name,
+        "source": levels.source,
+        "matches": levels.matches,
+        "spread": levels.spread,
+        "fargo_points": dict(zip(levels.levels, levels.points.tolist(), strict=True)),
+        "standard_error": dict(zip(levels.levels, off, strict=True)),
+    }
 
 
 def game_model(tonight: Round) -> str:
@@ -342,13 +349,16 @@ def game_model(tonight: Round) -> str:
     alone += " but for form of the day, whoever breaks." if tonight.form else ", whoever breaks."
     if tonight.levels is not None:
         placed = ", ".join(
-            f"{level} at {strength:.2f}"
-            for level, strength in zip(tonight.levels.levels, tonight.levels.strengths, strict=True)
+            f"{level} at {points:.0f}"
+            for level, points in zip(
+                tonight.levels.levels, tonight.levels.points.tolist(), strict=True
+            )
         )
+        spread = f", and players of one level differ by {tonight.levels.spread:.0f} points"
         return (
-            f"Levels lie at these strengths: {placed}; a player d stronger wins a game with "
-            f"probability 1/(1 + 2^(\N{MINUS SIGN}d/{tonight.scale.points_per_doubling:.3g})), "
-            f"{alone}"
+            f"Levels on the Fargo scale (differences matter only): {placed}"
+            f"{spread if tonight.levels.spread else ''}. {game_chance(tonight.scale)[:1].upper()}"
+            f"{game_chance(tonight.scale)[1:]}, {alone}"
         )
     text = game_chance(tonight.scale)
     return f"{text[:1].upper()}{text[1:]}, {alone}"

@@ -17,8 +17,8 @@ from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS, Gap
-from evenbreak.handicaps.charts.level_audit import LevelScale
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.evening import Length
 from evenbreak.matches.minutes import match_minutes
 from evenbreak.matches.pace import Pace
@@ -144,12 +144,13 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         levels = ", ".join(map(str, chart.levels))
         problems.add_rows(
             file.lines,
-            np.flatnonzero(~np.isin(_whole(roster.rating), chart.levels)),
+            np.flatnonzero(~np.isin(roster.level, chart.levels)),
             lambda place: say(
-                "rating {rating:g} of {player} is not a level of the chart {chart}; write one of "
-                "{levels}",
-                rating=roster.rating[place],
+                "{player} has {level}; the levels of the chart {chart} are {levels}",
                 player=quoted(roster.players[place]),
+                level=say("no skill level")
+                if np.isnan(roster.level[place])
+                else say("skill level {level:g}", level=roster.level[place]),
                 chart=chart.name,
                 levels=levels,
             ),
@@ -234,7 +235,7 @@ def roster_matchups(
     *,
     scale: Scale,
     chart: Chart | LevelChart | None = None,
-    levels: LevelScale | None = None,
+    levels: LevelSkills | None = None,
     offered: OfferedRaces | None = None,
     pace: Pace | None = None,
     form: float = 0.0,
@@ -251,9 +252,10 @@ def roster_matchups(
     scale
         what the points mean.
     chart
-        the league's chart; ratings are rounded to whole points to look it up.
+        the league's chart; ratings are rounded to whole points to look it up, and a chart by skill
+        level is looked up with the levels.
     levels
-        how strong the levels are, where ratings are skill levels; None: ratings are strengths.
+        how strong the levels are, where the chances come from them; None: from the ratings.
     offered
         the races among which the fairest is sought.
     pace
@@ -281,15 +283,18 @@ def roster_matchups(
     """
     if chart is None and offered is None:
         raise InputError("chart and offered are missing; give one of them at least")
-    if np.isnan(roster.rating).any():
+    if levels is None and np.isnan(roster.rating).any():
         raise InputError("roster has players without a rating; fill them in by with_starters")
     a, b = pairs[:, 0], pairs[:, 1]
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]
-    strength = roster.rating if levels is None else levels.strength(roster.rating)
-    errors = np.nan_to_num(roster.standard_error)
-    gap = Gap(strength[a] - strength[b], np.hypot(errors[a], errors[b]), scale, form)
-    stated = ~np.isnan(roster.standard_error)
+    errors, stated = np.nan_to_num(roster.standard_error), ~np.isnan(roster.standard_error)
+    if levels is None:
+        gap = Gap(roster.rating[a] - roster.rating[b], np.hypot(errors[a], errors[b]), scale, form)
+    else:
+        of_pair = roster.level[a], roster.level[b]
+        gap = Gap(levels.difference(*of_pair), levels.error(*of_pair), scale, form)
+        stated = np.full(len(roster), levels.is_known)
     columns: dict[str, Any] = {
         "difference": gap.difference,
         "difference_error": np.where(stated[a] | stated[b], gap.error, np.nan),
@@ -298,7 +303,7 @@ def roster_matchups(
     }
     by_chart = best = None
     if chart is not None:
-        by_chart = Races.of(gap, *_by_chart(chart, roster.rating, a, b), pace)
+        by_chart = Races.of(gap, *_by_chart(chart, roster, a, b), pace)
         columns |= _columns("chart_", by_chart)
     if offered is not None:
         best = Races.of(gap, *offered.fairest(gap), pace)
@@ -330,10 +335,10 @@ def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
     return not _linked(roster, np.array([a]), np.array([b]))[0]
 
 
-def _by_chart(chart: Chart | LevelChart, rating: Floats, a: Ints, b: Ints) -> tuple[Ints, Ints]:
-    points = _whole(rating)
+def _by_chart(chart: Chart | LevelChart, roster: Roster, a: Ints, b: Ints) -> tuple[Ints, Ints]:
     if isinstance(chart, LevelChart):
-        return chart.races(points[a], points[b])
+        return chart.races(roster.level[a], roster.level[b])
+    points = _whole(roster.rating)
     return chart.races(points[a] - points[b])
 
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from evenbreak.answers.league.roster_matchups import OfferedRaces, RosterMatchups, roster_matchups
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.level_audit import LevelScale
 from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.evening import evening
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.ratings.roster import Roster
@@ -73,7 +73,7 @@ class Round:
     pairs: NDArray[Any]
     scale: Scale
     chart: AnyChart | None = None
-    levels: LevelScale | None = None
+    levels: LevelSkills | None = None
     offered: OfferedRaces | None = None
     pace: Pace | None = None
     tables: int | None = None

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
+from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, with_level
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, stated_pace, with_starters
 from evenbreak.cli.kit.terminal import write_file
+from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.league import Matchups
 from evenbreak.ratings.scale import SCALES, Scale
 
@@ -43,15 +46,28 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
     file = files.read_roster(asked.roster)
     if asked.players_file is not None:
         file = files.roster_of_entrants(file, files.read_entrants(asked.players_file))
-    points, levels = _scale_of_list(file, asked.scale, of_league)
-    players = with_starters(file.roster, points, asked.starter, asked.starter_sd)
+    levels = None
+    if isinstance(of_league, handicaps.LevelChart):
+        file, levels = by_level(file, of_league, asked.results)
+    elif asked.results is not None:
+        asked.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+    if levels is not None:
+        if asked.scale is not None:
+            raise InputError(SCALE_OF_LEVELS)
+        file, points = with_level(file, asked.starter), FARGO
+        players = replace(file.roster, rating=levels.strength(file.roster.level))
+    else:
+        points = _scale_of_list(file, asked.scale, of_league)
+        players = with_starters(file.roster, points, asked.starter, asked.starter_sd)
     check_roster(file, players, of_league, points)
-    if asked.scale is None and file.scale is not None:
+    if levels is not None:
+        pass
+    elif asked.scale is None and file.scale is not None:
         warnings += _other_chart(file.scale, of_league)
     elif asked.scale is None:
         remedy = "if they are on another scale, name it with --scale"
         warnings += league_doubts(points, file.roster.rating, remedy)
-    if asked.starter is None:
+    if asked.starter is None and levels is None:
         warnings += starter_doubts(points, file.roster.rating)
     meet, more = _pairs(asked, file.source, players, face)
     is_offered = asked.games is not None or asked.race_to is not None
@@ -93,18 +109,15 @@ def _chart(name: str) -> tuple[AnyChart, list[str]]:
 
 def _scale_of_list(
     file: files.RosterFile, stated: Scale | None, of_league: AnyChart | None
-) -> tuple[Scale, handicaps.LevelScale | None]:
-    """Return the scale of the ratings, and what skill levels are worth if the chart says it."""
+) -> Scale:
+    """Return the scale of the ratings."""
     if stated is not None:
         refuse_other_scale(
             file, stated, "--scale", "leave --scale out, or correct the file", stated=True
         )
-        return stated, None
+        return stated
     if file.scale is not None:
-        return file.scale, None
-    if isinstance(of_league, handicaps.LevelChart):
-        levels = handicaps.level_scale(of_league)
-        return levels.scale, levels
+        return file.scale
     refuse_levels(
         file,
         "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
@@ -112,9 +125,9 @@ def _scale_of_list(
     )
     made_for = _scale_of_chart(of_league)
     if of_league is None or made_for is None:
-        return file.scale_by(None, SAY_WHICH), None
+        return file.scale_by(None, SAY_WHICH)
     refuse_to_read(file, made_for, f"the chart {of_league.name}", SAY_WHICH)
-    return made_for, None
+    return made_for
 
 
 def _scale_of_chart(chart: AnyChart | None) -> Scale | None:

@@ -25,7 +25,7 @@ from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.ratings.roster import Roster
 from evenbreak.words import say
 
-ENTRANTS = ROSTER.but(rating={"needed": False}) | WRITTEN
+ENTRANTS = ROSTER | WRITTEN
 """A list of entrants: a roster of which all but the names may be missing."""
 
 APART = 0.5
@@ -53,7 +53,7 @@ def read_entrants(path: str | Path) -> RosterFile:
     """
     if str(path) == "-":
         raise DataError([say("the entrants cannot come from standard input; name a file")])
-    return roster_of(ENTRANTS.of(read_players(path, ENTRANTS)))
+    return roster_of(ENTRANTS.of(read_players(path, ENTRANTS)), rated=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +147,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         component=column("component"),
         matches=column("matches"),
         provisional=column("provisional"),
+        level=column("level"),
     )
     differ = on_list & (np.abs(stated.rating - roster.rating) > APART)
     warnings = [

@@ -10,6 +10,7 @@ import numpy as np
 
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
+from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.names import Name, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import quoted, warning
 from evenbreak.files.tables.schema import Number, Parsed, Schema, Text, Whole, YesNo
@@ -41,16 +42,22 @@ ROSTER = Schema(
     "players",
     player=Name("name, player name, full name", "each name once", needed=True),
     rating=Number(
-        "points, skill level, level, handicap, fargo rating, elo",
-        "the title may name the scale (`Fargo rating`, `Elo`). Ratings under `skill level` or "
-        "`level` are skill levels: they need a chart by skill level, or `--scale` with the levels "
-        "that double the odds",
-        needed=True,
+        "points, handicap, fargo rating, elo",
+        "the title may name the scale (`Fargo rating`, `Elo`); not needed where there are levels",
         least=-LARGEST,
         most=LARGEST,
         grouped=True,
         write=say("points such as 85"),
         empty=say("for a new player"),
+    ),
+    level=Number(
+        "skill level, sl",
+        "the skill level, which a chart by skill level reads and a cap counts. Without ratings, "
+        "levels take their place: they need a chart by skill level, or `--scale` with the levels "
+        "that double the odds",
+        least=0,
+        most=1000,
+        write=say("a skill level"),
     ),
     standard_error=_ERROR.called(
         "se, sd, error, plus or minus, uncertainty",
@@ -194,7 +201,7 @@ class RatedList(Protocol):
 
     @property
     def levels(self) -> bool:
-        """Whether the title of the ratings says that they are skill levels."""
+        """Whether the ratings are skill levels."""
 
 
 @array_values
@@ -219,7 +226,7 @@ class RosterFile:
     scale
         the scale of the ratings; None if the file does not state it.
     levels
-        whether the title of the ratings says that they are skill levels.
+        whether the ratings are skill levels, by their title or because there are no others.
     form
         how much the log-odds of a game vary from match to match, 0 where the file does not say it.
     """
@@ -292,13 +299,15 @@ def read_roster(path: str | Path) -> RosterFile:
     return roster_of((ROSTER | WRITTEN | _SKIPPED).read(path))
 
 
-def roster_of(table: TextTable) -> RosterFile:
+def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
     """Return the roster in a table, or raise all the problems found in it.
 
     Parameters
     ----------
     table
         with the columns of `ROSTER`, its cells read.
+    rated
+        whether it must have a column of ratings or of levels.
 
     Raises
     ------
@@ -307,16 +316,20 @@ def roster_of(table: TextTable) -> RosterFile:
     """
     names = table["player"].tolist()
     _refuse_twice(table, names)
-    rating, quasi = table["rating"], table["quasi_error"]
+    own = "rating" if "rating" in table or "level" not in table else "level"
+    if rated and own not in table:
+        table.problems.add(None, missing_column("rating", [*ROSTER["rating"].aliases, "level"]))
+    rating, quasi = table[own], table["quasi_error"]
     error = np.where(np.isnan(quasi), table["standard_error"], quasi)
     # A rating can rest on matches of which only the winner is known.
     races = np.maximum(table["races_won"], 0) + np.maximum(table["races_lost"], 0)
     games = np.where(table["games"] == NOT_STATED, NOT_STATED, table["games"] + races)
-    ratings = table.read["rating"]
-    if "rating" in table:
+    ratings = table.read[own]
+    if own in table:
         table.note(
             ~ratings.stated & ratings.good & (games > 0),
-            "rating is empty after {games} games; fill it in, or write 0 games",
+            "{column} is empty after {games} games; fill it in, or write 0 games",
+            column=own,
             games=games,
         )
     scale, form = _scale(table), _form(table)
@@ -329,6 +342,7 @@ def roster_of(table: TextTable) -> RosterFile:
         component=table["component"],
         matches=table["matches"],
         provisional=table["provisional"] if "provisional" in table.found else None,
+        level=table["level"],
     )
     similar = similar_name_warnings(
         similar_names(names), table.source, say("if so, keep one of them")
@@ -336,7 +350,7 @@ def roster_of(table: TextTable) -> RosterFile:
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     hidden = hidden_letter_warnings(table, ["player"])
     warnings = (*table.warnings, *hidden, *similar)
-    levels = "level" in _title(table)
+    levels = own == "level"
     return RosterFile(
         roster, table.lines, table.source, warnings, table.sha256, by_quasi, scale, levels, form
     )

@@ -29,16 +29,12 @@ from evenbreak.league.players import ESTABLISHED, LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.words import say, say_count
+from evenbreak.words import listed, say, say_count
 
 SEASON = (
-    ROSTER.but(
-        rating={"filled": True, "least": -FARTHEST, "most": FARTHEST},
-    )
-    | WRITTEN
-    | OF_SEASON
+    ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | OF_SEASON
 )
-"""The roster of a season, in which every player has a rating."""
+"""The roster of a season."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,8 +76,9 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
 
     It has the columns of a roster and those of `OF_SEASON`. A skill that is not stated is drawn for
     each replica from a normal distribution around the rating with the standard error; if that is
-    not stated either, the skill is the rating. Ratings are rounded to whole points, halves
-    upwards.
+    not stated either, the skill is the rating. A player without a rating is a newcomer: they get
+    the median of the others' ratings, and a skill drawn from around it as far as those are apart.
+    Ratings are rounded to whole points, halves upwards.
 
     Parameters
     ----------
@@ -93,8 +90,8 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
     Raises
     ------
     DataError
-        with every problem of the file: those that `read_roster` finds, players without a rating,
-        cells out of range, a player who leaves before joining.
+        with every problem of the file: those that `read_roster` finds, no rating at all, cells out
+        of range, a player who leaves before joining.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -115,7 +112,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
     if len(table) == 1:
         table.problems.add(None, "has 1 player; a league needs two or more")
     file = roster_of(table)
-    roster = file.roster
+    roster, newcomers = _with_newcomers(file)
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
     whole = np.floor(roster.rating + 0.5)
     try:
@@ -134,7 +131,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
         )
     except InputError as error:
         raise refusal(table.source, error.sentence) from None
-    warnings = [*file.warnings]
+    warnings = [*file.warnings, *newcomers]
     rounded = int((whole != roster.rating).sum())
     if rounded:
         note = say_count(
@@ -153,6 +150,32 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
         scale=file.scale,
         levels=file.levels,
     )
+
+
+def _with_newcomers(file: RosterFile) -> tuple[Roster, list[str]]:
+    """Return a roster in which newcomers have a rating, and warnings that name them."""
+    roster = file.roster
+    new, stated = np.isnan(roster.rating), roster.rating[~np.isnan(roster.rating)]
+    if not new.any():
+        return roster, []
+    if not len(stated):
+        raise refusal(file.source, "has no rating at all; fill in those that are known")
+    middle, spread = float(np.median(stated)), float(stated.std())
+    error = np.where(new & np.isnan(roster.standard_error), spread, roster.standard_error)
+    started = replace(
+        roster,
+        rating=np.where(new, middle, roster.rating),
+        standard_error=error,
+        matches=np.where(new & (roster.matches == NOT_STATED), 0, roster.matches),
+    )
+    text = say_count(
+        "{names} has no rating and starts as a newcomer at the median, {middle:g}",
+        "{names} have no rating and start as newcomers at the median, {middle:g}",
+        int(new.sum()),
+        names=listed([quoted(roster.players[place]) for place in np.flatnonzero(new).tolist()]),
+        middle=middle,
+    )
+    return started, [warning(file.source, None, text)]
 
 
 def league_of_entrants(

@@ -21,27 +21,12 @@ from evenbreak.files.tables.similar_names import similar_name_warnings, similar_
 from evenbreak.files.tables.table import TextTable
 from evenbreak.words import say
 
-_LEVELS = "skill level, handicap, sl"
-_RATING = ", ".join(
-    name for name in ROSTER["rating"].aliases if name not in {*_LEVELS.split(", "), "level"}
-)
-
-OF_TEAM = Schema(
-    level=Number(
-        _LEVELS,
-        "what a cap counts; where there is no rating, it is the rating too, and `--scale` must "
-        "say how many levels double the odds",
-        least=0,
-        most=1000,
-        write=say("a skill level"),
-    )
-)
 TEAM = (
     ROSTER.but(
         player={"also": f"{ROSTER['player'].also}, team player"},
-        rating={"also": _RATING, "needed": False},
+        rating={"also": ", ".join(a for a in ROSTER["rating"].aliases if a != "handicap")},
+        level={"also": f"{ROSTER['level'].also}, handicap"},
     )
-    | OF_TEAM
     | WRITTEN
     | Schema(team=Text(), division=Text())
 )
@@ -188,15 +173,8 @@ def read_squads(path: str | Path) -> dict[str, TeamList]:
 
 
 def _team_of(table: TextTable) -> TeamList:
-    if "rating" not in table and "level" in table:
-        table = replace(
-            table,
-            columns={**table.columns, "rating": table.columns["level"]},
-            found=table.found | {"rating"},
-            titles={**table.titles, "rating": table.titles["level"]},
-        )
-    table = TEAM.of(table)
-    return TeamList(roster_of(table), table["level"])
+    file = roster_of(TEAM.of(table), rated=False)
+    return TeamList(file, file.roster.level)
 
 
 @array_values

@@ -106,6 +106,11 @@ class LevelSkills:
         """The skill levels of the chart."""
         return tuple(self.chart.levels)
 
+    @property
+    def is_known(self) -> bool:
+        """Whether anything says how far off the gaps may be."""
+        return self.source != "chart"
+
     def difference(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
         """Return by how many points level 1 is stronger, elementwise."""
         return self.gaps[self.places(level_1), self.places(level_2)]
@@ -127,10 +132,10 @@ class LevelSkills:
         return FARGO.win_probability(self.difference(level_1, level_2))
 
     def strength(self, levels: ArrayLike) -> Floats:
-        """Return the points of players of these levels; NaN where there is no level."""
+        """Return the points of players of these levels; NaN for what is no level of the chart."""
         array = np.asarray(levels, dtype=np.float64)
-        points, stated = np.full(array.shape, np.nan), ~np.isnan(array)
-        points[stated] = self.points[self.places(array[stated])]
+        points, known = np.full(array.shape, np.nan), np.isin(array, self.levels)
+        points[known] = self.points[self.places(array[known])]
         return points
 
     def places(self, levels: ArrayLike) -> Ints:

@@ -1,0 +1,88 @@
+"""Which players a chart by skill level can pair, and what their chances come from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.results_file import read_results
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
+from evenbreak.words import FilePath, Parameter, say
+
+
+def by_level(
+    file: RosterFile, chart: LevelChart | PointsChart, results: str | None = None
+) -> tuple[RosterFile, LevelSkills | None]:
+    """Return a list with the levels that a chart reads, and what chances come from.
+
+    Ratings in a list without a scale that are all levels of the chart are levels.
+
+    Parameters
+    ----------
+    file
+        the list.
+    chart
+        the chart.
+    results
+        the file of the league's own results, if there is one.
+
+    Returns
+    -------
+    tuple
+        the list; and how strong the levels are, None where the list has ratings, from which the
+        chances then come, or where the chart is one of points.
+
+    Raises
+    ------
+    InputError
+        if the list states no levels.
+    """
+    roster = file.roster
+    if np.isnan(roster.level).all():
+        stated = roster.rating[~np.isnan(roster.rating)]
+        if file.scale is not None or not np.isin(stated, chart.levels).all():
+            raise InputError(
+                "the chart {chart} needs skill levels, and {list} has ratings alone; add a column "
+                "{level} with {levels}, or give a chart of rating differences",
+                chart=chart.name,
+                list=FilePath(file.source),
+                level="level",
+                levels=", ".join(map(str, chart.levels)),
+            )
+        file = replace(file, roster=replace(roster, level=roster.rating), levels=True)
+    if not file.levels or isinstance(chart, PointsChart):
+        if results is not None:
+            raise InputError(
+                "{results} is for chances by skill levels, and those of {list} come from ratings; "
+                "leave it out",
+                results=Parameter("results"),
+                list=FilePath(file.source),
+            )
+        return file, None
+    return file, skills_of(chart, results)
+
+
+def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
+    """Return how strong the levels of a chart are, by the league's own results if they say it."""
+    played: Any = None if results is None else read_results(results).results
+    return level_skills(chart, played)
+
+
+def with_level(file: RosterFile, starter: float | None) -> RosterFile:
+    """Return a list in which players without a level have that of a new player, if it is given."""
+    if starter is None:
+        return file
+    roster = file.roster
+    level = np.where(np.isnan(roster.level), starter, roster.level)
+    return replace(file, roster=replace(roster, level=level))
+
+
+SCALE_OF_LEVELS = say(
+    "{scale} is for ratings, and here the chances come from skill levels; leave it out",
+    scale=Parameter("scale"),
+)
