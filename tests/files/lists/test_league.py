@@ -87,7 +87,9 @@ Flo,80,,,,-2,x,,
 
 
 def test_a_player_without_a_rating_is_a_newcomer_at_the_median(tmp_path: Path) -> None:
-    file = read_league(club(tmp_path, "player,rating,level\nAnn,90,6\nBo,70,4\nCy,84,\nDi,,5\n"))
+    file = read_season_players(
+        club(tmp_path, "player,rating,level\nAnn,90,6\nBo,70,4\nCy,84,\nDi,,5\n")
+    )
     assert file.players.rating.tolist() == [90, 70, 84, 84]
     assert file.players.skill_sd[3] == pytest.approx(np.std([90, 70, 84]))
     assert file.players.played[3] == 0

@@ -31,9 +31,7 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.words import listed, say, say_count
 
-SEASON = (
-    ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | OF_SEASON
-)
+SEASON = ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | OF_SEASON
 """The roster of a season."""
 
 
