@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 
 from evenbreak.files import arcs, chain_files, charts, practice
@@ -15,7 +16,8 @@ from evenbreak.files.results import columns, results_file
 from evenbreak.files.tables.dates import Day
 from evenbreak.files.tables.names import Name
 from evenbreak.files.tables.schema import Column, Parsed, Schema, Text, Whole
-from evenbreak.ratings.results_frame import LARGEST_WHOLE
+from evenbreak.files.tables.titles import BYES, LANGUAGES, NOT_YET, PLAYED, SIDED, SIDES, WHOLE
+from evenbreak.ratings.results_frame import FORFEITS, LARGEST_WHOLE
 
 PAGE = Path(__file__).parent / "reference" / "files.md"
 TABLE = re.compile(r"(<!-- columns: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of columns -->)", re.DOTALL)
@@ -85,9 +87,40 @@ def _cells(column: Column) -> str:
     return re.sub(r"-(?=\d)", "−", column.wanted)
 
 
+WORDS = {"a forfeit": FORFEITS, "a bye": BYES, "not played yet": NOT_YET, "played": PLAYED}
+
+
+def titles_by_language() -> str:
+    """Return the table of titles by language, and that of the words for matches not played."""
+    languages = [lang for lang in LANGUAGES if lang != "en"]
+    lines = [
+        f"| column | {' | '.join(LANGUAGES[lang] for lang in languages)} |",
+        "|---" * (len(languages) + 1) + "|",
+    ]
+    sides = [{lang: both[k] for lang, both in SIDES.items()} for k in range(2)]
+    titles = {
+        **dict(zip(("the first side", "the other side"), sides, strict=True)),
+        **{f"`{what}` of a side": words for what, words in SIDED.items()},
+        **{f"`{name}`": words for name, words in WHOLE.items()},
+    }
+    for column, words in titles.items():
+        lines.append(f"| {column} | {' | '.join(words.get(lang, '') for lang in languages)} |")
+    lines += ["", "| a cell that says | words |", "|---|---|"]
+    for meaning, words in WORDS.items():
+        every = dict.fromkeys(", ".join(words.values()).split(", "))
+        lines.append(f"| {meaning} | {', '.join(every)} |")
+    return "\n".join([*lines, ""])
+
+
+TABLES = {
+    **{name: partial(table_of, schema) for name, schema in SCHEMAS.items()},
+    "titles": titles_by_language,
+}
+
+
 def with_tables(text: str) -> str:
     """Return the page with its tables as they are now."""
-    return TABLE.sub(lambda mark: mark[1] + table_of(SCHEMAS[mark[2]]) + mark[3], text)
+    return TABLE.sub(lambda mark: mark[1] + TABLES[mark[2]]() + mark[3], text)
 
 
 if __name__ == "__main__":

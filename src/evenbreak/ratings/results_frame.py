@@ -258,15 +258,6 @@ FORMAT_WORDS = {
 }
 """The code of each word for a break format."""
 
-FORFEIT_WORDS = {
-    **dict.fromkeys(("yes", "y", "true", "t", "1", "x", "forfeit", "walkover", "wo"), True),
-    **dict.fromkeys(("no", "n", "false", "f", "0"), False),
-}
-"""Whether each word says that a match was forfeited."""
-
-LARGEST_WHOLE = 1_000_000
-"""The largest whole number that is accepted, such as the games of a player in a match."""
-
 
 def letters(text: str) -> str:
     """Return the letters and digits of a text, in one case.
@@ -275,3 +266,24 @@ def letters(text: str) -> str:
     ('wo', 'playera')
     """
     return "".join(letter for letter in text.casefold() if letter.isalnum())
+
+
+FORFEITS = {
+    "en": "forfeit, forfeited, ff, f, fft, walkover, w/o, no show, nsp, dq, default",
+    "de": "kampflos, nicht angetreten",
+    "fr": "forfait",
+    "es": "incomparecencia, no presentado",
+    "nl": "niet opgekomen, reglementair",
+    "pl": "walkower",
+}
+"""What stands in place of a score, or in a column of its own, by language, for a forfeit."""
+
+FORFEIT_WORDS = {
+    **{letters(word): True for words in FORFEITS.values() for word in words.split(", ")},
+    **dict.fromkeys(("yes", "y", "true", "t", "1", "x"), True),
+    **dict.fromkeys(("no", "n", "false", "f", "0"), False),
+}
+"""Whether each word says that a match was forfeited; next to t, f is false."""
+
+LARGEST_WHOLE = 1_000_000
+"""The largest whole number that is accepted, such as the games of a player in a match."""

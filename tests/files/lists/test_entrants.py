@@ -74,7 +74,7 @@ def test_a_workbook_of_entrants(tmp_path):
     [
         ("Ann Lee\nann  lee\n", 2),
         ("Ann Lee,92,7\n", 1),
-        ("Spieler,Wertung\nAnn,92\n", 1),
+        ("Wer,Wieviel\nAnn,92\n", 1),
         ("Ann 92\nBo,x\nCy 61\nDi,3", 2),
         ("player,rating\nAnn,high\n", 2),
     ],

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.files.results.statuses import LeftOut
 from evenbreak.files.tables.problems import Problems, first_ones, warning
 from evenbreak.files.tables.table import TextTable
 from evenbreak.ratings.doubtful_scores import doubtful_scores, usual_score
@@ -57,10 +58,10 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
 
 def without_bad_rows(
     table: TextTable, read: Callable[[TextTable], Results]
-) -> tuple[TextTable, list[str], int]:
+) -> tuple[TextTable, list[str], tuple[LeftOut, ...]]:
     """Return a table without rows that cannot be read or hold no games, and what was left out.
 
-    What was left out is listed and counted, with the rows that were not cut into cells.
+    What was left out is listed as warnings and row by row, with those that were not cut into cells.
 
     Parameters
     ----------
@@ -87,8 +88,10 @@ def without_bad_rows(
     trial.problems.raise_any()
     doubtful = doubtful_scores(results)
     left += _score_doubts(results, kept.lines, table.source)
-    left_out = {*unread, *kept.lines[doubtful].tolist()}
-    return kept.without(left_out), _counted(left, len(left_out), table.source), len(left_out)
+    why = dict(reversed(table.problems.by_line))
+    why |= dict.fromkeys(kept.lines[doubtful].tolist(), say("scores that can hardly be games"))
+    rows = tuple(LeftOut(line, why[line]) for line in sorted(why))
+    return kept.without(why), _counted(left, len(rows), table.source), rows
 
 
 def _counted(problems: Sequence[str], rows: int, source: str) -> list[str]:

@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.results.columns import LAYOUTS, NAMES, RESULTS, WALKOVERS
+from evenbreak.files.results.columns import LAYOUTS, NAMES, RESULTS
 from evenbreak.files.tables.dates import DateOrder, read_date
 from evenbreak.files.tables.names import PlayerNames, clean_name
 from evenbreak.files.tables.problems import quoted, quoted_list, warning
 from evenbreak.files.tables.table import Texts, TextTable, Values
+from evenbreak.files.tables.titles import BYE, FORFEIT, key_of
 from evenbreak.matches.formats import BETWEEN
 from evenbreak.ratings.results import Results, find_problems
-from evenbreak.ratings.results_frame import letters
 from evenbreak.words import Sentence, joined, say
 
 _SCORE_CELL = re.compile(rf"(\d{{1,7}})\s*{BETWEEN}\s*(\d{{1,7}})", re.ASCII)
@@ -42,6 +42,8 @@ _OF_WINNER = {
     "loser_level": "level_b",
 }
 
+_STATUS = frozenset({"status", "remark"})
+
 Pair = tuple[str, str]
 
 
@@ -53,7 +55,7 @@ def one_layout(table: TextTable) -> TextTable:
     """
     by_winner = {"winner", "loser"} <= table.found and not {"player_a", "player_b"} <= table.found
     columns = dict(table.columns)
-    read = {name for name in table.found if name not in LAYOUTS.columns}
+    read = {name for name in table.found if name not in LAYOUTS.columns} | _STATUS & table.found
     if by_winner:
         for name, side in _OF_WINNER.items():
             if name in table and (name in ("winner", "loser") or side not in table):
@@ -63,14 +65,6 @@ def one_layout(table: TextTable) -> TextTable:
         if name in table and read.isdisjoint(sides):
             columns.update(zip(sides, _split(_pairs(table, name, meaning)), strict=True))
             read |= {name, *sides}
-    if "score" in read:
-        walkovers = [letters(text) in WALKOVERS for text in table.cells("score")]
-        if any(walkovers):
-            marked = zip(walkovers, table.cells("forfeit"), strict=True)
-            columns["forfeit"] = Texts.of(
-                ["yes" if walkover else text for walkover, text in marked]
-            )
-            read.add("forfeit")
     made = replace(
         table,
         columns=columns,
@@ -119,7 +113,7 @@ def _score(text: str) -> Pair | str:
     (('7', '5'), ('7', '5'), ('', ''), 'is not a score; write 7-5')
     """
     text = text.removeprefix("'").strip()
-    if not text or letters(text) in WALKOVERS:
+    if not text or key_of(text) in FORFEIT | BYE:
         return "", ""
     if _is_date(text):
         return say(

@@ -15,13 +15,15 @@ import numpy as np
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.foreign.results import export_of
-from evenbreak.files.results.columns import NAMES, RESULTS_FILE, columns_hint
+from evenbreak.files.results.columns import NAMES, RESULTS_FILE
 from evenbreak.files.results.doubts import (
     date_warnings,
     doubtful_score_warnings,
     without_bad_rows,
 )
 from evenbreak.files.results.matches import one_layout, results_columns, results_rows
+from evenbreak.files.results.proposals import columns_hint
+from evenbreak.files.results.statuses import LeftOut, played_matches
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.names import Name, PlayerNames, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import first_ones, quoted, warning
@@ -63,6 +65,8 @@ class ResultsFile:
         a warning if matches have neither a winner nor a race; a chart may still say who won.
     skipped
         how many rows were left out because of `skip_bad`.
+    left_out
+        these rows, and those of byes and matches not played, each with why.
     read
         the name and the fingerprint of each file that was read, where there are several.
     """
@@ -77,6 +81,7 @@ class ResultsFile:
     )
     ties: tuple[str, ...] = ()
     skipped: int = 0
+    left_out: tuple[LeftOut, ...] = ()
     read: tuple[tuple[str, str], ...] = ()
 
 
@@ -126,20 +131,22 @@ def read_results(
     (('Ann', 'Bo'), array([7]))
     """
     by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
-    table = one_layout(
+    table, left_out = played_matches(
         RESULTS_FILE.text(
             path, called=_checked(columns or {}), hint=columns_hint, exported=export_of
-        )
+        ),
+        (*NAMES, "winner", "loser"),
     )
+    table = one_layout(table)
 
     def read(rows: TextTable) -> tuple[PlayerNames, Results]:
         names = PlayerNames(rows, NAMES, by_alias.means)
         return names, results_rows(rows, names, results_columns(rows, names, dates))
 
     skipped: list[str] = []
-    left_out = 0
+    bad: tuple[LeftOut, ...] = ()
     if skip_bad:
-        table, skipped, left_out = without_bad_rows(table, lambda rows: read(rows)[1])
+        table, skipped, bad = without_bad_rows(table, lambda rows: read(rows)[1])
     names, results = read(table)
     table.problems.raise_any()
     groups = tuple(similar_names(results.players, met_pairs(results)))
@@ -163,7 +170,8 @@ def read_results(
         table.sha256,
         table.lines,
         _tied(results, table),
-        skipped=left_out,
+        skipped=len(bad),
+        left_out=(*left_out, *bad),
     )
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
+from itertools import zip_longest
 from typing import NamedTuple
 
 from evenbreak.files.tables.problems import Problems, quoted, quoted_list
+from evenbreak.files.tables.titles import key_of, keys_of
 from evenbreak.words import Parameter, Sentence, listed, say, say_count
 
 MOST_ABOVE = 30
@@ -15,7 +17,9 @@ MOST_ABOVE = 30
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
 """What stands in a row of values, but hardly in a header."""
 
-Hint = Callable[[Collection[str], Sequence[str], Sequence[Sequence[str]]], str]
+Hint = Callable[[Mapping[str, int], Sequence[str], Sequence[Sequence[str]]], str]
+"""Says what to do about missing columns: given the places of those that are known, all titles, and
+some rows below the header."""
 
 
 class Fit(NamedTuple):
@@ -31,12 +35,20 @@ class Fit(NamedTuple):
         how many titles it has, blank ones aside.
     above
         how many rows stand above it, as a negative number: the first of equals is taken.
+    rows
+        how many rows it takes: 2 where a row of Home and Away stands above Player and Score.
     """
 
     complete: bool
     known: int
     titles: int
     above: int
+    rows: int = 1
+
+    @property
+    def below(self) -> int:
+        """Where the rows below the header start."""
+        return self.rows - self.above
 
 
 class Header:
@@ -45,14 +57,15 @@ class Header:
     Parameters
     ----------
     required, optional
-        for each column its other names.
+        for each column its other names, besides those by language.
     instead
         for a required column the sets of columns that can take its place.
     called
         for some columns the title that they have in this file, whatever other titles mean.
     hint
-        what to do about missing columns, given those that are known, the other titles and some
-        rows below the header.
+        what to do about missing columns.
+    maybe
+        whether titles in `called` that the file lacks are left aside.
     """
 
     def __init__(
@@ -62,22 +75,34 @@ class Header:
         instead: Mapping[str, Sequence[Collection[str]]],
         called: Mapping[str, str] | None = None,
         hint: Hint | None = None,
+        *,
+        maybe: bool = False,
     ) -> None:
         self.required = required
         self.columns = (*required, *optional)
         self._instead = instead
         self._called = called or {}
+        self._maybe = maybe
         self._hint = hint
-        self._column = {
-            _key(alias): name
-            for name, others in {**required, **optional}.items()
-            for alias in (*others, name)
-        }
+        self._means: dict[str, tuple[str, ...]] = {}
+        every = {**required, **optional}
+        own = {key_of(title): name for name, others in every.items() for title in (*others, name)}
+        for name in every:
+            for key in dict.fromkeys((*(k for k in own if own[k] == name), *keys_of(name))):
+                # A name of a column comes before what another may be called in some language.
+                if own.get(key, name) == name or key in keys_of(own[key]):
+                    self._means[key] = (*self._means.get(key, ()), name)
 
     def best(self, rows: Sequence[Sequence[str]]) -> Fit:
-        """Return how well the row fits that is most likely the header, and where it stands."""
+        """Return how well the header fits that is most likely, and where it stands."""
         fits = [self._fit(titles, -above) for above, titles in enumerate(rows[:MOST_ABOVE])]
         complete = [fit for fit in fits if fit.complete]
+        if not complete:
+            complete = [
+                fit
+                for above in range(min(len(rows) - 1, MOST_ABOVE))
+                if (fit := self._fit(_joined(*rows[above : above + 2]), -above, 2)).complete
+            ]
         if complete:  # a table below another one is not what is read
             return next((fit for fit in complete if fit.known > 1), complete[0])
         nothing = Fit(complete=False, known=0, titles=0, above=0)
@@ -87,20 +112,38 @@ class Header:
         # A single known word is as likely a cell: the header is then the first row of full width.
         return max(fits, key=lambda fit: (fit.titles, fit.above), default=nothing)
 
-    def _fit(self, titles: Sequence[str], above: int) -> Fit:
-        names = {name for name in map(self._name, titles) if name is not None}
+    def titles(self, rows: Sequence[Sequence[str]], fit: Fit) -> Sequence[str]:
+        """Return the titles of the header that fits so."""
+        return rows[-fit.above] if fit.rows == 1 else _joined(*rows[-fit.above : fit.below])
+
+    def _fit(self, titles: Sequence[str], above: int, rows: int = 1) -> Fit:
+        names = {name for name in self._named(titles) if name}
         complete = bool(names) and not self._missing(names)
         values = any(_NUMBER.fullmatch(title.strip()) for title in titles)
         many = 0 if values and not complete else len(names)
-        return Fit(complete, many, sum(bool(title.strip()) for title in titles), above)
+        return Fit(complete, many, sum(bool(title.strip()) for title in titles), above, rows)
 
-    def _name(self, title: str) -> str | None:
-        """Return the column that a title means."""
-        for name, called in self._called.items():
-            if _key(title) == _key(called) and title.strip():
-                return name
-        column = self._column.get(_key(title))
-        return None if column in self._called else column
+    def _named(self, titles: Sequence[str]) -> list[str]:
+        """Return the column that each title means, '' where none; two may mean the same.
+
+        A title that may mean several columns means the first that no other title means: Home is
+        the player, unless there is a Home player, too.
+        """
+        called = {key_of(title): name for name, title in self._called.items()}
+        means = []
+        for title in titles:
+            key = key_of(title)
+            own = called.get(key, "") if title.strip() else ""
+            others = [name for name in self._means.get(key, ()) if name not in self._called]
+            means.append((own,) if own else tuple(others))
+        taken = {names[0] for names in means if len(names) == 1}
+        found = []
+        for names in means:
+            if len(names) > 1:
+                names = (next((name for name in names if name not in taken), names[0]),)
+                taken |= {*names}
+            found.append(names[0] if names else "")
+        return found
 
     def places(
         self,
@@ -115,9 +158,8 @@ class Header:
         """
         places: dict[str, int] = {}
         unused = []
-        for place, title in enumerate(titles):
-            name = self._name(title)
-            if name is None:
+        for place, (title, name) in enumerate(zip(titles, self._named(titles), strict=True)):
+            if not name:
                 unused += [title] if title.strip() else []
             elif name in places:
                 problems.add(
@@ -139,7 +181,7 @@ class Header:
             return places, unused
         among = quoted_list(titles)
         for name, called in self._called.items():
-            if name not in places:
+            if name not in places and not self._maybe:
                 problems.add(
                     line,
                     "there is no column {title} among {titles}; correct {columns}",
@@ -147,11 +189,11 @@ class Header:
                     titles=among,
                     columns=Parameter("columns"),
                 )
-        missing = self._missing({*places, *self._called})
-        if missing and self._hint is not None:
-            rows = [[row[k] for k in range(len(row)) if k not in places.values()] for row in sample]
-            others = [title for k, title in enumerate(titles) if k not in places.values()]
-            remedy = self._hint(places.keys(), others, rows)
+        missing = self._missing({*places, *(() if self._maybe else self._called)})
+        if len(missing) == 1 and self._hint is None:
+            problems.add(line, missing_column(missing[0], self.required[missing[0]], among))
+        elif missing:
+            remedy = say("add them") if self._hint is None else self._hint(places, titles, sample)
             problem = say_count(
                 "there is no column {missing} among {titles}; {remedy}",
                 "there are no columns {missing} among {titles}; {remedy}",
@@ -161,9 +203,6 @@ class Header:
                 remedy=remedy,
             )
             problems.add(line, problem)
-            return places, unused
-        for name in missing:
-            problems.add(line, missing_column(name, self.required[name], among))
         return places, unused
 
     def _missing(self, found: Collection[str]) -> list[str]:
@@ -174,6 +213,19 @@ class Header:
 
     def _replaced(self, name: str, found: Collection[str]) -> bool:
         return any(set(found) >= set(group) for group in self._instead.get(name, ()))
+
+
+def _joined(upper: Sequence[str], lower: Sequence[str]) -> list[str]:
+    """Return the titles of a header of two rows, of which the upper one has merged cells.
+
+    >>> _joined(["Date", "Home", "", "Away", ""], ["", "Player", "Score", "Player", "Score"])
+    ['Date', 'Home Player', 'Home Score', 'Away Player', 'Away Score']
+    """
+    titles, over = [], ""
+    for above, below in zip_longest(map(str.strip, upper), map(str.strip, lower), fillvalue=""):
+        over = above or (over if below else "")
+        titles.append(f"{over} {below}".strip())
+    return titles
 
 
 def missing_column(name: str, aliases: Sequence[str], titles: str = "") -> Sentence:
@@ -189,8 +241,3 @@ def missing_column(name: str, aliases: Sequence[str], titles: str = "") -> Sente
         return say("{lacks}; add it", lacks=lacks)
     also = listed(list(map(quoted, aliases[:3])), "or")
     return say("{lacks}; add it (it may also be called {also})", lacks=lacks, also=also)
-
-
-def _key(name: str) -> str:
-    """Return what a column's name is compared by: letters and digits, in one case."""
-    return "".join(letter for letter in name.casefold() if letter.isalnum())

@@ -165,6 +165,11 @@ class Problems:
         """The lines that have problems; 0 stands for the whole file."""
         return {line for line, _ in self._found}
 
+    @property
+    def by_line(self) -> Sequence[tuple[int, str]]:
+        """The problems in the order in which they were found, each with its line."""
+        return tuple(self._found)
+
     def outside(self, lines: Collection[int]) -> Problems:
         """Return the problems that are not in some lines."""
         rest = Problems(self.source)

@@ -22,7 +22,7 @@ from typing import BinaryIO, NamedTuple, TypeAlias
 
 from evenbreak.errors import DataError
 from evenbreak.files.tables import workbook
-from evenbreak.files.tables.header import Header
+from evenbreak.files.tables.header import Fit, Header
 from evenbreak.files.tables.problems import printable, quoted, quoted_list, refusal, warning
 from evenbreak.words import say_count
 
@@ -420,14 +420,14 @@ def _of_text(content: Content, source: str, header: Header) -> TableRows:
     lines, rows = next(parts)
     if not rows:
         return TableRows([], 0, parts, unreadable, warnings, [])
-    at = -fits[separator].above
+    fit = fits[separator]
+    line, below = lines[fit.below - 1], fit.below
     # What cannot be split is no problem above the header.
-    unreadable[:] = [line for line in unreadable if line > lines[at]]
-    below = chain([(lines[at + 1 :], rows[at + 1 :])], parts)
-    warnings += _skipped(lines[: at + 1], rows[:at], source)
-    return TableRows(
-        rows[at], lines[at], below, unreadable, warnings, rows[at + 1 : at + 1 + SAMPLE]
-    )
+    unreadable[:] = [one for one in unreadable if one > line]
+    body_rows = chain([(lines[below:], rows[below:])], parts)
+    warnings += _skipped(lines, rows, fit, source)
+    titles, sample = [*header.titles(rows, fit)], rows[below : below + SAMPLE]
+    return TableRows(titles, line, body_rows, unreadable, warnings, sample)
 
 
 def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
@@ -452,15 +452,17 @@ def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
 
 
 def _of_sheet(sheet: Sheet, source: str, header: Header) -> TableRows:
-    at = -header.best(sheet.rows).above
+    fit = header.best(sheet.rows)
     lines, rows = sheet.lines, sheet.rows
-    below: Rows = lines[at + 1 :], rows[at + 1 :]
-    warnings = _skipped(lines[: at + 1], rows[:at], source)
-    return TableRows(rows[at], lines[at], iter([below]), [], warnings, below[1][:SAMPLE])
+    below: Rows = lines[fit.below :], rows[fit.below :]
+    warnings = _skipped(lines, rows, fit, source)
+    titles, line = [*header.titles(rows, fit)], lines[fit.below - 1]
+    return TableRows(titles, line, iter([below]), [], warnings, below[1][:SAMPLE])
 
 
-def _skipped(lines: list[int], rows: list[list[str]], source: str) -> list[str]:
-    """Return a note of the rows above the header, whose line is the last of `lines`."""
+def _skipped(lines: list[int], rows: list[list[str]], fit: Fit, source: str) -> list[str]:
+    """Return a note of the rows above the header."""
+    rows = rows[: -fit.above]
     texts = [" ".join(filter(None, map(str.strip, row))) for row in rows]
     if not any(texts):
         return []
@@ -470,4 +472,4 @@ def _skipped(lines: list[int], rows: list[list[str]], source: str) -> list[str]:
         len(rows),
         texts=quoted_list([text for text in texts if text]),
     )
-    return [warning(source, lines[-1], header)]
+    return [warning(source, lines[len(rows)], header)]
