@@ -24,6 +24,18 @@ def run() -> Run:
     return run_words
 
 
+@pytest.fixture
+def ask(run: Run) -> Callable[..., Any]:
+    """Run the words of a command line and return its JSON."""
+
+    def answer(*words: str) -> Any:
+        result = run(*words, "--json")
+        assert result.exit_code == 0, result.stderr
+        return json.loads(result.stdout)
+
+    return answer
+
+
 @pytest.fixture(scope="session")
 def ask_physics(run: Run) -> Callable[[str, str], dict[str, Any]]:
     """Return the JSON that a command of `physics` answers to a line of options."""

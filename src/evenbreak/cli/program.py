@@ -46,6 +46,7 @@ SECTIONS = {
             "league.ratings:validate", "How well the ratings predict your own results."
         ),
         "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
+        "league": Entry("league.office", "A league's office: its table and its fixtures."),
     },
     "Handicap systems": {
         "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),

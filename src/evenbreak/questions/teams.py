@@ -14,10 +14,9 @@ from evenbreak.files.league.values import (
     MOST_SETS,
     SETS,
     STRONG,
-    TABLE_POINTS,
-    TIES,
     names_in,
 )
+from evenbreak.league.tables.rules import USUAL_RULES
 from evenbreak.questions.common import (
     SCORE,
     ChartOfRaces,
@@ -29,6 +28,7 @@ from evenbreak.questions.common import (
     Starters,
     Sure,
 )
+from evenbreak.questions.tables import TablePoints, Ties
 from evenbreak.teams.evening.events import COUNTS
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import say
@@ -365,24 +365,11 @@ class Season(Question):
             more="The columns are `team` and, for deductions and bonuses, `points`.",
         ),
     ] = None
-    table_points: Annotated[
-        tuple[float, ...],
-        Field(
-            TABLE_POINTS,
-            "The points of a win, a draw and a loss, or a point for each set won.",
-            section=_TABLE,
-            old=("points",),
-        ),
-    ] = (2.0, 1.0, 0.0, 0.0)
+    table_points: Annotated[TablePoints, Says(section=_TABLE)] = USUAL_RULES
     ties: Annotated[
-        tuple[str, ...],
-        Field(
-            TIES,
-            "What separates teams with equal points, in this order: difference and scored (sets), "
-            "wins, head-to-head; then lots.",
-            section=_TABLE,
-        ),
-    ] = ("difference", "scored")
+        Ties,
+        Says(section=_TABLE),
+    ] = USUAL_RULES.ties
     sure: Annotated[
         Sure,
         Says("Take the strengths as right, instead of averaging over them.", section=_WORK),
@@ -400,7 +387,13 @@ class Season(Question):
     seed: Annotated[Seed, Says(section=_WORK)] = 1
 
     def check(self) -> None:
-        """Refuse two lists of matches to come, and two lengths of a match."""
+        """Refuse two lists of matches to come, two lengths of a match, and points by the set."""
+        if self.table_points.split:
+            self.refuse(
+                "{table_points} {split} counts the sets of players, which a season of team scores "
+                "does not know; leave it out, or give sets",
+                split=self.table_points.split,
+            )
         if self.schedule is not None and self.meetings is not None:
             self.refuse("a schedule and {meetings} cannot be combined; leave one out")
         if self.sets is not None and self.race is not None:

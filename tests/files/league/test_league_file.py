@@ -13,6 +13,7 @@ from evenbreak.files.league.league_file import (
     find_league,
     read_league,
 )
+from evenbreak.league import TableRules
 
 WHOLE = """\
 name = "Tuesday 8-Ball"
@@ -108,7 +109,7 @@ def test_every_key_is_read(folder):
     assert (league.results[0].columns["score_b"], league.results[0].dates) == ("G", "dmy")
     assert league.aliases == {"Big Al Peterson": "Al Peterson"}
     assert (league.team.cap, league.team.at_most) == (23, (2, 6))
-    assert league.standings.points == (3, 1, 0, 0)
+    assert league.standings.rules == TableRules(3, 1, 0, ties=("head-to-head", "difference"))
     assert league.standings.ties == ("head-to-head", "difference")
     assert (league.publish.color, league.publish.players) == ("#1b6e53", {"Ann Lee": "initials"})
 

@@ -45,6 +45,9 @@ def places_by_hand(rows: list[Row], rules: TableRules) -> dict[str, int]:
     def value(one: int, rule: str, among: list[int]) -> Fraction:
         mine = [row for row in rows if one in row[:2]]
         if rule == "head-to-head":
+            met = [{*row[:2]} for row in rows if {*row[:2]} <= {*among}]
+            if len({met.count({a, b}) for a in among for b in among if a != b}) != 1:
+                return Fraction(0)
             mine = [row for row in mine if {*row[:2]} <= {*among}]
             rule = "points"
         total = sum((gain(row, row[:2].index(one), rule) for row in mine), Fraction(0))
@@ -209,7 +212,7 @@ def test_the_three_points_of_apa_8ball(score, race, winner, points) -> None:
     assert rules.points_of(forfeited).tolist() == [[2.0 * (winner == 1), 2.0 * (winner == 2)]]
     finals = TableRules(split="apa_8ball", forfeit=3)
     assert finals.points_of(forfeited).max() == 3.0
-    with pytest.raises(InputError, match="has no race"):
+    with pytest.raises(InputError, match="1 of 1 matches state no race"):
         rules.points_of(Outcomes([score], [winner]))
 
 

@@ -36,13 +36,7 @@ def by_hand(asked: TeamSeason) -> np.ndarray:
         keys = [_key(asked.rules, team, rows) for team in range(4)]
         if "head-to-head" in asked.rules.ties:
             level = [[t for t in range(4) if keys[t] == keys[team]] for team in range(4)]
-            keys = [
-                (
-                    *keys[team],
-                    _points(asked.rules, team, [r for r in rows if set(r[:2]) <= {*level[team]}]),
-                )
-                for team in range(4)
-            ]
+            keys = [(*keys[team], _met(asked.rules, team, rows, level[team])) for team in range(4)]
         for team in range(4):
             ahead = sum(key > keys[team] for key in keys)
             many = keys.count(keys[team])
@@ -56,6 +50,14 @@ def _points(rules: TableRules, team: int, rows: list[list[int]]) -> float:
         gain = rules.points(a, b)
         total += gain[0] * (home == team) + gain[1] * (away == team)
     return total
+
+
+def _met(rules: TableRules, team: int, rows: list[list[int]], level: list[int]) -> float:
+    """The points of the meetings of those who are level, if all met equally often."""
+    rows = [row for row in rows if {*row[:2]} <= {*level}]
+    met = [{*row[:2]} for row in rows]
+    often = {met.count({a, b}) for a, b in itertools.combinations(level, 2)}
+    return _points(rules, team, rows) if len(often) == 1 else 0.0
 
 
 def _key(rules: TableRules, team: int, rows: list[list[int]]) -> tuple[float, ...]:

@@ -78,7 +78,17 @@ TOURNAMENT = registry(
 
 TEAMS = registry(
     text("team", "team"),
+    text("side_of_table", "{who}", name="{who}"),
+    number("table_place", "", shown.plain, "place"),
+    number("place_before", "was", name="place_before"),
     number("played", "played"),
+    number("table_won", "won", name="won"),
+    number("drawn", "drawn"),
+    number("table_lost", "lost", name="lost"),
+    number("scored_conceded", "{what}", race, ("{what}_won", "{what}_lost")),
+    number("score_difference", "+/-", "{:+d}".format, "difference"),
+    number("forfeits", "forfeits"),
+    text("decided_by", "ahead by"),
     number("points", "points", shown.plain),
     number("p_up", "first {places}", share),
     number("p_down", "last {places}", share),

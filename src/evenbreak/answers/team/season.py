@@ -11,9 +11,9 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of, percent
+from evenbreak.answers.league.standings import rules_words
 from evenbreak.arrays import Ints
 from evenbreak.teams.season.chances import SeasonChances
-from evenbreak.teams.season.season import TeamSeason
 from evenbreak.words import listed
 
 _HOME, _AWAY = 0, 2
@@ -65,7 +65,7 @@ def team_season_answer(
     matches = count_of(len(season.played), "match", "matches")
     return Answer(
         f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} to come\n"
-        f"{_rules(season)}",
+        + rules_words(season.rules, sets=True, level="teams that are level", last="lot"),
         parts,
         details=[_places(found)],
         data={
@@ -187,23 +187,6 @@ def _places(found: SeasonChances) -> Table:
         for team in np.argsort(found.mean_place, kind="stable").tolist()
     ]
     return Table("places", columns, rows, title="The chance of each place")
-
-
-def _rules(season: TeamSeason) -> str:
-    rules = season.rules
-    text = f"{rules.win:g} points for a win, {rules.draw:g} for a draw, {rules.loss:g} for a loss"
-    if rules.win == 0.0:
-        text = f"{count_of(1, 'point')} for each set" if rules.a_set == 1.0 else "points for sets"
-    elif rules.a_set:
-        text += f", {rules.a_set:g} for each set"
-    named = {
-        "difference": "sets won less lost",
-        "scored": "sets won",
-        "wins": "matches won",
-        "head-to-head": "the matches among those level",
-    }
-    ties = [named[tie] for tie in rules.ties]
-    return f"{text}; teams that are level: {', '.join([*ties, 'lot'])}"
 
 
 def _error(found: SeasonChances) -> float:

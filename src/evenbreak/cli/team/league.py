@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from evenbreak import files, handicaps, league, ratings, teams
+from evenbreak import files, handicaps, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
@@ -135,7 +136,6 @@ def season(asked: Season) -> Answer:
     rows = np.hstack([played.pairs, played.scores])
     strengths = teams.team_strengths(names, rows)
     scores = teams.scores_of(**_length(asked, played.scores))
-    win, draw, loss, a_set = asked.table_points
     watched, words = _next(*ahead)
     places = [1, *([asked.up] if asked.up else []), *([count - asked.down] if asked.down else [])]
     with Progress("seasons") as progress:
@@ -146,7 +146,7 @@ def season(asked: Season) -> Answer:
                 ahead[0],
                 scores,
                 teams.score_chances(strengths.estimate[None], ahead[0], scores),
-                rules=league.TableRules(win, draw, loss, a_set, asked.ties),
+                rules=replace(asked.table_points, ties=asked.ties),
                 head_start=start,
             ),
             places=tuple(dict.fromkeys(places)),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date, time
 from difflib import get_close_matches
 from pathlib import Path
@@ -22,6 +22,7 @@ from evenbreak.files.league import values
 from evenbreak.files.league.toml_lines import Keys, lines_of
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.rows import content_of
+from evenbreak.league.tables.rules import TableRules
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.evening.format import DISCIPLINES, LONGEST_RACE, MOST_TABLES
 from evenbreak.words import say
@@ -90,13 +91,23 @@ class StandingsRules:
     """`[standings]`: how a table of teams or players is made."""
 
     points: Annotated[
-        tuple[float, ...] | None,
-        Field(values.TABLE_POINTS, "The points of a win, a draw and a loss, or `sets`."),
+        TableRules | None,
+        Field(
+            values.TABLE_POINTS,
+            "The points of a win, a draw and a loss (and of each game or set won, and of a win to "
+            "nil), or `sets`, `apa_8ball` or `apa_9ball`.",
+        ),
     ] = None
     ties: Annotated[
         tuple[str, ...] | None,
         Field(values.TIES, "What separates those with equal points, in this order."),
     ] = None
+
+    @property
+    def rules(self) -> TableRules:
+        """The rules of the table."""
+        points = self.points or TableRules()
+        return points if self.ties is None else replace(points, ties=self.ties)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Named, Number, Text, Whole
+from evenbreak.league.tables.rules import SPLITS, TableRules
 from evenbreak.ratings.scale import scale_of
 
 if TYPE_CHECKING:
@@ -57,23 +58,44 @@ MOST_SETS = 25
 SETS = Whole(1, MOST_SETS, metavar="K")
 
 
-def _points_of_match(text: str) -> tuple[float, ...]:
-    """Return the points of a win, a draw, a loss and each set won."""
-    if text.strip().lower() == "sets":
-        return 0.0, 0.0, 0.0, 1.0
+def points_in(text: str) -> TableRules:
+    """Return the points of a match as a text has them, as rules of a table.
+
+    >>> points_in("3,1,0").win, points_in("1,0,0,1").a_set, points_in("apa_8ball").split
+    (3.0, 1.0, 'apa_8ball')
+    """
+    word = text.strip().lower().replace(" ", "_").replace("-", "_")
+    if word in SPLITS:
+        return TableRules(split=word)
+    if word in ("sets", "games"):
+        return TableRules(0.0, 0.0, 0.0, 1.0)
     try:
-        win, draw, loss = (Number(0.0, 100.0).read(part) for part in text.split(","))
+        numbers = [Number(0.0, 100.0).read(part) for part in text.split(",")]
+        win, draw, loss, a_set, shutout = (*numbers, *[0.0] * (5 - len(numbers)))
+        if len(numbers) < 3:
+            raise InputError("too few")
     except (InputError, ValueError):
-        message = f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0, or sets"
+        message = (
+            f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0 (and of each "
+            f"game or set won, such as 1,0,0,1), or sets, or {' or '.join(SPLITS)}"
+        )
         raise InputError(message) from None
-    return win, draw, loss, 0.0
+    return TableRules(win, draw, loss, a_set, shutout=shutout)
 
 
-def _spelled_points(points: tuple[float, ...]) -> str:
-    return "sets" if points[3] else ",".join(f"{part:g}" for part in points[:3])
+def points_spelled(rules: TableRules) -> str:
+    """Return the points of a match as they are typed."""
+    if rules.split:
+        return rules.split
+    numbers = [rules.win, rules.draw, rules.loss, rules.a_set, rules.shutout]
+    if numbers == [0.0, 0.0, 0.0, 1.0, 0.0]:
+        return "sets"
+    while len(numbers) > 3 and not numbers[-1]:
+        numbers.pop()
+    return ",".join(f"{one:g}" for one in numbers)
 
 
-TABLE_POINTS = Named(_points_of_match, "W,D,L|sets", spelled=_spelled_points)
+TABLE_POINTS = Named(points_in, "W,D,L|sets|apa_8ball|apa_9ball", spelled=points_spelled)
 
 
 def names_in(text: str) -> tuple[str, ...]:
@@ -81,7 +103,12 @@ def names_in(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
-TIES = Named(names_in, "RULE,...", spelled=",".join)
+def ties_in(text: str) -> tuple[str, ...]:
+    """Return what separates those with equal points, from a list with commas."""
+    return TableRules(ties=names_in(text)).ties
+
+
+TIES = Named(ties_in, "RULE,...", spelled=",".join)
 
 # What only the file has.
 

@@ -92,6 +92,7 @@ def read_results(
     columns: Mapping[str, str] | None = None,
     dates: DateOrder | None = None,
     skip_bad: bool = False,
+    unplayed: bool = False,
 ) -> ResultsFile:
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
@@ -115,6 +116,8 @@ def read_results(
     skip_bad
         whether rows that cannot be read, and scores that can hardly be games, are left out and
         listed in the warnings; otherwise the file is refused for the former, and the latter count.
+    unplayed
+        whether rows that state no result are left out, as matches to come.
 
     Raises
     ------
@@ -138,6 +141,9 @@ def read_results(
         (*NAMES, "winner", "loser"),
     )
     table = one_layout(table)
+
+    if unplayed:
+        table = _without_unplayed(table)
 
     def read(rows: TextTable) -> tuple[PlayerNames, Results]:
         names = PlayerNames(rows, NAMES, by_alias.means)
@@ -173,6 +179,18 @@ def read_results(
         skipped=len(bad),
         left_out=(*left_out, *bad),
     )
+
+
+_NO_RESULT = {"", "no", "n", "false", "0"}
+_OF_RESULT = ("score_a", "score_b", "winner", "racks", "forfeit")
+
+
+def _without_unplayed(table: TextTable) -> TextTable:
+    """Return the table without the rows that state no result."""
+    stated = np.zeros(len(table), dtype=bool)
+    for name in _OF_RESULT:
+        stated |= [text.casefold() not in _NO_RESULT for text in table.cells(name)]
+    return table.without(table.lines[~stated].tolist())
 
 
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:

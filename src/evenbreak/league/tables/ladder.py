@@ -98,6 +98,9 @@ class Record:
         now = np.zeros((sides, sides), dtype=np.int64)
         np.add.at(now, (one, other), own[:, 0])
         np.add.at(now, (other, one), own[:, 1])
+        meetings = np.zeros((sides, sides), dtype=np.int64)
+        both = np.vstack([self.pairs, self.to_come])
+        np.add.at(meetings, (both, both[:, ::-1]), 1)
         step = max(1, (1 << 20) // sides**2)
         for first in range(0, endings, step):
             part = slice(first, first + step)
@@ -106,7 +109,7 @@ class Record:
             for (home, away), end in zip(self.to_come.tolist(), ends, strict=True):
                 met[:, home, away] += kinds[end, 0]
                 met[:, away, home] += kinds[end, 1]
-            found[:, part] = -by_meetings(met, _ahead(code[:, part].T)).T
+            found[:, part] = -by_meetings(met, _ahead(code[:, part].T), meetings).T
         return found
 
 
@@ -150,7 +153,9 @@ def _dense(code: Ints) -> Ints:
     return np.asarray(np.unique(code, return_inverse=True)[1]).reshape(code.shape)
 
 
-def by_meetings(met: NDArray[Any], ahead: NDArray[Any]) -> NDArray[Any]:
+def by_meetings(
+    met: NDArray[Any], ahead: NDArray[Any], meetings: Ints | None = None
+) -> NDArray[Any]:
     """Return how many are ahead of each once those who are level are told apart by their meetings.
 
     Those who are level are ranked by what they won from one another; those who are still level,
@@ -162,10 +167,14 @@ def by_meetings(met: NDArray[Any], ahead: NDArray[Any]) -> NDArray[Any]:
         met[..., i, j]: what i won in the meetings with j.
     ahead
         how many are ahead of each so far; equal numbers are level.
+    meetings
+        how often each two met: those who are level are told apart only if all of them met one
+        another equally often, as in the middle of a season they may not have. None: they did.
     """
     while True:
         level = ahead[..., :, None] == ahead[..., None, :]
-        among = np.where(level, met, 0).sum(axis=-1, dtype=met.dtype)
+        counted = level if meetings is None else level & _equally_often(meetings, level)
+        among = np.where(counted, met, 0).sum(axis=-1, dtype=met.dtype)
         more = _ahead(among, level)
         if not more.any():
             return ahead
@@ -176,6 +185,16 @@ def _ahead(score: NDArray[Any], compared: NDArray[np.bool_] | bool = True) -> ND
     better = score[..., None, :] > score[..., :, None]
     counted: NDArray[Any] = (better & compared).sum(axis=-1, dtype=score.dtype)
     return counted
+
+
+def _equally_often(meetings: Ints, level: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return who is level only with those who all met one another equally often."""
+    others = level & ~np.eye(len(meetings), dtype=bool)
+    most = np.where(others, meetings, -1).max(axis=-1)
+    least = np.where(others, meetings, 1 << 30).min(axis=-1)
+    group_most = np.where(level, most[..., None, :], -1).max(axis=-1)
+    group_least = np.where(level, least[..., None, :], 1 << 30).min(axis=-1)
+    return np.asarray((group_most == group_least)[..., None])
 
 
 def places_by_wins(beats: NDArray[np.int16]) -> NDArray[np.int16]:

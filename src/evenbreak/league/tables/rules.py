@@ -228,9 +228,10 @@ def _stated_races(outcomes: Outcomes) -> Ints:
     unstated = (outcomes.race == 0).any(axis=1) & ~outcomes.forfeit
     if unstated.any():
         raise InputError(
-            "match {row} has no race; points split as in the APA need the games (or points) that "
-            "both players had to win",
-            row=int(unstated.argmax()),
+            "{n} of {n_all} matches state no race; points split as in the APA need the games (or "
+            "points) that both players had to win",
+            n=int(unstated.sum()),
+            n_all=len(unstated),
         )
     return outcomes.race
 
@@ -238,3 +239,6 @@ def _stated_races(outcomes: Outcomes) -> Ints:
 SPLITS: dict[str, Callable[[Outcomes], Floats]] = {"apa_8ball": _apa_8ball, "apa_9ball": _apa_9ball}
 """How leagues divide the points of a match by how it ended. The 9-ball table is that of two public
 score programs; that of 8-ball reproduces the mean points of 40,000 published matches."""
+
+USUAL_RULES = TableRules()
+"""Two points for a win and one for a draw; then games won less lost, and games won."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.arrays import Floats, Ints, array_values, own_arrays
+from evenbreak.arrays import Bools, Floats, Ints, array_values, own_arrays
 from evenbreak.checks import column, names, one_of
 from evenbreak.errors import InputError
 from evenbreak.league.tables.ladder import Record, ladder, standings_of
@@ -58,7 +58,10 @@ class TableMatches:
 
     def until(self, day: str) -> TableMatches:
         """Return the matches up to a day, that day included; those without a date are left out."""
-        kept = self.date <= np.datetime64(day, "D")
+        return self.among(self.date <= np.datetime64(day, "D"))
+
+    def among(self, kept: Bools) -> TableMatches:
+        """Return the matches in some rows."""
         return replace(
             self,
             pairs=self.pairs[kept],

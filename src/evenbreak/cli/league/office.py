@@ -1,0 +1,17 @@
+"""`evenbreak league`: what a league's office makes."""
+
+from __future__ import annotations
+
+import click
+
+from evenbreak.cli.kit.groups import Entry, LazyGroup
+
+COMMANDS = {
+    "table": Entry("league.tables:table", "The table: who is ahead of whom, and why."),
+}
+"""Each command, with its line of help."""
+
+
+@click.command("league", cls=LazyGroup, table=COMMANDS)
+def command() -> None:
+    """Run the office of a league."""
