@@ -406,6 +406,7 @@ ALIASES = Schema(
         "alias, written, as written, nickname, from",
         "a name as it may appear in the results",
         needed=True,
+        given_first=False,
         write=_WRITE,
     ),
     means=Name(
