@@ -109,7 +109,7 @@ def _by_system(asked: Rate, system: handicaps.StepSystem, roster: str) -> Answer
     by_chart = None if asked.chart is None else chart_by_difference("--chart", asked.chart)
     last = files.read_roster(roster)
     refuse_for_system(last, system)
-    tonight = files.read_results(asked.results[0], **asked.reading)
+    tonight = files.read_seasons(asked.results, **asked.reading)
     if by_chart is None:
         by_chart = handicaps.chart_of_night(system, last.roster, _first_night(tonight.results))
     try:
