@@ -6,7 +6,7 @@ of the league across. The one league of a file is one column.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, MutableMapping
+from collections.abc import Callable, Iterator, MutableMapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any, TypeVar
@@ -148,6 +148,16 @@ class Matches:
             swapped[f"{name}_a"] = getattr(self, f"{name}_b")
             swapped[f"{name}_b"] = getattr(self, f"{name}_a")
         return replace(self, **swapped)
+
+
+def joined(nights: Sequence[Matches]) -> Matches:
+    """Return the matches of several nights, one after the other."""
+    columns = {
+        name: np.concatenate([getattr(night, name) for night in nights])
+        for name, value in vars(nights[0]).items()
+        if value is not None
+    }
+    return Matches(**columns)
 
 
 @dataclass(frozen=True, eq=False)

@@ -230,7 +230,10 @@ def nearest_level(chart: LevelChart, levels: Any) -> Floats:
 
 def _by_innings(matches: Matches) -> Floats:
     if matches.innings_a is None:
-        raise InputError("the innings are None; a review by innings needs them")
+        raise InputError(
+            "the innings of the matches are not known, and this review is by innings; use "
+            "level-review, which is by games"
+        )
     score = np.minimum(matches.innings_a / np.maximum(matches.score_a, 1), _CAP)
     return np.asarray(np.where(matches.score_a > 0, score, _CAP))
 

@@ -70,6 +70,7 @@ class NapaLike(System):
         "races by the published matrix; how ratings move is not published: Elo on the match "
         "is assumed"
     )
+    asks = ("race",)
     winner_never_falls = True
 
     def __post_init__(self) -> None:

@@ -80,7 +80,7 @@ class System(ABC):
         a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
 
-    def on_chart(self, chart: Chart | LevelChart) -> System:
+    def on_chart(self, chart: Any) -> System:
         """Return the same system with races by another chart.
 
         Raises
