@@ -108,7 +108,7 @@ def test_the_tap_window_averages_19_of_21():
 def test_nobody_falls_below_the_peak_less_two_or_moves_more_than_a_level_a_night():
     """A level 6 who loses every game falls to 4, one level a night, and stays there."""
     system = LevelReview()
-    entries = Entries.of(level=[6.0, 4.0])
+    entries = Entries.of(level=[6.0, 4.0], matches=[3, 20])
     initial = ratings = system.initial(entries)
     seen, nights = [], []
     for night in range(1, 7):

@@ -14,12 +14,8 @@ from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
-from evenbreak.handicaps.systems.rating_changes import (
-    RatingChanges,
-    SeasonSoFar,
-    apply_results,
-    night_problems,
-)
+from evenbreak.handicaps.systems.night_table import SeasonSoFar
+from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-LEVELS = "player,skill level,fargo rating\nAnn,7,640\nBo,4,520\nCy,5,560\nDi,3,\n"
+LEVELS = "player,skill level,fargo rating,matches\nAnn,7,640,\nBo,4,520,\nCy,5,560,30\nDi,3,,0\n"
 NIGHTS = """date,player_a,player_b,score_a,score_b,race_a,race_b
 2026-09-01,Ann,Bo,5,1,5,2
 2026-09-01,Cy,Di,1,2,4,2
@@ -51,7 +51,7 @@ def test_levels_are_reviewed_night_by_night(run):
         "Ann": "7",
         "Bo": "4",
         "Cy": "5",
-        "Di": "5",  # two matches, and at most a level a night
+        "Di": "5",  # a newcomer: two matches, and at most a level a night
     }
     assert (rows["Di"]["rating_before"], rows["Di"]["change"]) == ("3", "2")
     assert rows["Ann"]["rating"] == "640"

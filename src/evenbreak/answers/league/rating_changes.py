@@ -21,14 +21,12 @@ from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
+from evenbreak.handicaps.systems.night_table import SeasonSoFar, listed, published
 from evenbreak.handicaps.systems.rating_changes import (
     MatchChange,
     RatingChanges,
-    SeasonSoFar,
     apply_results,
-    listed,
     night_problems,
-    published,
 )
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_watch import PlayedNight, played_nights

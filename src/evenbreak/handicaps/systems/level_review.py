@@ -16,6 +16,9 @@ Scores are of two kinds:
   at most, the lower the better, and its mean is read in the table of levels of 2006. For a match
   won an *applied score*, by level and share of matches won, counts if it is better.
 
+A level on the list stands for as many scores of its own as the list states matches, a full window
+where it states none; new scores take their place. So a newcomer moves at once.
+
 Source: windows and parts as TAP leagues publish them; the innings rule as told in 2006 (evidence of
 2024 shows that today's rule differs); a maximum change and a lowest attainable level exist, their
 values are unpublished. A level's step of 74 Fargo points is the mean of the measured ones.
@@ -32,7 +35,7 @@ from evenbreak.arrays import Floats
 from evenbreak.checks import number, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
-from evenbreak.handicaps.systems.history import Entries, History, Matches, positions
+from evenbreak.handicaps.systems.history import Entries, History, Matches, column_of, positions
 from evenbreak.handicaps.systems.system import System
 
 STEP = 74.0
@@ -41,6 +44,9 @@ STEP = 74.0
 _CAP = 10.0
 _INNINGS = np.array([2.0, 3.0, 4.0, 5.0, 7.0])
 """The largest mean of levels 7, 6, 5, 4 and 3."""
+
+_USUAL = np.array([8.5, 6.0, 4.5, 3.5, 2.5, 1.5])
+"""A mean in the middle of levels 2 to 7."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +157,18 @@ class LevelReview(System):
                 share = np.nanmean(np.where(np.isnan(won).all(axis=0), 0.0, won), axis=0)
                 better = np.minimum(scores, applied_score(history.ratings, share))
                 scores = np.where(won == 1.0, better, scores)
-        return scores, (~np.isnan(scores)).sum(axis=0)
+        new = (~np.isnan(scores)).sum(axis=0)
+        stated = column_of(history.entries.matches, history.initial.shape)
+        unrated = column_of(np.isnan(history.entries.level), history.initial.shape)
+        past = np.where(unrated, 0, np.where(stated < 0, self.window, stated))
+        count = np.minimum(new + past, self.window)
+        place = np.arange(self.window).reshape(-1, *(1,) * (scores.ndim - 1))
+        usual = (
+            _USUAL[np.clip(history.initial, 2, 7).astype(np.int64) - 2]
+            if self.score == "innings"
+            else history.initial
+        )
+        return np.where((place >= new) & (place < count), usual, scores), count
 
     def _by_games(self, matches: Matches) -> Floats:
         won, lost = matches.score_a, matches.score_b
