@@ -106,6 +106,7 @@ ASKED = {
     "validate_prior": "validate data/demo_league.csv --prior 200",
     "report": "report data/demo_league.csv --out OUT --top 6",
     "report_lengths": "report data/demo_league.csv --out OUT --scale fargo --games 7..13 --top 14",
+    "publish": "publish data/demo_league.csv --out OUT --scale fargo --title 'Tuesday league'",
     "why": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --results data/demo_league.csv",
     "why_begin": "why 'Zoë Kestleman' 'Petra Nowicz-Hale' --results data/demo_league.csv --begin "
     "data/demo_league_roster.csv",
@@ -169,11 +170,11 @@ SLOW = (
     *("graph_ladder", "lineup", "graph_race", "matchups_both", "report_lengths", "rate_asked"),
     *("why_begin", "why", "simulate", "tournament_odds_large", "caps", "ladder_drift"),
     *("validate_prior", "rate_pair", "ladder_compare", "chips_design", "matchups_uneven"),
-    *("sandbag_charts", "sandbag_events", "sandbag_player"),
+    *("sandbag_charts", "sandbag_events", "sandbag_player", "publish"),
 )
 """Questions that take long, beside a quicker one of the same command or kind."""
 
-NO_PAGE = ("report", "matchups", "reproduce", "graph")
+NO_PAGE = ("report", "publish", "matchups", "reproduce", "graph")
 """Commands without --html, or whose --html writes another page; theirs is made from the answer."""
 
 ASKS_THE_FACE = ("matchups",)

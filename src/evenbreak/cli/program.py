@@ -39,6 +39,7 @@ SECTIONS = {
     },
     "Run a league": {
         "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
+        "publish": Entry("league.publish", "The league as a website: a folder of plain files."),
         "rate": Entry("league.ratings:rate", "Ratings from results, and how certain each one is."),
         "why": Entry("league.ratings:why", "Why two players have their ratings and their race."),
         "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from markupsafe import Markup
+
 from evenbreak.answers.tournament.bracket_view import Box, Panel, short_names
 from evenbreak.sheets.html_page import Section, drawn, html_page
 from evenbreak.sheets.pdf_page import POINTS, fitted
@@ -50,7 +52,7 @@ def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
         title = panel.title or "Bracket"
         name = f"side-{number}"
         links.append((name, title))
-        sections.append(Section(name, title, drawn("bracket", panel, _drawing(panel), name)))
+        sections.append(Section(name, title, drawn_panel(panel, name)))
     return html_page(
         heading=list(heading),
         links=links if len(links) > 1 else [],
@@ -58,6 +60,11 @@ def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
         below="",
         made_of="",
     )
+
+
+def drawn_panel(panel: Panel, name: str) -> Markup:
+    """Return one side of a bracket, whose heading has the id `name`-title, for a page."""
+    return drawn("bracket", panel, _drawing(panel), name)
 
 
 def _drawing(panel: Panel) -> dict[str, object]:

@@ -44,20 +44,27 @@ def html_page(*, search: bool = False, **values: Any) -> bytes:
     bytes
         UTF-8; the same values give the same bytes.
     """
-    style, script = _template("sheet.css"), _template("search.js") if search else ""
-    policy = ["default-src 'none'", f"style-src '{_digest(style)}'"]
-    policy += [f"script-src '{_digest(script)}'"] if script else []
-    policy += ["base-uri 'none'", "form-action 'none'"]
-    template = _environment().get_template("answer.html")
+    style = own_file("sheet.css") + own_file("bracket.css")
+    script = own_file("search.js") if search else ""
+    template = environment("evenbreak.sheets").get_template("answer.html")
     page = template.render(
-        style=style, script=script, csp="; ".join(policy), version=__version__, **values
+        style=style, script=script, csp=policy(style, script), version=__version__, **values
     )
     return page.encode()
 
 
+def policy(style: str, script: str = "", *, images: str = "") -> str:
+    """Return the policy of a page: its own style, its own script and some images, nothing else."""
+    allowed = ["default-src 'none'", f"style-src '{_digest(style)}'"]
+    allowed += [f"script-src '{_digest(script)}'"] if script else []
+    allowed += [f"img-src {images}"] if images else []
+    return "; ".join([*allowed, "base-uri 'none'", "form-action 'none'"])
+
+
 def drawn(macro: str, *values: Any) -> "Markup":
     """Return a piece of a page: what a macro of parts.html makes of these values."""
-    made: Markup = getattr(_environment().get_template("parts.html").module, macro)(*values)
+    parts = environment("evenbreak.sheets").get_template("parts.html").module
+    made: Markup = getattr(parts, macro)(*values)
     return made
 
 
@@ -74,12 +81,13 @@ def shown_name(name: str) -> str:
 
 
 @cache
-def _environment() -> "Environment":
+def environment(room: str) -> "Environment":
+    """Return what fills the templates of a room."""
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
     environment = Environment(
         autoescape=True,
-        loader=FunctionLoader(_template),
+        loader=FunctionLoader(lambda name: own_file(name, room)),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -93,8 +101,9 @@ def _digest(text: str) -> str:
     return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}"
 
 
-def _template(name: str) -> str:
-    return files("evenbreak.sheets").joinpath("templates", name).read_text("utf-8")
+def own_file(name: str, room: str = "evenbreak.sheets") -> str:
+    """Return the text of a file among the templates of a room."""
+    return files(room).joinpath("templates", name).read_text("utf-8")
 
 
 class Section(NamedTuple):

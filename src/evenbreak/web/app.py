@@ -28,7 +28,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.tournament import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
-from evenbreak.web.page import begun_at, done, own_file, refused, script_hash
+from evenbreak.web.page import begun_at, done, refused, script_hash, style
 from evenbreak.web.pages import (
     bracket,
     desk,
@@ -117,7 +117,7 @@ def cookie_name(site: Site) -> str:
 
 async def _style(_: Request) -> Response:
     kept = {"cache-control": "max-age=3600"}
-    return PlainTextResponse(own_file("evenbreak.css"), media_type="text/css", headers=kept)
+    return PlainTextResponse(style(), media_type="text/css", headers=kept)
 
 
 async def _refused(request: Request, error: Exception) -> Response:

@@ -96,6 +96,13 @@ def own_file(name: str) -> str:
 
 
 @cache
+def style() -> str:
+    """Return the style of all pages: what published sites have too, and what is for these alone."""
+    common = files("evenbreak.site").joinpath("templates", "common.css")
+    return common.read_text(encoding="utf-8") + own_file("evenbreak.css")
+
+
+@cache
 def script_hash() -> str:
     """Return the hash of the one script, by which pages allow it."""
     digest = hashlib.sha256(own_file("live.js").encode()).digest()

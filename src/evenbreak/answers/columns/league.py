@@ -99,6 +99,7 @@ VALIDATION = registry(
     number("classes_apart", "classes\napart", name="apart"),
     number("games_apart", "games\ngiven", name="apart"),
     number("matches", "matches"),
+    number("pages", "pages"),
     number("race_played", "most\nplayed", race, "race"),
     number("points_stronger", "points stronger,\n95% interval", name="stronger"),
     number("taken", "taken\nback"),

@@ -108,14 +108,14 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
         the frame of `roster_matchups`. Where no chain of opponents links the two, their ratings
         cannot be compared: there are no numbers then, and the note says so.
     """
-    roster = _as_listed(ratings)
+    roster = as_listed(ratings)
     pairs = pairs_of(roster, ratings.strongest_first(players))
     return roster_matchups(
         roster, pairs, scale=ratings.scale, offered=offered, form=ratings.match_form
     ).frame
 
 
-def _as_listed(ratings: Ratings) -> Roster:
+def as_listed(ratings: Ratings) -> Roster:
     """Return the ratings as their list has them: rounded, with an error for each player."""
     # An error beyond this says that nothing is known; numbers would not change much.
     most = MOST_DOUBLINGS * ratings.scale.points_per_doubling / 2.0

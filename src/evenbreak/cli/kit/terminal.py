@@ -45,8 +45,8 @@ def write_file(path: str, content: bytes) -> None:
     say(f"Wrote {path}")
 
 
-def write_folder(out: str, files: Mapping[str, bytes]) -> None:
-    """Write files into the folder of --out, and say so."""
+def write_folder(out: str, files: Mapping[str, bytes | None]) -> None:
+    """Write files into the folder of --out, remove those that are None, and say so."""
     from evenbreak.files.store.folder import write_files
 
     for name in files:
@@ -57,7 +57,12 @@ def write_folder(out: str, files: Mapping[str, bytes]) -> None:
             )
     raise_if_interrupted()
     write_files(out, files)
-    say(f"Wrote {', '.join(files)} to {out}")
+    written = [name for name, content in files.items() if content is not None]
+    named = ", ".join(written) if len(written) <= _MOST_NAMED else f"{len(written):,} files"
+    say(f"Wrote {named} to {out}")
+
+
+_MOST_NAMED = 12
 
 
 def _named_by(place: Path) -> Iterator[str]:

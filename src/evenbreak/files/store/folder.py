@@ -35,7 +35,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import FrameType
-from typing import TypedDict, Union
+from typing import Any, TypedDict, Union
 
 PATIENCE = 10.0
 """Seconds to wait for another run to finish writing."""
@@ -59,7 +59,7 @@ def check_folder(folder: str | Path) -> None:
     _when_alone(Path(folder), lambda there: change(there, {}))
 
 
-def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
+def write_files(folder: str | Path, files: Mapping[str, bytes | None]) -> None:
     """Write files into a folder, which is created if needed: all of them, or none.
 
     If the run is killed meanwhile, the next one that writes or checks there puts the old files
@@ -70,7 +70,8 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     folder
         where to write.
     files
-        the content of each file by name; they take their places in this order.
+        the content of each file by name, None to remove it; they take their places in this order.
+        A name may lead into a folder, as in data/a.csv, which is created if needed.
 
     Raises
     ------
@@ -86,12 +87,26 @@ def write_files(folder: str | Path, files: Mapping[str, bytes]) -> None:
     folder = Path(folder)
 
     def write(there: Path) -> None:
-        entries: Tree = files
-        for name in reversed(folder.absolute().relative_to(there.absolute()).parts):
+        missing = folder.absolute().relative_to(there.absolute()).parts
+        entries: Tree = _nested(files) if missing else files
+        for name in reversed(missing):
             entries = {name: entries}
         change(there, entries)
 
     _when_alone(folder, write)
+
+
+def _nested(files: Mapping[str, bytes | None]) -> Tree:
+    """Return files as a tree of folders, for a place where nothing is to be removed yet."""
+    tree: dict[str, Any] = {}
+    for name, content in files.items():
+        *above, last = name.split("/")
+        inside = tree
+        for part in above:
+            inside = inside.setdefault(part, {})
+        if content is not None:
+            inside[last] = content
+    return tree
 
 
 def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
@@ -275,8 +290,8 @@ MADE_BY_US = "made-by-evenbreak"
 _JOURNAL, _UNFINISHED_JOURNAL = "journal", "journal.part"
 _OURS = re.compile(r"(new|old)-\d+|journal(\.part)?", re.ASCII)
 
-Tree = Mapping[str, Union[bytes, "Tree"]]
-"""Files by name; a name may also hold a folder."""
+Tree = Mapping[str, Union[bytes, "Tree", None]]
+"""Files by name, None where one is to be removed; a name may also hold a folder."""
 
 
 class _Change(TypedDict):
@@ -304,8 +319,9 @@ def change(folder: Path, entries: Tree) -> None:
         work.mkdir()
         _write(work / MADE_BY_US, b"")
         for number, content in enumerate(entries.values()):
-            _stage(work / f"new-{number}", content)
-        if len(entries) == 1:
+            if content is not None:
+                _stage(work / f"new-{number}", content)
+        if len(entries) == 1 and not any("/" in name or entries[name] is None for name in entries):
             sync(work)
             (work / "new-0").replace(folder / next(iter(entries)))
             sync(folder)
@@ -349,6 +365,7 @@ def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
         place = folder / name
         if place.is_dir() and not place.is_symlink():
             raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder")
+        place.parent.mkdir(parents=True, exist_ok=True)
         existed = os.path.lexists(place)
         if existed:
             _keep(place, work / f"old-{number}")
@@ -376,8 +393,13 @@ def _put_in_place(folder: Path, changes: list[_Change]) -> None:
     (work / _UNFINISHED_JOURNAL).replace(work / _JOURNAL)
     sync(work)
     for number, change in enumerate(changes):
-        (work / f"new-{number}").replace(folder / change["name"])
-    sync(folder)
+        new, place = work / f"new-{number}", folder / change["name"]
+        if new.exists():
+            new.replace(place)
+        else:
+            place.unlink(missing_ok=True)
+    for above in {(folder / change["name"]).parent for change in changes}:
+        sync(above)
     (work / _JOURNAL).unlink()
     sync(work)
 
@@ -433,7 +455,8 @@ def _stage(path: Path, content: bytes | Tree) -> None:
         return
     path.mkdir()
     for name, inside in content.items():
-        _stage(path / name, inside)
+        if inside is not None:
+            _stage(path / name, inside)
     sync(path)
 
 

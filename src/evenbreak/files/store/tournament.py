@@ -138,14 +138,19 @@ def earlier_nights(places: Iterable[str | Path]) -> tuple[EarlierNight, ...]:
 
 def _states(places: Iterable[str | Path]) -> Iterator[Evening]:
     for place in map(Path, places):
-        if not place.is_dir():
+        if place.is_dir():
+            yield from (state for _, state in tournaments_in(place))
+        else:
             yield read_tournament(place)
+
+
+def tournaments_in(folder: str | Path) -> Iterator[tuple[str, Evening]]:
+    """Yield every tournament in a folder, with the name of its file; other files are left alone."""
+    for path in sorted(Path(folder).glob("*.db")):
+        try:
+            yield path.stem, read_tournament(path)
+        except DataError:  # something else is in the folder too
             continue
-        for path in sorted(place.glob("*.db")):
-            try:
-                yield read_tournament(path)
-            except DataError:  # something else is in the folder too
-                continue
 
 
 def add_events(

@@ -1,0 +1,201 @@
+"""`evenbreak publish`: a league as a static site."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from evenbreak import answers, files
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.progress import Progress
+from evenbreak.cli.kit.terminal import say, write_folder
+from evenbreak.errors import DataError
+from evenbreak.questions.publish import Publish
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+    from evenbreak.ratings.fitted import Ratings
+    from evenbreak.ratings.results import Results
+    from evenbreak.ratings.roster import Roster
+    from evenbreak.site.league import PublishedLeague
+    from evenbreak.site.names import PublicNames
+    from evenbreak.site.pages import Tournament
+    from evenbreak.site.races import LeagueRaces
+
+
+@command_of(Publish, "publish", page=False, always_text=True)
+def command(asked: Publish) -> Answer:
+    """Publish a league."""
+    from evenbreak.files.store.folder import check_folder
+    from evenbreak.ratings.usual import usual_ratings
+    from evenbreak.site.league import PublishedLeague
+    from evenbreak.site.look import USUAL, accent
+    from evenbreak.site.names import PublicNames, by_appearance
+    from evenbreak.site.pages import site_files
+
+    check_folder(asked.out)
+    file = files.read_seasons(asked.results, **asked.reading)
+    listed = None if asked.roster is None else files.read_roster(asked.roster)
+    everyone = by_appearance(file.results)
+    everyone += sorted(set(listed.roster.players if listed else ()) - {*everyone})
+    names = PublicNames.of(everyone, asked.names)
+    results = names.results(file.results)
+    say(f"Rating {len(results.players):,} players")
+    with Progress("steps") as progress:
+        ratings, _ = usual_ratings(results, scale=asked.scale, progress=progress)
+    if not ratings.matches:
+        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
+    color = accent(asked.color or USUAL)
+    league = PublishedLeague(
+        asked.title,
+        results,
+        ratings,
+        _races(asked, ratings, results, names, listed),
+        names,
+        color,
+        logo=_logo(asked.logo),
+    )
+    say("Writing the pages")
+    made = site_files(league, _tournaments(asked.tournaments, names))
+    earlier = _earlier(asked.out)
+    write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
+    return _answer(asked, league, made, [*file.warnings, *file.ties])
+
+
+def _answer(
+    asked: Publish, league: PublishedLeague, made: dict[str, bytes], warnings: Sequence[str]
+) -> Answer:
+    pages = sum(name.endswith(".html") for name in made)
+    ways = [*league.names.ways.values()]
+    said: list[Part] = [
+        f"The site is in {asked.out}; open {Path(asked.out, 'index.html')} to see it.",
+        Quantities(
+            quantities_of({"players": len(ways), "matches": league.ratings.matches, "pages": pages})
+        ),
+    ]
+    if league.names.private:
+        less = len(ways) - ways.count("full")
+        are = "player is" if less == 1 else "players are"
+        said.append(f"{less:,} {are} not named in full.")
+    else:
+        said.append(
+            "Every player is named in full. Ask them first: the page About this site says why, and "
+            "--names initials or --names hidden shows less."
+        )
+    if league.accent.changed:
+        said.append(
+            f"The color {asked.color} is too light for text on white, so the site uses "
+            f"{league.accent.light} by day."
+        )
+    data = {"folder": asked.out, "files": sorted(made)}
+    return Answer(league.title, said, warnings=warnings, data=data)
+
+
+def _races(
+    asked: Publish,
+    ratings: Ratings,
+    results: Results,
+    names: PublicNames,
+    listed: files.RosterFile | None,
+) -> LeagueRaces:
+    """Return how races are set: by the chart or the fairest, for the league's list or the ratings.
+
+    Raises
+    ------
+    DataError
+        if the chart has skill levels, and neither the list nor the results state them.
+    """
+    import numpy as np
+
+    from evenbreak.answers.league.sheet import as_listed
+    from evenbreak.files.charts import find_chart_file
+    from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+    from evenbreak.handicaps.charts.level_skills import level_skills
+    from evenbreak.ratings.roster import Roster
+    from evenbreak.site.races import LeagueRaces
+
+    form = ratings.match_form
+    chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
+    by_level = isinstance(chart, (LevelChart, PointsChart))
+    if listed is None:
+        roster = _last_levels(results, chart) if by_level else as_listed(ratings)
+    else:
+        of = listed.roster
+        values = of.level if by_level else of.rating
+        known = ~np.isnan(values)
+        public = [names[name] for name, here in zip(of.players, known, strict=True) if here]
+        errors = None if by_level else of.standard_error[known]
+        roster = Roster(public, values[known], errors, of.games[known])
+    if asked.chart is None:
+        return LeagueRaces(roster, asked.scale, answers.OfferedRaces(**asked.lengths), form=form)
+    skills = level_skills(chart, results) if isinstance(chart, LevelChart) else None
+    return LeagueRaces(roster, asked.scale, chart, skills, 0.0 if by_level else form)
+
+
+def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
+    """Return the skill level that each player had in the last match that states one.
+
+    Raises
+    ------
+    DataError
+        if no match states a level of the chart.
+    """
+    import numpy as np
+
+    from evenbreak.handicaps.charts.played_chart import level_numbers_of
+    from evenbreak.ratings.roster import Roster
+
+    levels: dict[str, float] = {}
+    rows = np.arange(len(results))
+    if results.date is not None:
+        rows = np.argsort(results.date, kind="stable")
+    columns = list(level_numbers_of(results))
+    for row in rows.tolist():
+        for seat, column in zip((results.player_a, results.player_b), columns, strict=True):
+            if column[row] in chart.levels:
+                levels[results.players[int(seat[row])]] = float(column[row])
+    if not levels:
+        raise DataError(
+            [
+                f"--chart {chart.name}: the results state no skill levels; add the columns level_a "
+                "and level_b, or give a list with --roster"
+            ]
+        )
+    order = sorted(levels)
+    return Roster(order, [levels[name] for name in order])
+
+
+def _logo(path: str | None) -> tuple[str, bytes] | None:
+    from evenbreak.files.tables.rows import content_of
+    from evenbreak.site.look import logo_name
+
+    if path is None:
+        return None
+    source, content = content_of(path)
+    return logo_name(content, source), content
+
+
+def _tournaments(folder: str | None, names: PublicNames) -> list[Tournament]:
+    """Return the tournaments of a folder that are over, the last one first, under public names."""
+    from evenbreak.files.store.tournament import tournaments_in
+    from evenbreak.site.pages import tournament_of
+
+    if folder is None:
+        return []
+    found = [tournament_of(name, state, names) for name, state in tournaments_in(folder)]
+    over = [one for one in found if one is not None]
+    return sorted(over, key=lambda one: (one.day, one.file), reverse=True)
+
+
+def _earlier(out: str) -> set[str]:
+    """Return the files that an earlier run has made, and is known to have made, in a folder."""
+    from evenbreak.site.bundle import files_of
+
+    try:
+        return files_of(Path(out, "data", "manifest.json").read_bytes())
+    except (OSError, ValueError):
+        return set()

@@ -1,0 +1,87 @@
+"""The question that puts a league on the web."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from evenbreak.fields.kinds import File, Named
+from evenbreak.fields.question import Field, Says
+from evenbreak.files.league import values
+from evenbreak.questions.common import NPL, ChartName, Lengths, OnScale, OutFolder, folder
+from evenbreak.questions.ratings import title_in
+from evenbreak.questions.results import ROSTER, Results
+
+_LOOK = "The look"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Publish(Results, Lengths):
+    """Publish a league as a static site: standings, ratings, races, a page for each player.
+
+    RESULTS.csv is what `evenbreak report` reads; several files are read as one. The site is a
+    folder of plain files, for any web host, a memory stick or a phone: it fetches nothing from
+    elsewhere, and works without a server. Files that an earlier run made and that are no longer
+    needed are removed. The same results give the same bytes.
+    """
+
+    examples = """\
+  evenbreak publish season.csv --title "Tuesday league"
+  evenbreak publish season.csv --scale fargo --race-to 9 --out public
+  evenbreak publish season.csv --names initials --color "#1b6e53" --logo logo.png
+  evenbreak publish season.csv --chart apa_8ball --tournaments nights
+"""
+    out: Annotated[OutFolder, Says("The folder of the site; created if needed.")] = "site"
+    scale: OnScale = NPL
+    chart: Annotated[
+        ChartName,
+        Says(
+            "The league's chart, by name or in a file.",
+            usual="the fairest races",
+            more="A chart of skill levels reads them from {roster}, or else each player's last one "
+            "in the results.",
+        ),
+    ] = None
+    roster: Annotated[
+        str | None,
+        ROSTER,
+        Says("The league's own list of ratings or levels, by which races are set."),
+    ] = None
+    tournaments: Annotated[
+        str | None,
+        Field(
+            Named(folder, "DIR", offers="files"),
+            "A folder with tournaments that `evenbreak tournament` or the page has kept; those "
+            "that are over are shown with their brackets.",
+        ),
+    ] = None
+    title: Annotated[str, Field(Named(title_in, "TEXT"), "The league's name.", section=_LOOK)] = (
+        "League"
+    )
+    names: Annotated[
+        Literal["full", "initials", "hidden"],
+        Field(values.NAMES, "How players are named.", section=_LOOK),
+    ] = "full"
+    color: Annotated[
+        str | None,
+        Field(
+            values.COLOR,
+            "The color of the site, such as #1b6e53.",
+            usual="blue",
+            section=_LOOK,
+            more="Where it could not be read, it is made darker by day and lighter by night.",
+        ),
+    ] = None
+    logo: Annotated[
+        str | None,
+        Field(
+            File("PICTURE"), "A PNG, JPEG or WebP picture of up to 200,000 bytes.", section=_LOOK
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """Refuse two ways to set races."""
+        super().check()
+        lengths = [name for name in ("games", "race_to") if name in self.given]
+        if self.chart is not None and lengths:
+            self.refuse(f"{{chart}} and {{{lengths[0]}}} cannot be combined; leave one out")

@@ -1,0 +1,178 @@
+"""What a site calls each player, and the file of their page.
+
+A site is for everybody, so each player may be named in full, by initials or not at all. Names are
+exchanged before anything is made from the results; no page is ever made from the others.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+
+from evenbreak.errors import DataError
+from evenbreak.files.tables.names import KnownNames, clean_name
+from evenbreak.files.tables.problems import quoted
+from evenbreak.ratings.results import Results
+
+Shown = Literal["full", "initials", "hidden"]
+"""How a player is named."""
+
+STRICTEST: tuple[Shown, ...] = get_args(Shown)
+"""From the most to the least that is shown."""
+
+_LONGEST = 48  # letters of a file's name
+_RESERVED = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for n in range(10))}
+"""What Windows takes for a device, whatever the ending."""
+
+
+@dataclass(frozen=True)
+class PublicNames:
+    """What a site calls players.
+
+    Parameters
+    ----------
+    names
+        the public name of each player, by the private one.
+    ways
+        how each is named.
+    stranger
+        how a player is named who is in none of the league's lists, such as a guest of a tournament.
+
+    >>> names = PublicNames.of(["Ann Lee", "Bo Diaz", "Al Lum"], by_player={"Bo Diaz": "hidden"})
+    >>> names["Ann Lee"], names["bo  diaz"]
+    ('Ann Lee', 'Player 2')
+    """
+
+    names: Mapping[str, str]
+    ways: Mapping[str, Shown]
+    stranger: Shown = "full"
+
+    @classmethod
+    def of(
+        cls,
+        players: Iterable[str],
+        usual: Shown = "full",
+        by_player: Mapping[str, Shown] | None = None,
+        *,
+        where: str = "",
+    ) -> PublicNames:
+        """Return the public names of players, given in an order that new players do not change.
+
+        Raises
+        ------
+        DataError
+            if a name of `by_player` is nobody's: a slip would show what should be hidden.
+        """
+        order = [*dict.fromkeys(players)]
+        known, chosen, problems = KnownNames(order), {}, []
+        for name, way in (by_player or {}).items():
+            place = known.place(clean_name(name))
+            if place is None:
+                problems.append(
+                    f"{where or 'names'}: {quoted(name)} is not a player of this league"
+                    f"{known.hint(clean_name(name))}; write the name as it is in the results"
+                )
+            else:
+                chosen[order[place]] = way
+        if problems:
+            raise DataError(problems)
+        ways = {name: chosen.get(name, usual) for name in order}
+        names: dict[str, str] = {}
+        taken = {name.casefold() for name, way in ways.items() if way == "full"}
+        for number, (name, way) in enumerate(ways.items(), 1):
+            names[name] = name if way == "full" else _unlike(_short(name, way, number), taken)
+        strictest = max((usual, *chosen.values()), key=STRICTEST.index)
+        return cls(names, ways, strictest)
+
+    def __getitem__(self, name: str) -> str:
+        """Return what a player is called; a stranger is named as the strictest rule has it."""
+        if name in self.names:
+            return self.names[name]
+        at = KnownNames(list(self.names)).place(clean_name(name))
+        if at is not None:
+            return [*self.names.values()][at]
+        return name if self.stranger == "full" else _short(name, self.stranger, 0)
+
+    @property
+    def private(self) -> bool:
+        """Whether anybody is not named in full."""
+        return any(way != "full" for way in self.ways.values())
+
+    @property
+    def hidden(self) -> set[str]:
+        """The public names of those who are not named at all: they have no page."""
+        return {self.names[name] for name, way in self.ways.items() if way == "hidden"}
+
+    def results(self, results: Results) -> Results:
+        """Return results in which everyone has their public name, and no other text."""
+        public = tuple(self[name] for name in results.players)
+        return replace(results, players=public, event=None)
+
+
+def by_appearance(results: Results) -> list[str]:
+    """Return the players of results in the order of their first match.
+
+    >>> by_appearance(Results.from_names(["Zoe", "Ann"], ["Bo", "Zoe"], [7, 7], [5, 4]))
+    ['Zoe', 'Bo', 'Ann']
+    """
+    rows = np.arange(len(results))
+    if results.date is not None:
+        rows = rows[np.argsort(results.date, kind="stable")]
+    seats = np.stack([results.player_a[rows], results.player_b[rows]], axis=1).ravel().tolist()
+    return [results.players[k] for k in dict.fromkeys([*seats, *range(len(results.players))])]
+
+
+def _short(name: str, way: Shown, number: int) -> str:
+    if way == "hidden":
+        return f"Player {number}" if number else "A guest"
+    words = [word for part in name.split() if (word := re.sub(r"^\W+", "", part))]
+    ends = words[:1] + words[1:][-1:]
+    return " ".join(f"{word[0].upper()}." for word in ends) or "N. N."
+
+
+def _unlike(name: str, taken: set[str]) -> str:
+    """Return a name that nobody has yet, and take it."""
+    tried, number = name, 1
+    while tried.casefold() in taken:
+        number += 1
+        tried = f"{name} ({number})"
+    taken.add(tried.casefold())
+    return tried
+
+
+def file_names(players: Iterable[str]) -> dict[str, str]:
+    """Return for each public name that of a file, without its ending; each safe and unlike others.
+
+    A player keeps it as long as those before stay in front.
+
+    >>> file_names(["Nguyễn Văn An", "../etc", "Ann/Lee", "ann lee", "李小龙", "Con"]).values()
+    dict_values(['nguyen-van-an', 'etc', 'ann-lee', 'ann-lee-e49591', 'p-535320', 'con-3b6f52'])
+    """
+    found: dict[str, str] = {}
+    for player in players:
+        plain = _plain(player)
+        if not plain or plain in _RESERVED or plain in found.values():
+            digest = hashlib.sha256(player.encode()).hexdigest()[:6]
+            plain = f"{plain or 'p'}-{digest}"
+        found[player] = _unlike(plain, set(found.values())).replace(" (", "-").rstrip(")")
+    return found
+
+
+def _plain(name: str) -> str:
+    return "-".join(_words(name))[:_LONGEST].strip("-")
+
+
+def _words(name: str) -> Iterator[str]:
+    letters = name.translate(_LETTERS)
+    ascii_only = unicodedata.normalize("NFKD", letters).encode("ascii", "ignore").decode()
+    yield from re.findall(r"[a-z0-9]+", ascii_only.lower())
+
+
+_LETTERS = str.maketrans("øØłŁđĐ", "oOlLdD")
+"""Letters that have no parts."""

@@ -1,0 +1,490 @@
+"""The pages of a league's site, and all of its files.
+
+A page fetches nothing from elsewhere, and works from a disk or a stick: its style and its script
+are in it, and links are relative. The same league gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak import __version__
+from evenbreak.answers.kit.scales import like_scale_words
+from evenbreak.answers.league.rate import unlinked_words
+from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.league.tables.rules import TableRules
+from evenbreak.league.tables.table import LeagueTable
+from evenbreak.sheets.bracket_page import drawn_panel
+from evenbreak.sheets.html_page import environment, own_file, policy
+from evenbreak.site import pictures
+from evenbreak.site.bundle import bundle
+from evenbreak.site.league import RECENT, PublishedLeague
+from evenbreak.site.names import PublicNames, file_names
+from evenbreak.site.pictures import short_day
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.words import joined, ordinal
+
+ROOM = "evenbreak.site"
+MOST_BYTES = 60_000
+"""The largest page."""
+
+MOST_LISTED = 100
+"""Matches on a player's page; the others are in the list of all matches."""
+
+_TABLES = {
+    "standings.csv": "Standings",
+    "ratings.csv": "Ratings, with how far off each may be",
+    "races.csv": "The race of every pair",
+    "matches.csv": "All matches",
+    "changes.csv": "What has changed in a week",
+    "manifest.json": "What is in these files, with a checksum of each",
+}
+
+
+class Tournament(NamedTuple):
+    """A finished tournament under public names: its file, title, day, players and bracket."""
+
+    file: str
+    title: str
+    day: str
+    players: int
+    won_by: str
+    panels: Sequence[Panel]
+
+
+class Fixture(NamedTuple):
+    """A match that is to be played: its day, its time or table, and the players."""
+
+    day: str
+    when: str
+    a: str
+    b: str
+
+
+def site_files(
+    league: PublishedLeague,
+    tournaments: Sequence[Tournament] = (),
+    fixtures: Sequence[Fixture] = (),
+) -> dict[str, bytes]:
+    """Return every file of a site by its name, the tables and their manifest among them."""
+    maker = _Pages(league, tournaments, fixtures)
+    written = {"index.html": maker.standings(), "ratings.html": maker.ratings()}
+    written |= {"races.html": maker.races(), "season.html": maker.season()}
+    if tournaments:
+        written["tournaments.html"] = maker.tournaments()
+        written |= {one.file: maker.tournament(one) for one in tournaments}
+    written |= {file: maker.player(name) for name, file in league.pages.items()}
+    written["about.html"] = maker.about()
+    if league.logo is not None:
+        name, content = league.logo
+        written[name] = content
+    return {**written, **bundle(league, written)}
+
+
+def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament | None:
+    """Return a tournament under public names; None unless it is over and has a bracket.
+
+    Parameters
+    ----------
+    name
+        that of its file.
+    state
+        what was played.
+    names
+        what players are called; guests of the tournament are named as the strictest rule has it.
+    """
+    if not state.drawn or state.plan.form == "chips" or state.standing.to_play:
+        return None
+
+    def public(box: Box) -> Box:
+        first, second = (
+            replace(one, text=names[one.text] if one.known else str(one.text)) for one in box.lines
+        )
+        return replace(box, lines=(first, second))
+
+    panels = [
+        replace(panel, boxes=tuple(map(public, panel.boxes))) for panel in bracket_panels(state)
+    ]
+    finals = [
+        state.counted[match.name].winner
+        for match in state.bracket.matches
+        if match.side in ("final", "second final") and match.name in state.counted
+    ]
+    title = " ".join(name.replace("_", " ").replace("-", " ").split())
+    file = next(iter(file_names([title]).values()))
+    day = state.events[0].at[:10]
+    won_by = names[finals[-1]] if finals else ""
+    return Tournament(f"tournament-{file}.html", title, day, len(state.order), won_by, panels)
+
+
+class _Pages:
+    """What all pages of a site share."""
+
+    def __init__(
+        self,
+        league: PublishedLeague,
+        tournaments: Sequence[Tournament],
+        fixtures: Sequence[Fixture],
+    ) -> None:
+        self.league, self.played, self.fixtures = league, tournaments, fixtures
+        days = league.days
+        self.year = len(days) > 1 and bool((days[-1] - days[0]).astype(int) > 300)
+        self.tabs = [
+            ("index.html", "Standings"),
+            ("ratings.html", "Ratings"),
+            ("races.html", "Races"),
+            ("season.html", "Season"),
+            *([("tournaments.html", "Tournaments")] if tournaments else []),
+        ]
+
+    def _page(self, template: str, title: str, *, here: str = "", **values: Any) -> bytes:
+        league = self.league
+        style = _style(league.accent.light, *league.accent[1:4], bracket="panels" in values)
+        script = values.get("script", "")
+        filled = environment(ROOM)
+        filled.filters.update(self._filters())
+        page = filled.get_template(template).render(
+            league=league,
+            title=title,
+            here=here,
+            tabs=self.tabs,
+            root="../" if template == "player.html" else "",
+            style=style,
+            csp=policy(style, script, images="'self' file: data:" if league.logo else "data:"),
+            **{"two": False, **values},
+        )
+        return page.encode()
+
+    def _filters(self) -> dict[str, Callable[..., str]]:
+        decimals = self.league.decimals
+        return {
+            "day": lambda day: short_day(str(day), year=True),
+            "short_day": lambda day: short_day(day, year=self.year),
+            "points": lambda points: f"{points:.{decimals}f}",
+            "change": lambda points: signed(points, decimals),
+        }
+
+    def standings(self) -> bytes:
+        """Return the first page."""
+        league = self.league
+        tables = [(league.standings, "Player", True)]
+        if league.team_standings is not None:
+            tables.insert(0, (league.team_standings, "Team", False))
+        return self._page(
+            "standings.html",
+            league.title,
+            here="index.html",
+            two=True,
+            tables=[self._table(*one) for one in tables],
+            rule=_rule_words(league.rules),
+            last=self._last_night(),
+        )
+
+    def _table(self, table: LeagueTable, who: str, players: bool) -> dict[str, Any]:
+        """Return a table of players or teams as its template takes it."""
+        drawn, matches = bool(table.drawn.any()), self.league.matches
+        rows = []
+        for k, name in enumerate(table.names):
+            if not table.played[k]:
+                continue
+            figures = [table.won[k], *([table.drawn[k]] if drawn else []), table.lost[k]]
+            form = [one.won for one in matches[name][:RECENT]][::-1] if players else None
+            games = f"{table.scored[k]}-{table.conceded[k]}"
+            rows.append((table.place[k], name, figures, games, f"{table.points[k]:g}", form))
+        counted = ["Won", *(["Drawn"] if drawn else []), "Lost"]
+        return {"who": who, "counted": counted, "rows": rows, "players": players}
+
+    def _last_night(self) -> dict[str, Any] | None:
+        league, results = self.league, self.league.results
+        if not league.days:
+            return None
+        day = str(league.days[-1])
+        rows = [row for row in league.rows if league.day_of(row) == day][::-1]
+        matches = []
+        for row in rows[:8]:
+            seats = [results.player_a[row], results.player_b[row]]
+            scores = [int(results.score_a[row]), int(results.score_b[row])]
+            if league.winner[row] == 2:
+                seats, scores = seats[::-1], scores[::-1]
+            a, b = (results.players[int(seat)] for seat in seats)
+            matches.append({"a": a, "b": b, "score": f"{scores[0]}-{scores[1]}" * any(scores)})
+        return {"day": day, "matches": matches, "more": len(rows) - len(matches)}
+
+    def ratings(self) -> bytes:
+        """Return the page of ratings."""
+        league = self.league
+        decimals = league.decimals
+        changed = {}
+        if league.week_before is not None:
+            rows: Any = league.changes.itertuples(index=False)
+            changed = {row.player: _arrow(row.change, decimals) for row in rows}
+        return self._page(
+            "ratings.html",
+            "Ratings",
+            here="ratings.html",
+            rated=league.rated,
+            changed=changed,
+            unlinked=" ".join(unlinked_words(league.ratings)),
+            about=(
+                f"From {league.ratings.matches:,} matches, on "
+                f"{like_scale_words(league.ratings.scale)}. A player's true rating is within the "
+                "give or take about two times in three."
+            ),
+        )
+
+    def races(self) -> bytes:
+        """Return the page on which two taps give a race."""
+        data = self.league.races.for_script(self.league.names.hidden)
+        text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+        return self._page(
+            "races.html",
+            "Races",
+            here="races.html",
+            data=data,
+            json=text.replace("<", "\\u003c").replace("\u2028", "\\u2028"),
+            script=own_file("race.js", ROOM),
+            tonight=self._tonight(),
+        )
+
+    def _tonight(self) -> dict[str, Any] | None:
+        days = sorted({one.day for one in self.fixtures})
+        if not days:
+            return None
+        rows = []
+        for one in self.fixtures:
+            race = self.league.races.by_pair.get((one.a, one.b))
+            if one.day == days[0]:
+                rows.append(
+                    {
+                        "when": one.when,
+                        "a": one.a,
+                        "b": one.b,
+                        "race": f"{race[0]}-{race[1]}" if race else "",
+                        "chance": _percent(race[2]) if race else "",
+                    }
+                )
+        title = f"Races on {short_day(days[0], year=True)}" if days[0] else "Tonight's races"
+        return {"title": title, "rows": rows, "timed": any(row["when"] for row in rows)}
+
+    def season(self) -> bytes:
+        """Return the season in pictures."""
+        league = self.league
+        games = int(league.ratings.won.sum())
+        hill = _decided_late(league)
+        figures = [
+            ("players", f"{int((~league.ratings.idle).sum()):,}"),
+            ("matches", f"{league.ratings.matches:,}"),
+            *([("games", f"{games:,}")] if games else []),
+            *([("went to the last game", hill)] if hill else []),
+        ]
+        return self._page(
+            "season.html",
+            "Season",
+            here="season.html",
+            figures=figures,
+            pictures=pictures.season(league),
+        )
+
+    def player(self, name: str) -> bytes:
+        """Return a player's page."""
+        league = self.league
+        matches = league.matches.get(name, [])
+        table = league.standings
+        place = table.names.index(name) if name in table.names else None
+        rated = next((one for one in league.rated if one.player == name), None)
+        figures = []
+        if rated is not None:
+            points = f"{rated.rating:.{league.decimals}f}"
+            figures.append((f"rating, ±{rated.error:.{league.decimals}f}", points))
+        if place is not None and table.played[place]:
+            figures.append(("won-lost", f"{table.won[place]}-{table.lost[place]}"))
+            figures.append(("in the standings", ordinal(int(table.place[place]))))
+        listed = matches[:MOST_LISTED]
+        played = name in league.results.players
+        return self._page(
+            "player.html",
+            name,
+            player=name,
+            two=True,
+            figures=figures,
+            provisional=rated is not None and rated.provisional,
+            marks=[one.won for one in matches[:RECENT]][::-1],
+            chart=pictures.history(league, name) if played else None,
+            why=self._why(name),
+            races=self._races_of(name),
+            matches=listed,
+            left_out=len(matches) - len(listed),
+            raced=any(one.race for one in listed),
+            worth=any(one.worth is not None for one in listed),
+        )
+
+    def _races_of(self, name: str) -> list[tuple[str, str, str]]:
+        hidden, races = self.league.names.hidden, self.league.races.by_pair
+        return [
+            (other, f"{found[0]}-{found[1]}", _percent(found[2]))
+            for other in sorted(self.league.pages, key=str.casefold)
+            if other not in hidden and (found := races.get((name, other))) is not None
+        ]
+
+    def _why(self, name: str) -> list[str]:
+        """Return why the race against the last opponent is what it is, and what would change it."""
+        league = self.league
+        opponent = next((one.opponent for one in league.matches.get(name, ())), "")
+        found = league.races.by_pair.get((name, opponent))
+        if found is None:
+            return []
+        m, n, p = found
+        seats = [np.array([league.races.roster.players.index(one)]) for one in (name, opponent)]
+        gap = league.races.gap(*seats)
+        first, second = (float(league.races.roster.rating[seat[0]]) for seat in seats)
+        alone = "" if gap is None else _percent(float(gap.p_game[0]))
+        game = f"{name} wins a single game {alone} of the time"
+        if not isinstance(league.races.rule, (OfferedRaces, Chart)):
+            won = f" {game}, and the race {_percent(p)} of the time." if alone else ""
+            said = (
+                f"{name} is a skill level {first:g} and {opponent}, the last opponent, a skill "
+                f"level {second:g}. The chart gives {m}-{n}.{won}"
+            )
+        else:
+            apart = abs(first - second)
+            points = f"{{:.{league.decimals}f}}".format
+            fair = isinstance(league.races.rule, OfferedRaces)
+            reason = "is the race nearest to even" if fair else "is what the chart gives"
+            said = (
+                f"{name} is rated {points(first)} and {opponent}, the last opponent, "
+                f"{points(second)}: {points(apart)} points apart. {game}, and {m}-{n} {reason}: "
+                f"{name} wins it {_percent(p)} of the time."
+            )
+        more = [
+            f"If {one.winner} wins the next match between the two {one.score}, the race becomes "
+            f"{one.then.race[0]}-{one.then.race[1]}."
+            for one in league.one_more(name, opponent)
+            if one.then.race is not None
+        ]
+        if isinstance(league.races.rule, OfferedRaces) and not more:
+            more = ["Whoever wins the next match between the two, the race stays the same."]
+        return [said, *more]
+
+    def tournaments(self) -> bytes:
+        """Return the list of tournaments."""
+        return self._page(
+            "tournaments.html", "Tournaments", here="tournaments.html", tournaments=self.played
+        )
+
+    def tournament(self, one: Tournament) -> bytes:
+        """Return a tournament with its bracket."""
+        panels = [
+            (f"side-{k}", panel.title or "Bracket", drawn_panel(panel, f"side-{k}"))
+            for k, panel in enumerate(one.panels, 1)
+        ]
+        shown = one._replace(panels=panels)  # type: ignore[arg-type]
+        return self._page(
+            "tournament.html", one.title, here="tournaments.html", one=shown, panels=1
+        )
+
+    def about(self) -> bytes:
+        """Return what the site is made from, how people are named and why, and the tables."""
+        league = self.league
+        return self._page(
+            "about.html",
+            "About this site",
+            ratings_words=(
+                "Ratings come from every game of the results, with a margin for how far off they "
+                "may be."
+            ),
+            names_words=_names_words(league.names.ways),
+            tables=[(f"data/{file}", text) for file, text in _TABLES.items()],
+            made_by=f"Made by evenbreak {__version__}.",
+        )
+
+
+def _names_words(ways: Mapping[str, str]) -> str:
+    many = {way: [*ways.values()].count(way) for way in ("full", "initials", "hidden")}
+    if many["full"] == len(ways):
+        return "Everyone is shown by their full name."
+    said = [
+        (many["full"], "by full name"),
+        (many["initials"], "by initials"),
+        (many["hidden"], "by a number, without a page"),
+    ]
+    parts = [
+        f"{n:,} {'player is' if n == 1 else 'players are'} shown {how}" for n, how in said if n
+    ]
+    return f"{'; '.join(parts)}."
+
+
+def _decided_late(league: PublishedLeague) -> str:
+    """Return the share of races in which both players were one game away, '' where not known."""
+    race_a, race_b = league.results.races
+    rows = [row for row in league.rows if race_a[row] and race_b[row] and league.winner[row]]
+    if not rows:
+        return ""
+    needed = race_a[rows] + race_b[rows] - 1
+    games = league.results.score_a[rows] + league.results.score_b[rows]
+    return f"{100 * float((games == needed).mean()):.0f}%"
+
+
+def _percent(p: float) -> str:
+    """Return a chance, '' where it is not known."""
+    return "" if math.isnan(p) else f"{100 * p:.0f}%"
+
+
+def signed(points: float, decimals: int) -> str:
+    """Return a change with its sign, in typography.
+
+    >>> signed(-3.24, 0), signed(2.0, 1), signed(0.04, 1)
+    ('−3', '+2.0', '0.0')
+    """
+    text = f"{abs(points):.{decimals}f}"
+    sign = "" if float(text) == 0.0 else "+" if points > 0 else "\N{MINUS SIGN}"
+    return sign + text
+
+
+def _arrow(change: Any, decimals: int) -> str:
+    return "new" if change is None or change != change else signed(float(change), decimals)
+
+
+_TIES = {
+    "difference": "games won less games lost",
+    "scored": "games won",
+    "wins": "matches won",
+    "head-to-head": "the matches against each other",
+    "win-share": "the share of matches won",
+    "forfeits": "fewer forfeits",
+    "points": "points",
+}
+"""What decides in a table, by the name of its rule."""
+
+
+def _rule_words(rules: TableRules) -> str:
+    """Return how a table is made, in a sentence."""
+    first, *then = [_TIES[rule] for rule in rules.ladder]
+    decided = f"Ranked by {first}" + (f", then by {joined(then, ', then ')}." if then else ".")
+    if rules.split:
+        return f"Points are split as in the APA. {decided}"
+    a_set = f", and {rules.a_set:g} for each game won" if rules.a_set else ""
+    return (
+        f"{rules.win:g} points for a win, {rules.draw:g} for a draw and {rules.loss:g} for a "
+        f"loss{a_set}. {decided}"
+    )
+
+
+@cache
+def _style(light: str, dark: str, on_light: str, on_dark: str, *, bracket: bool) -> str:
+    """Return the style of a page: what all pages of evenbreak share, the site's, and the color."""
+    color = (
+        f":root {{ --act: {light}; --link: {light}; --on-act: {on_light}; }}\n"
+        "@media screen and (prefers-color-scheme: dark) { "
+        f":root {{ --act: {dark}; --link: {dark}; --on-act: {on_dark}; }} }}\n"
+    )
+    drawn = own_file("bracket.css") if bracket else ""
+    return own_file("common.css", ROOM) + drawn + own_file("site.css", ROOM) + color
