@@ -103,7 +103,7 @@ def tips_of_side(side: FloatOrArray) -> FloatOrArray:
     return plain(np.asarray(offset_for(side)) * TIPS_OF_MOST_ENGLISH / MOST_ENGLISH_OFFSET)
 
 
-def squirt_angle(side: FloatOrArray, most: float = SQUIRTS["regular"]) -> FloatOrArray:
+def squirt_angle(side: FloatOrArray, most: FloatOrArray = SQUIRTS["regular"]) -> FloatOrArray:
     """Return by how many degrees the cue ball starts off the line of the cue, away from the side.
 
     Parameters
@@ -116,8 +116,8 @@ def squirt_angle(side: FloatOrArray, most: float = SQUIRTS["regular"]) -> FloatO
     >>> squirt_angle(0.5), squirt_angle(-1.25, 1.8)
     (1.0, -1.8)
     """
-    share = np.asarray(offset_for(side)) / MOST_ENGLISH_OFFSET
-    return plain(most * np.clip(share, -1.0, 1.0))
+    share = np.clip(np.asarray(offset_for(side)) / MOST_ENGLISH_OFFSET, -1.0, 1.0)
+    return plain(numbers(most, "most", low=0.0, high=90.0) * share)
 
 
 def strike_side(y: FloatOrArray) -> FloatOrArray:
