@@ -185,6 +185,40 @@ def test_the_page_says_when_the_next_set_starts_and_when_the_night_ends(tmp_path
         assert "ends at about" not in night.guest.open("/team").words
 
 
+def by_level(team: dict[str, tuple[int, int]]) -> str:
+    return "\n".join(["player,level", *(f"{name},{level}" for name, (_, level) in team.items())])
+
+
+@pytest.mark.parametrize(
+    ("chart", "race", "score", "brought"),
+    [("apa_8ball", "5:3", (5, 2), "2 : 1"), ("apa_9ball", "46:31", (46, 21), "15 : 5")],
+)
+def test_a_night_by_skill_level_alone(
+    tmp_path: Path, chart: str, race: str, score: tuple[int, int], brought: str
+) -> None:
+    lists = {"players_a": by_level(RACKS), "players_b": by_level(CUES), "scale": ""}
+    with night_of(
+        tmp_path / "tonight.db", **lists, races=chart, count="points", cap="15", at_most="1:6"
+    ) as night:
+        names = ("ours", "theirs")
+        for name, team in zip(names, (RACKS, CUES), strict=True):
+            (tmp_path / f"{name}.csv").write_text(by_level(team))
+        asked = ["lineup", *(str(tmp_path / f"{name}.csv") for name in names), "--chart", chart]
+        asked += ["--count", "points", "--cap", "15", "--at-most", "1:6", "--json"]
+        told = json.loads(CliRunner().invoke(program, asked).stdout)
+        assert offered(night.captains[0].open("/team")) == asked_for(told)
+        night.put(0, "Ann")
+        night.put(1, "Wim")
+        assert f"race {race}" in night.captains[0].open("/team").words
+        for side in (0, 1):
+            night.say(side, 1, score)
+        assert brought in night.guest.open("/team").words
+    with running(tmp_path / "other.db") as site:
+        lists["players_b"] = "player,level\nUli,6\nVic,\nWim,4"
+        shown = Phone(site, director=True).send("/team/new", **fields(**lists, races=chart))
+        assert "Vic has no skill level" in shown.words
+
+
 PAGES = ("/team", "/screen", "/", "/desk", "/team/history", "/team/new")
 
 

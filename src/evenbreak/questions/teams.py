@@ -23,13 +23,14 @@ from evenbreak.questions.common import (
     EvenRace,
     HandicappedRace,
     Jobs,
+    LevelResults,
     ScaleOf,
     Seed,
     Starters,
     Sure,
 )
 from evenbreak.questions.tables import TablePoints, Ties
-from evenbreak.teams.evening.events import COUNTS
+from evenbreak.teams.set_laws import COUNTS
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import say
 
@@ -44,6 +45,15 @@ ORDERS = {
     "sealed": say("Sealed: both line-ups before the match starts"),
 }
 """Who names first, by a name of the order, with its words."""
+
+
+USUAL_SETS = 5
+"""The sets of a night under a cap, as in APA leagues."""
+
+
+def usual_sets(most: int, cap: float | None) -> int:
+    """Return how many sets a night has if nobody says it, where both teams can fill so many."""
+    return min(most, MOST_SETS if cap is None else USUAL_SETS)
 
 
 def sets_in(text: str) -> tuple[int, ...]:
@@ -103,8 +113,17 @@ class OfTeams(Starters):
 
     race: EvenRace = None
     race_to: HandicappedRace = None
-    chart: ChartOfRaces = None
+    chart: Annotated[
+        ChartOfRaces,
+        Says(
+            "Races by this chart instead: of rating differences, or of skill levels.",
+            more="With a chart of skill levels, such as apa_8ball or apa_9ball, the lists need a "
+            "column `level`; the chances come from their ratings if all have them, else from the "
+            "levels.",
+        ),
+    ] = None
     scale: ScaleOf = None
+    results: LevelResults = None
 
     def check(self) -> None:
         """Refuse races that are missing, or given twice."""
@@ -144,20 +163,38 @@ class Capped(Question):
             ),
         ),
     ] = None
+    count: Annotated[
+        str,
+        Field(
+            Choice(COUNTS),
+            "What decides the match: sets won, all games won, or match points as in APA 8-ball "
+            "(3-0 for a shutout, 2-1 hill-hill, else 2-0) and 9-ball (20 shared by points made).",
+            label=say("What decides the night"),
+            titles={
+                "sets": say("Sets won"),
+                "games": say("All games won"),
+                "points": say(
+                    "Match points: 3-0 for a shutout, 2-1 hill-hill, else 2-0; in APA 9-ball 20 "
+                    "shared"
+                ),
+            },
+            section=_RULES,
+        ),
+    ] = "sets"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Lineup(OfTeams, Capped):
     """Find who to put up in a team match, and what each choice is worth.
 
-    Each file has the columns player and rating, and for caps a column level. Both captains are
+    Each file has the columns player and rating, or level; caps count the levels. Both captains are
     taken to choose as well as they can. After each nomination, ask again with {used}, {score} and
     {named}.
     """
 
     examples = """\
   evenbreak lineup ours.csv theirs.csv --scale fargo --race 5 --sets 5 --order ABABA
-  evenbreak lineup ours.csv theirs.csv --race 5 --cap 23 --at-most 2:6
+  evenbreak lineup ours.csv theirs.csv --chart apa_8ball --cap 23 --at-most 2:6 --count points
   evenbreak lineup ours.csv theirs.csv --race 5 --used "Ann,Xi" --score 1:0 --named Yu
   evenbreak lineup ours.csv theirs.csv --race 5 --playing "Ann v Xi 3:2" --named Bo
 """
@@ -166,8 +203,8 @@ class Lineup(OfTeams, Capped):
     sets: Annotated[
         Sets,
         Says(
-            usual="as many as the smaller team can fill",
-            label=say("Sets (blank: one per player of the smaller team)"),
+            usual="as many as the smaller team can fill, and 5 at most under a cap",
+            label=say("Sets (blank: one per player of the smaller team; under a cap at most 5)"),
         ),
     ] = None
     used: Annotated[
@@ -199,21 +236,6 @@ class Lineup(OfTeams, Capped):
             section=_SO_FAR,
         ),
     ] = ()
-    count: Annotated[
-        str,
-        Field(
-            Choice(COUNTS),
-            "What decides the match: sets won, all games won, or points as in APA 8-ball (3:0 for "
-            "a shutout, 2:1 hill-hill, else 2:0).",
-            label=say("What decides the night"),
-            titles={
-                "sets": say("Sets won"),
-                "games": say("All games won"),
-                "points": say("Points: 3-0 for a shutout, 2-1 hill-hill, else 2-0"),
-            },
-            section=_RULES,
-        ),
-    ] = "sets"
     last: Annotated[
         str | None,
         Field(

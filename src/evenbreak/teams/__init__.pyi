@@ -7,6 +7,8 @@ from .matrix_games import MatrixGame as MatrixGame
 from .matrix_games import matrix_game as matrix_game
 from .night import TeamNight as TeamNight
 from .night import order_of as order_of
+from .pairs import Pairs as Pairs
+from .pairs import pairs_of as pairs_of
 from .round_law import Outcome as Outcome
 from .round_law import RoundLaw as RoundLaw
 from .round_law import round_law as round_law
@@ -23,8 +25,11 @@ from .season.season import TeamSeason as TeamSeason
 from .season.season import circle as circle
 from .season.season import still_to_play as still_to_play
 from .set_laws import Points as Points
+from .set_laws import Shares as Shares
+from .set_laws import count_by as count_by
 from .set_laws import law_in_play as law_in_play
 from .set_laws import set_laws as set_laws
+from .set_laws import set_lengths as set_lengths
 from .solve import SolvedNight as SolvedNight
 from .solve import against_all as against_all
 from .solve import first_edges as first_edges

@@ -9,11 +9,12 @@ from functools import cached_property
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.teams.night import TeamNight, mirrored, order_of
-from evenbreak.teams.set_laws import Count, law_in_play, rating_differences, set_laws, set_lengths
+from evenbreak.teams.pairs import SetRace, pairs_of
+from evenbreak.teams.set_laws import Count, law_in_play, set_laws, set_lengths
 from evenbreak.teams.squad import Squad
 
 SEALED = "sealed"
@@ -42,17 +43,20 @@ class Meeting:
         what decides the night.
     form
         how much the log-odds of a game vary from set to set (standard deviation).
+    levels
+        how strong skill levels are, if the chances come from those in place of ratings.
     """
 
     ours: Roster
     theirs: Roster
     squads: tuple[Squad, Squad]
-    race: Race
+    race: SetRace
     scale: Scale
     sizes: tuple[int, ...]
     order: str
     count: Count = "sets"
     form: float = 0.0
+    levels: LevelSkills | None = None
 
     def night(self, order: str | None = None) -> TeamNight:
         """Return the night as a game, in another order if one is given."""
@@ -76,6 +80,7 @@ class Meeting:
                 size=size,
                 skills=(skills[0], skills[1]) if skills else None,
                 form=self.form,
+                levels=self.levels,
             )
             for size in set(self.sizes)
         }
@@ -86,18 +91,23 @@ class Meeting:
         """How many games each set takes, by pick; see `set_lengths`."""
         made = {
             size: set_lengths(
-                self.ours, self.theirs, self.race, scale=self.scale, size=size, form=self.form
+                self.ours,
+                self.theirs,
+                self.race,
+                scale=self.scale,
+                size=size,
+                form=self.form,
+                levels=self.levels,
             )
             for size in set(self.sizes)
         }
         return tuple(made[size] for size in self.sizes)
 
     def needs(self, ours: Sequence[str], theirs: Sequence[str]) -> tuple[int, int]:
-        """Return the games that our pick and theirs need in a set against each other."""
+        """Return the games (or points) that our pick and theirs need against each other."""
         mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
-        points, _ = rating_differences(mine, others, len(mine))
-        first, second = games_needed(points, self.race, self.scale)
-        return int(first[0, 0]), int(second[0, 0])
+        found = pairs_of(mine, others, self.race, self.scale, size=len(mine), levels=self.levels)
+        return int(found.needs_1[0, 0]), int(found.needs_2[0, 0])
 
     def law_in_play(
         self, ours: Sequence[str], theirs: Sequence[str], score: tuple[int, int] = (0, 0)
@@ -105,7 +115,14 @@ class Meeting:
         """Return what a set between two picks can bring from a score on; see `law_in_play`."""
         mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
         return law_in_play(
-            mine, others, self.race, score, scale=self.scale, count=self.count, form=self.form
+            mine,
+            others,
+            self.race,
+            score,
+            scale=self.scale,
+            count=self.count,
+            form=self.form,
+            levels=self.levels,
         )
 
     def mirrored(self) -> Meeting:
@@ -128,9 +145,13 @@ class Meeting:
     @property
     def uncertain(self) -> bool:
         """Whether a rating has a standard error."""
-        return any(np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs))
+        return self.levels is None and any(
+            np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs)
+        )
 
 
 def _some(roster: Roster, names: Sequence[str]) -> Roster:
     places = [roster.position(name) for name in names]
-    return Roster(names, roster.rating[places], roster.standard_error[places])
+    return Roster(
+        names, roster.rating[places], roster.standard_error[places], level=roster.level[places]
+    )

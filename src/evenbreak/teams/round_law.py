@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.stats import binom
@@ -21,10 +21,11 @@ from evenbreak.arrays import Floats, array_values
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.gap import Gap, averaging_rule
-from evenbreak.handicaps.charts.race_of_pair import Race
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.teams.set_laws import rating_differences, set_laws
+from evenbreak.teams.pairs import SetRace, pairs_of
+from evenbreak.teams.set_laws import set_laws
 
 _ALIKE = 1e-12  # chances that differ by less are equal
 _DRAWS = 512  # of the skills, where everybody meets everybody; they leave an error of about .001
@@ -100,10 +101,11 @@ def round_law(
     theirs: Roster,
     *,
     games: int | None = None,
-    race: Race | None = None,
+    race: SetRace | None = None,
     everybody: bool = False,
     scale: Scale | str | float = "fargo",
     form: float = 0.0,
+    levels: LevelSkills | None = None,
 ) -> RoundLaw:
     """Return the law of our lead in games at the end of a round.
 
@@ -120,6 +122,8 @@ def round_law(
         the scale of the ratings.
     form
         how much the log-odds of a game vary from match to match (standard deviation).
+    levels
+        how strong skill levels are, if the chances come from those.
 
     Raises
     ------
@@ -148,18 +152,17 @@ def round_law(
 
     def law(skills: tuple[Floats, Floats] | None) -> Floats:
         if race is None:
-            laws = _single_games(ours, theirs, int(games or 1), scale, skills, form)
+            laws = _single_games(ours, theirs, int(games or 1), scale, skills, form, levels)
         else:
-            found = set_laws(
-                ours, theirs, race, scale=scale, count="games", skills=skills, form=form
-            )
+            asked: Any = {"scale": scale, "skills": skills, "form": form, "levels": levels}
+            found = set_laws(ours, theirs, race, count="games", **asked)
             laws = found.sum(axis=2)
         lead = np.ones(1)
         for pair in met:
             lead = np.convolve(lead, laws[pair])
         return lead
 
-    if not (everybody and errors.any()):
+    if levels is not None or not (everybody and errors.any()):
         return RoundLaw(law(None))
     ratings = np.concatenate([ours.rating, theirs.rating])
     drawn = MultivariateNormalQMC(ratings, np.diag(errors**2), rng=0).random(_DRAWS)
@@ -174,9 +177,11 @@ def _single_games(
     scale: Scale,
     skills: tuple[Floats, Floats] | None,
     form: float,
+    levels: LevelSkills | None,
 ) -> Floats:
     """Return the law of the lead after single games: shape (ours, theirs, 2 games + 1)."""
-    points, errors = rating_differences(ours, theirs)
+    pairs = pairs_of(ours, theirs, 1, scale, levels=levels)
+    points, errors = pairs.points, pairs.errors
     if skills is not None:
         points, errors = skills[0][:, None] - skills[1], np.zeros(points.shape)
     points, errors = Gap(points, errors, scale, form).normal

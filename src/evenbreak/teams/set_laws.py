@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -15,10 +14,16 @@ from evenbreak.checks import floats, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.gap import Gap, averaging_rule
-from evenbreak.handicaps.charts.race_of_pair import Race, games_needed
+from evenbreak.handicaps.charts.level_chart import PointsChart, points_chart
+from evenbreak.handicaps.charts.level_skills import LevelSkills
+from evenbreak.handicaps.charts.points_odds import MATCH_POINTS, loser_share
 from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
+from evenbreak.teams.pairs import Pairs, SetRace, by_points, of_picks, pairs_of
+
+POINTS_OF_A_RACK = 10
+"""The points of a rack by a chart of points such as that of APA 9-ball."""
 
 
 @dataclass(frozen=True)
@@ -54,20 +59,54 @@ class Points:
             )
 
 
-Count: TypeAlias = Literal["sets", "games"] | Points
-"""What decides the night: sets won, all games won, or points."""
+@dataclass(frozen=True)
+class Shares:
+    """The 20 match points that the two players of an APA 9-ball match share; see `loser_share`."""
+
+
+Count: TypeAlias = Literal["sets", "games"] | Points | Shares
+"""What decides the night: sets won, all games won, or match points."""
+
+
+COUNTS = ("sets", "games", "points")
+"""What may decide a night, by name."""
+
+
+def count_by(text: str, race: SetRace) -> Count:
+    """Return what decides a night: 'sets', 'games' or 'points', the match points of what is played.
+
+    Raises
+    ------
+    InputError
+        if it is none of them, or the chart is one of points whose match points are not known.
+
+    >>> count_by("points", 5), count_by("points", points_chart("apa_9ball"))
+    (Points(win=2, shutout=1, hill=1), Shares())
+    """
+    if one_of(text, "count", COUNTS) != "points":
+        return text  # type: ignore[return-value]
+    if not isinstance(race, PointsChart):
+        return Points()
+    own = points_chart("apa_9ball")
+    if (race.levels, race.points) != (own.levels, own.points):
+        raise InputError(
+            "how match points are shared is only known for apa_9ball; count sets with {chart}",
+            chart=race.name,
+        )
+    return Shares()
 
 
 def set_laws(
     ours: Roster,
     theirs: Roster,
-    race: Race,
+    race: SetRace,
     *,
     scale: Scale | str | float = "fargo",
     count: Count = "sets",
     size: int = 1,
     skills: tuple[ArrayLike, ArrayLike] | None = None,
     form: float = 0.0,
+    levels: LevelSkills | None = None,
 ) -> Floats:
     """Return what each of our picks can bring against each of theirs.
 
@@ -77,7 +116,8 @@ def set_laws(
         the squads with their ratings. Where they state standard errors, chances are averaged
         over how far the ratings may be off.
     race
-        what is played: an even race to so many games, a `Chart`, or the `Fairest` of a length.
+        what is played: an even race to so many games, a `Chart`, the `Fairest` of a length, a
+        `LevelChart` or a `PointsChart`.
     scale
         the scale of the ratings.
     count
@@ -88,6 +128,9 @@ def set_laws(
         how our players and theirs really play, where it is not as their ratings say.
     form
         how much the log-odds of a game vary from set to set (standard deviation).
+    levels
+        how strong skill levels are, if the chances come from those in place of ratings; the scale
+        is then Fargo's. By a chart of points they always come from the levels.
 
     Returns
     -------
@@ -110,19 +153,16 @@ def set_laws(
            [0.261, 0.415]])
     """
     one_of(size, "size", (1, 2))
-    if not isinstance(count, Points):
-        one_of(count, "count", ("sets", "games"))
-    points, errors = rating_differences(ours, theirs, size)
+    _check_count(count, race)
     scale = scale_of(scale)
-    needs_1, needs_2 = games_needed(points, race, scale)
+    pairs = pairs_of(ours, theirs, race, scale, size=size, levels=levels)
     if skills is not None:
         mine, others = (floats(each, "skills") for each in skills)
-        points = _of_picks(mine, size)[:, None] - _of_picks(others, size)
-        errors = np.zeros(points.shape)
-    points, errors = Gap(points, errors, scale, form).normal
-    reach = _reach(needs_1, needs_2, count)
-    law = np.zeros((*points.shape, 2, 2 * reach + 1))
-    for i, j, m, n, endings in _endings(points, errors, needs_1, needs_2, scale):
+        points = of_picks(mine, size)[:, None] - of_picks(others, size)
+        pairs = replace(pairs, points=points, errors=np.zeros(points.shape))
+    reach = _reach(pairs, count)
+    law = np.zeros((*pairs.points.shape, 2, 2 * reach + 1))
+    for i, j, m, n, endings in _endings(pairs, race, scale, form):
         for who, ends in enumerate(endings):
             for length, margin in _margins(m, n, who, count):
                 law[i, j, who, reach + margin] += ends[length]
@@ -132,18 +172,19 @@ def set_laws(
 def set_lengths(
     ours: Roster,
     theirs: Roster,
-    race: Race,
+    race: SetRace,
     *,
     scale: Scale | str | float = "fargo",
     size: int = 1,
     form: float = 0.0,
+    levels: LevelSkills | None = None,
 ) -> Floats:
     """Return how many games a set takes, for each of our picks against each of theirs.
 
     Parameters
     ----------
-    ours, theirs, race, scale, size, form
-        as for `set_laws`.
+    ours, theirs, race, scale, size, form, levels
+        as for `set_laws`. By a chart of points, ten points are a game.
 
     Returns
     -------
@@ -153,36 +194,58 @@ def set_lengths(
     >>> set_lengths(Roster(["Ann"], [600]), Roster(["Cy"], [600]), 2).tolist()
     [[[0.0, 0.0, 0.5, 0.5]]]
     """
-    points, errors = rating_differences(ours, theirs, size)
     scale = scale_of(scale)
-    needs_1, needs_2 = games_needed(points, race, scale)
-    points, errors = Gap(points, errors, scale, form).normal
-    chance = np.zeros((*points.shape, int((needs_1 + needs_2).max())))
-    for i, j, m, n, (won, lost) in _endings(points, errors, needs_1, needs_2, scale):
+    pairs = pairs_of(ours, theirs, race, scale, size=size, levels=levels)
+    chance = np.zeros((*pairs.points.shape, int((pairs.needs_1 + pairs.needs_2).max())))
+    for i, j, m, n, (won, lost) in _endings(pairs, race, scale, form):
         chance[i, j, : m + n] = (won + lost)[: m + n].T
-    return chance
+    if not isinstance(race, PointsChart):
+        return chance
+    games = -(-np.arange(chance.shape[2]) // POINTS_OF_A_RACK)
+    return np.stack([chance[..., games == k].sum(axis=2) for k in range(games[-1] + 1)], axis=2)
 
 
 def _endings(
-    points: Floats, errors: Floats, needs_1: Ints, needs_2: Ints, scale: Scale
+    pairs: Pairs, race: SetRace, scale: Scale, form: float
 ) -> Iterator[tuple[Ints, Ints, int, int, list[Floats]]]:
-    """Yield the pairs that play each race, and P(it is won, or lost, in k games) of each."""
-    for m, n in set(zip(needs_1.ravel().tolist(), needs_2.ravel().tolist(), strict=True)):
-        i, j = np.nonzero((needs_1 == m) & (needs_2 == n))
+    """Yield the pairs that need the same, and P(they win, or lose, in k games) of each.
+
+    By a chart of points, k is the points of both together.
+    """
+    points, errors = Gap(pairs.points, pairs.errors, scale, form).normal
+    needs = zip(pairs.needs_1.ravel().tolist(), pairs.needs_2.ravel().tolist(), strict=True)
+    for m, n in sorted(set(needs)):
+        i, j = np.nonzero((pairs.needs_1 == m) & (pairs.needs_2 == n))
+        if isinstance(race, PointsChart):
+            yield i, j, m, n, [ends[:, None] for ends in _points_endings(race, (m, n))]
+            continue
         nodes, weights = averaging_rule(float(errors[i, j].max()), m + n, scale)
         p = scale.win_probability(points[i, j] + nodes[:, None] * errors[i, j])
         yield i, j, m, n, [weights @ ends for ends in race_endings(m, n, Rack(p), None, 1)]
 
 
+def _points_endings(
+    chart: PointsChart, needs: tuple[int, int], score: tuple[int, int] = (0, 0)
+) -> list[Floats]:
+    """Return P(we win, or lose, with k points of both together)."""
+    odds = by_points(chart, needs, score)
+    ends = []
+    for need, law in zip(needs, (odds.lost_2, odds.lost_1), strict=True):
+        ends.append(np.zeros(sum(needs)))
+        ends[-1][need : need + len(law)] = law
+    return ends
+
+
 def law_in_play(
     ours: Roster,
     theirs: Roster,
-    race: Race,
+    race: SetRace,
     score: tuple[int, int],
     *,
     scale: Scale | str | float = "fargo",
     count: Count = "sets",
     form: float = 0.0,
+    levels: LevelSkills | None = None,
 ) -> Floats:
     """Return what a match that is being played can bring, from its score on.
 
@@ -190,10 +253,10 @@ def law_in_play(
     ----------
     ours, theirs
         who plays it: one player, or two for doubles, with their ratings.
-    race, scale, count, form
+    race, scale, count, form, levels
         as for `set_laws`.
     score
-        the games that we and they have won.
+        the games that we and they have won, or the points made.
 
     Returns
     -------
@@ -213,25 +276,30 @@ def law_in_play(
     >>> law.sum(axis=1).round(3)
     array([0.324, 0.676])
     """
-    points, errors = rating_differences(ours, theirs, len(ours))
     scale = scale_of(scale)
-    m, n = (int(needs[0, 0]) for needs in games_needed(points, race, scale))
+    pairs = pairs_of(ours, theirs, race, scale, size=len(ours), levels=levels)
+    m, n = int(pairs.needs_1[0, 0]), int(pairs.needs_2[0, 0])
     a, b = (whole(games, "score") for games in score)
     if a >= m or b >= n:
         raise InputError(
             "{a}:{b} ends a race {m}:{n}; enter the score of a match in play", a=a, b=b, m=m, n=n
         )
-    points, errors = Gap(points, errors, scale, form).normal
-    nodes, weights = averaging_rule(float(errors[0, 0]), m + n, scale)
-    p = scale.win_probability(points[0, 0] + nodes * errors[0, 0])
-    weights = weights * p**a * (1.0 - p) ** b
-    weights /= weights.sum()
-    reach = _reach(np.array(m), np.array(n), count)
+    if isinstance(race, PointsChart):
+        ends = _points_endings(race, (m, n), (a, b))
+    else:
+        points, errors = Gap(pairs.points, pairs.errors, scale, form).normal
+        nodes, weights = averaging_rule(float(errors[0, 0]), m + n, scale)
+        p = scale.win_probability(points[0, 0] + nodes * errors[0, 0])
+        weights = weights * p**a * (1.0 - p) ** b
+        weights /= weights.sum()
+        left = race_endings(m - a, n - b, Rack(p), None, 1)
+        ends = [np.pad(each @ weights, (a + b, 0)) for each in left]
+    reach = _reach(pairs, count)
     law = np.zeros((2, 2 * reach + 1))
-    for who, ends in enumerate(race_endings(m - a, n - b, Rack(p), None, 1)):
+    for who, each in enumerate(ends):
         for length, margin in _margins(m, n, who, count):
-            if 0 < length - a - b < len(ends):
-                law[who, reach + margin] += ends[length - a - b] @ weights
+            if a + b < length < len(each):
+                law[who, reach + margin] += each[length]
     return law
 
 
@@ -241,7 +309,7 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
     Parameters
     ----------
     needs, score
-        the games that both needed, and won.
+        the games that both needed, and won; or points, by a chart of points.
     count
         what decides the night.
 
@@ -264,6 +332,10 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
     if count == "sets":
         return int(won), int(not won)
     lost, other = (b, n) if won else (a, m)
+    if isinstance(count, Shares):
+        chart = points_chart("apa_9ball")
+        share = loser_share(chart.levels[chart.points.index(other)], lost)
+        return (MATCH_POINTS - share, share) if won else (share, MATCH_POINTS - share)
     points = (
         count.win + (count.shutout if lost == 0 else 0),
         count.hill if lost == other - 1 and lost > 0 else 0,
@@ -283,30 +355,23 @@ def _margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]
         yield needs + lost, sign * (ours - theirs)
 
 
-def _reach(needs_1: Ints, needs_2: Ints, count: Count) -> int:
+def _reach(pairs: Pairs, count: Count) -> int:
     if count == "sets":
         return 1
     if count == "games":
-        return int(max(needs_1.max(), needs_2.max()))
-    return count.win + count.shutout
+        return int(max(pairs.needs_1.max(), pairs.needs_2.max()))
+    return MATCH_POINTS if isinstance(count, Shares) else count.win + count.shutout
 
 
-def rating_differences(ours: Roster, theirs: Roster, size: int = 1) -> tuple[Floats, Floats]:
-    """Return the rating difference of every two picks, and its standard error."""
-    sides = []
-    for roster in (ours, theirs):
-        if np.isnan(roster.rating).any():
-            name = roster.players[int(np.isnan(roster.rating).argmax())]
-            raise InputError(
-                "{player!r} has no rating; add one, or leave the player out", player=name
-            )
-        variance = np.nan_to_num(roster.standard_error) ** 2
-        sides.append((_of_picks(roster.rating, size), _of_picks(variance, size) / size))
-    (mine, mine_off), (others, others_off) = sides
-    return mine[:, None] - others, np.sqrt(mine_off[:, None] + others_off)
-
-
-def _of_picks(values: Floats, size: int) -> Floats:
-    """Return the mean of each pick of `size` players."""
-    picks = np.array(list(itertools.combinations(range(len(values)), size)), dtype=np.int64)
-    return np.asarray(values[picks.reshape(-1, size)].mean(axis=1))
+def _check_count(count: Count, race: SetRace) -> None:
+    """Refuse what does not count a set of this kind."""
+    if isinstance(count, Points | Shares):
+        if isinstance(count, Shares) != isinstance(race, PointsChart):
+            raise InputError("these match points are not those of the chart; see `count_by`")
+        return
+    one_of(count, "count", ("sets", "games"))
+    if count == "games" and isinstance(race, PointsChart):
+        raise InputError(
+            "by the chart {chart} players make points, not games; count sets or points",
+            chart=race.name,
+        )

@@ -12,6 +12,7 @@ import numpy as np
 from evenbreak.answers.kit.scales import league_doubts
 from evenbreak.answers.kit.wording import some_of
 from evenbreak.answers.league.prior import starters_words
+from evenbreak.answers.team.strengths import lists_by_level
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
 from evenbreak.files.league.values import MOST_SETS
@@ -19,7 +20,14 @@ from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.handicaps.charts.chart import CHARTS
-from evenbreak.questions.teams import ORDERS, Lineup, OnTables
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    level_chart,
+    points_chart,
+)
+from evenbreak.handicaps.charts.level_skills import FARGO
+from evenbreak.questions.teams import ORDERS, Lineup, OnTables, usual_sets
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
 from evenbreak.teams.evening.events import NightPlan, TeamSheet
@@ -44,6 +52,9 @@ FIELDS = fields_named(
 )
 """What the form asks as `evenbreak lineup` does."""
 
+EVERY_CHART = {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}
+"""The charts that races may come from, with their titles."""
+
 TIMES = fields_named(OnTables, "discipline", "tables")
 """What it asks to say when the night ends."""
 
@@ -65,19 +76,23 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         if not content.strip():
             raise RefusalError("Enter at least one player.")
         lists.append(_read(content, name))
-    scale = _scale(form, lists, league)
-    lists = [_with_league(one, scale, league) for one in lists]
+    races = form.one_of("races", (*RACES, *EVERY_CHART))
+    lists, by_level = _by_level(races, lists)
+    if by_level:
+        scale = FARGO
+    else:
+        scale = _scale(form, lists, league)
+        lists = [_with_league(one, scale, league) for one in lists]
     rules = {one.name: value_of(one, form) for one in FIELDS if one.name != "order"}
     sheets = [_sheet(name, one, scale, rules) for name, one in zip(names, lists, strict=True)]
     fewest = min(len(sheet.players) for sheet in sheets) * rules["times"]
-    races = form.one_of("races", (*RACES, *CHARTS))
     race: Any = declaration(Lineup, "race").kind
     plan = NightPlan(
         (sheets[0], sheets[1]),
-        rules["sets"] or min(fewest, MOST_SETS),
-        race=0 if races in CHARTS else form.whole("race", race.low, race.high),
+        rules["sets"] or usual_sets(fewest, rules["cap"]),
+        race=0 if races in EVERY_CHART else form.whole("race", race.low, race.high),
         handicapped=races == FAIR,
-        chart=races if races in CHARTS else "",
+        chart=races if races in EVERY_CHART else "",
         order=form.text("pattern", longest=MOST_SETS) or form.one_of("order", tuple(ORDERS)),
         count=rules["count"],
         doubles=rules["doubles"],
@@ -86,6 +101,7 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         times=rules["times"],
         scale=scale.text,
         match_form=form_of_lists(one.file.form for one in lists),
+        by_level=by_level,
         **{one.name: value_of(one, form) for one in TIMES},
     )
     warnings = [
@@ -100,8 +116,25 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
-    doubts = league_doubts(scale, rated, say("is it the right scale?"))
+    doubts = [] if by_level else league_doubts(scale, rated, say("is it the right scale?"))
     return plan, [*dict.fromkeys(warnings), *doubts]
+
+
+def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool]:
+    """Return the lists with the levels that a chart reads, and whether chances come from those."""
+    if races not in LEVEL_CHARTS and races not in POINTS_CHARTS:
+        return lists, False
+    chart = level_chart(races) if races in LEVEL_CHARTS else points_chart(races)
+    files, levels = lists_by_level([one.file for one in lists], chart)
+    for file in files:
+        without = np.isnan(file.roster.level)
+        if without.any():
+            raise RefusalError(
+                "{name} has no skill level, and the chart needs one for every player.",
+                name=file.roster.players[int(without.argmax())],
+            )
+    found = [TeamList(file, file.roster.level) for file in files]
+    return found, levels is not None or races in POINTS_CHARTS
 
 
 def _read(content: bytes, name: str) -> TeamList:
@@ -134,8 +167,8 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
         return scale_of(points)
     if any(one.file.levels for one in lists):
         raise RefusalError(
-            "The lists have skill levels instead of ratings. Under More, enter how many "
-            "levels double the odds."
+            "The lists have skill levels instead of ratings. Choose a chart of skill levels, or "
+            "under More enter how many levels double the odds."
         )
     stated = [one.file.scale for one in lists if one.file.scale is not None]
     if any(not stated[0].same_points(other) for other in stated[1:]):

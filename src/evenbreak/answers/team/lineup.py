@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,12 +12,15 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import error_of_share, luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
-from evenbreak.answers.kit.scales import form_used_words, scale_words
+from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import percent
-from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
+from evenbreak.answers.team.strengths import level_words, strengths_words
+from evenbreak.handicaps.charts.level_chart import PointsChart
+from evenbreak.handicaps.charts.race_of_pair import Fairest
 from evenbreak.teams.advice import Advice, Option, Point, advice, best_by_skills
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import NAMED, OURS, THEIRS, mirrored, order_of
+from evenbreak.teams.pairs import SetRace
 from evenbreak.teams.sealed import SealedLineUp, SealedNight, sealed
 from evenbreak.teams.solve import SolvedNight, solved, steps_of
 from evenbreak.words import Sentence, joined, listed, say, say_count
@@ -94,7 +98,9 @@ def lineup_answer(
     else:
         details = []
     form = form_used_words(meeting.form, meeting.scale)
-    parts += filter(None, [form, _sure_words(found, sure, draws)])
+    barred = _barred_words(meeting, point, found) if found.ours else None
+    rests_on = level_words(meeting.race, meeting.levels)
+    parts += filter(None, [barred, form, rests_on, _sure_words(found, sure, draws)])
     return Answer(
         _heading(meeting, found),
         parts,
@@ -124,13 +130,28 @@ def names_words(names: Sequence[str]) -> Sentence:
 def _heading(meeting: Meeting, found: Advice) -> str:
     ours, theirs = len(meeting.ours), len(meeting.theirs)
     return say(
-        "Set {n} of {sets}: {ours} players against {theirs}, {races}\nRatings {scale}",
+        "Set {n} of {sets}: {ours} players against {theirs}, {races}\n{strengths}",
         n=found.set_number,
         sets=len(meeting.sizes),
         ours=ours,
         theirs=theirs,
         races=race_words(meeting.race),
-        scale=scale_words(meeting.scale),
+        strengths=strengths_words(meeting.race, meeting.levels, meeting.scale),
+    )
+
+
+def _barred_words(meeting: Meeting, point: Point | None, found: Advice) -> Sentence | None:
+    """Return who could still play, but is kept out now by the caps on the sets to come."""
+    squad = meeting.squads[0]
+    used = Counter(() if point is None else point.used_ours)
+    able = {name for option in found.options for name in option.names}
+    barred = [name for name in squad.names if name not in able and used[name] < squad.times]
+    if not barred or not squad.caps:
+        return None
+    return say(
+        "{players} can't be put up now: the sets after it could no longer be filled within the "
+        "limit.",
+        players=listed(barred),
     )
 
 
@@ -345,18 +366,19 @@ def sealed_answer(
     table = Table("options", columns, rows)
     return Answer(
         say(
-            "Sealed line-ups of {sets}: {ours} players against {theirs}, {races}\nRatings {scale}",
+            "Sealed line-ups of {sets}: {ours} players against {theirs}, {races}\n{strengths}",
             sets=say_count("{n} set", "{n} sets", len(meeting.sizes)),
             ours=len(meeting.ours),
             theirs=len(meeting.theirs),
             races=race_words(meeting.race),
-            scale=scale_words(meeting.scale),
+            strengths=strengths_words(meeting.race, meeting.levels, meeting.scale),
         ),
         [
             words,
             Quantities(quantities_of({"-p_win_night": found.worth, "best": _best(found.ours)})),
             table,
             joined(notes),
+            *filter(None, [level_words(meeting.race, meeting.levels)]),
         ],
         data={"toss": None, "blind": True, "ours": True, "set": 1},
         warnings=warnings,
@@ -368,7 +390,7 @@ def _best(line_ups: Sequence[SealedLineUp]) -> str:
     return ", ".join(line_ups[0].names)
 
 
-def race_words(race: Race) -> Sentence:
+def race_words(race: SetRace) -> Sentence:
     """Return what is played in a set.
 
     >>> race_words(5), race_words(Fairest(7))
@@ -378,4 +400,6 @@ def race_words(race: Race) -> Sentence:
         return say("the fairest races to {n}", n=race.race_to)
     if isinstance(race, int):
         return say("races to {n}", n=race)
+    if isinstance(race, PointsChart):
+        return say("points by {chart}", chart=race.name)
     return say("races by {chart}", chart=race.name)

@@ -15,15 +15,17 @@ from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.team.lineup import race_words
+from evenbreak.answers.team.strengths import level_words, strengths_words
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.race_of_pair import Race
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.handicaps.systems.team_handicap import team_handicap
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.teams.night import BOTH, NAMED, order_of
+from evenbreak.teams.pairs import SetRace
 from evenbreak.teams.round_law import Outcome, RoundLaw, known_starts
-from evenbreak.teams.set_laws import set_laws
+from evenbreak.teams.set_laws import Count, set_laws
 from evenbreak.teams.solve import against_all, first_edges, league_nights
 from evenbreak.teams.squad import Squad, line_ups
 
@@ -34,6 +36,8 @@ def team_round_answer(
     *,
     played: str,
     scale: Scale,
+    strengths: str = "",
+    rests_on: str | None = None,
     games: int | None = None,
     everybody: bool = False,
     names: tuple[str, str] = ("team 1", "team 2"),
@@ -51,6 +55,10 @@ def team_round_answer(
         what is played, in words.
     scale
         of the ratings.
+    strengths
+        what says how strong the players are; '': the ratings on this scale.
+    rests_on
+        what the chances rest on, if that is not the ratings.
     games
         the games of each match, if it is single games; then CSI's way is compared.
     everybody
@@ -101,8 +109,13 @@ there are no ties.
     )
     return Answer(
         f"{count_of(len(teams[0]), 'player')} against {len(teams[1])}, {played}\n"
-        f"Ratings {scale_words(scale)}",
-        [*parts, Quantities(data), Table("starts", columns, rows, title="What a head start does")],
+        f"{strengths or f'Ratings {scale_words(scale)}'}",
+        [
+            *parts,
+            Quantities(data),
+            Table("starts", columns, rows, title="What a head start does"),
+            *filter(None, [rests_on]),
+        ],
         warnings=warnings,
     )
 
@@ -177,16 +190,22 @@ class LeagueRules:
         how many sets a night has, and who names first.
     form
         of the day, by the list.
+    skills
+        how strong skill levels are, if the chances come from those.
+    count
+        what decides a night.
     """
 
     rosters: Mapping[str, Roster]
     squads: Mapping[str, Squad]
     levels: Mapping[str, Floats]
-    race: Race
+    race: SetRace
     scale: Scale
     sets: int
     order: str
     form: float = 0.0
+    skills: LevelSkills | None = None
+    count: Count = "sets"
 
     @property
     def capped(self) -> bool:
@@ -205,7 +224,15 @@ class LeagueRules:
 
         @cache
         def law(i: int, j: int) -> Floats:
-            return set_laws(rosters[i], rosters[j], self.race, scale=self.scale, form=self.form)
+            return set_laws(
+                rosters[i],
+                rosters[j],
+                self.race,
+                scale=self.scale,
+                count=self.count,
+                form=self.form,
+                levels=self.skills,
+            )
 
         return law
 
@@ -255,11 +282,12 @@ two teams of yours at most 0.9.
         table = _teams_table(rules, against_all(nights), against_all(free))
     else:
         table = _teams_table(rules, against_all(nights), None)
-    parts += [_quantities(nights), table, _orders_table(rules, nights)]
+    rests_on = level_words(rules.race, rules.skills)
+    parts += [_quantities(nights), table, _orders_table(rules, nights), *filter(None, [rests_on])]
     heading = (
         f"{count_of(len(teams), 'team')}{f' in {source}' if source else ''}, "
-        f"{count_of(rules.sets, 'set')} a night, {race_words(rules.race)}\nRatings "
-        f"{scale_words(rules.scale)}"
+        f"{count_of(rules.sets, 'set')} a night, {race_words(rules.race)}\n"
+        f"{strengths_words(rules.race, rules.skills, rules.scale)}"
     )
     return Answer(heading, parts, warnings=warnings, csv=table)
 

@@ -5,21 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak import files, handicaps, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import (
-    chart_by_difference,
-    refuse_levels,
-    refuse_other_scale,
-    with_starters,
-)
+from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, with_starters
+from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import form_of_lists
+from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale
 from evenbreak.words import Parameter
@@ -38,10 +35,12 @@ def round_(asked: Round) -> Answer:
     from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import race_words
     from evenbreak.answers.team.round import team_round_answer
+    from evenbreak.answers.team.strengths import level_words, strengths_words
 
-    lists, scale, warnings, rosters = two_teams(asked)
     games = asked.single_games
     race = None if games is not None else race_of(asked)
+    lists, found = two_teams(asked, race)
+    rosters, warnings = found.rosters, found.warnings
     if not asked.everybody and len(rosters[0]) != len(rosters[1]):
         asked.refuse(
             "{first} has {m} players and {second} {n}; leave out those who do not play, or give "
@@ -58,8 +57,9 @@ def round_(asked: Round) -> Answer:
         games=games,
         race=race,
         everybody=asked.everybody,
-        scale=scale,
+        scale=found.scale,
         form=form_of_lists(each.file.form for each in lists),
+        levels=found.levels,
     )
     for each, roster in zip(lists, rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
@@ -68,7 +68,9 @@ def round_(asked: Round) -> Answer:
         (rosters[0], rosters[1]),
         law,
         played=f"{count_of(games or 1, 'game')} a match" if race is None else race_words(race),
-        scale=scale,
+        strengths=strengths_words(race or 1, found.levels, found.scale),
+        rests_on=level_words(race or 1, found.levels),
+        scale=found.scale,
         games=games,
         everybody=asked.everybody,
         names=names if names[0] != names[1] else ("the first team", "the second team"),
@@ -85,11 +87,11 @@ def caps(asked: Caps) -> Answer:
     lists = files.read_squads(asked.roster)
     if len(lists) > MOST_TEAMS:
         refuse(f"{asked.roster} has {len(lists)} teams; ask about at most {MOST_TEAMS}")
-    scale, warnings = scale_of_teams(list(lists.values()), asked.scale)
-    rosters: dict[str, ratings.Roster] = {}
+    race = race_of(asked)
+    found = strengths_of(asked, list(lists.values()), race)
+    rosters, warnings = dict(zip(lists, found.rosters, strict=True)), found.warnings
     squads: dict[str, teams.Squad] = {}
     for team, one in lists.items():
-        rosters[team] = with_starters(one.file.roster, scale, asked.starter, asked.starter_sd)
         warnings += filter(None, [starters_words(one.file.roster, rosters[team])])
     for team, one in lists.items():
         refuse_without_level(asked, one)
@@ -100,11 +102,13 @@ def caps(asked: Caps) -> Answer:
         rosters,
         squads,
         {team: one.levels for team, one in lists.items()},
-        race_of(asked),
-        scale,
+        race,
+        found.scale,
         sets,
         teams.order_of(asked.order, sets),
         form_of_lists(one.file.form for one in lists.values()),
+        found.levels,
+        teams.count_by(asked.count, race),
     )
     return team_rules_answer(rules, source=asked.roster, warnings=warnings)
 
@@ -236,18 +240,59 @@ def _next(to_come: Any, rounds: tuple[str, ...]) -> tuple[tuple[int, ...], str]:
 # What team lists have in common, for `evenbreak lineup` too.
 
 
-def two_teams(
-    asked: Lineup | Round,
-) -> tuple[tuple[TeamList, TeamList], Scale, list[str], list[ratings.Roster]]:
-    """Return the lists of two teams, the scale, the warnings, and the players with ratings."""
+class Strengths(NamedTuple):
+    """How strong the players of teams are, and what is doubtful about their lists.
+
+    Parameters
+    ----------
+    rosters
+        the players of each team.
+    scale
+        of their ratings.
+    levels
+        how strong skill levels are, if the chances come from those.
+    warnings
+        about the lists.
+    """
+
+    rosters: list[ratings.Roster]
+    scale: Scale
+    levels: handicaps.LevelSkills | None
+    warnings: list[str]
+
+
+def two_teams(asked: Lineup | Round, race: Any) -> tuple[tuple[TeamList, TeamList], Strengths]:
+    """Return the lists of two teams, and how strong their players are."""
     lists = files.read_team(asked.ours), files.read_team(asked.theirs)
-    scale, warnings = scale_of_teams(lists, asked.scale)
-    rosters = [
-        with_starters(each.file.roster, scale, asked.starter, asked.starter_sd) for each in lists
-    ]
+    found = strengths_of(asked, lists, race)
     if asked.sure:
-        rosters = [ratings.Roster(each.players, each.rating) for each in rosters]
-    return lists, scale, warnings, rosters
+        sure = [ratings.Roster(one.players, one.rating, level=one.level) for one in found.rosters]
+        found = found._replace(rosters=sure)
+    return lists, found
+
+
+def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Strengths:
+    """Return how strong the players of teams are, by ratings or by the levels of a chart."""
+    from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, with_level
+    from evenbreak.answers.team.strengths import lists_by_level
+
+    every, levels = [one.file for one in lists], None
+    if isinstance(race, handicaps.LevelChart | handicaps.PointsChart):
+        every, levels = lists_by_level(
+            [with_level(file, asked.starter if file.levels else None) for file in every],
+            race,
+            asked.results,
+        )
+    elif asked.results is not None:
+        asked.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+    if levels is not None or isinstance(race, handicaps.PointsChart):
+        if asked.scale is not None:
+            raise InputError(SCALE_OF_LEVELS)
+        warnings = list(dict.fromkeys(line for file in every for line in file.warnings))
+        return Strengths([file.roster for file in every], FARGO, levels, warnings)
+    scale, warnings = scale_of_teams(lists, asked.scale)
+    rosters = [with_starters(file.roster, scale, asked.starter, asked.starter_sd) for file in every]
+    return Strengths(rosters, scale, None, warnings)
 
 
 def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Scale, list[str]]:
@@ -284,7 +329,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
 def race_of(asked: OfTeams) -> Any:
     """Return the race that is asked for."""
     if asked.chart is not None:
-        return chart_by_difference("--chart", asked.chart)
+        return files.find_chart(asked.chart)
     return handicaps.Fairest(asked.race_to) if asked.race_to is not None else asked.race
 
 

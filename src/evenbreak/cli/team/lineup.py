@@ -9,11 +9,11 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.team.league import race_of, refuse_without_level, two_teams
 from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.files.tables.names import KnownNames
-from evenbreak.handicaps.charts.race_of_pair import games_needed
-from evenbreak.questions.teams import InPlay, Lineup
+from evenbreak.questions.teams import InPlay, Lineup, usual_sets
 from evenbreak.teams.evening.events import meeting_by
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import LOSER, WINNER, order_of
+from evenbreak.teams.pairs import pairs_of
 from evenbreak.teams.set_laws import brought
 from evenbreak.words import Parameter
 
@@ -26,22 +26,26 @@ def command(asked: Lineup) -> Answer:
     from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.lineup import lineup_answer
 
-    lists, scale, warnings, rosters = two_teams(asked)
+    race = race_of(asked)
+    lists, found = two_teams(asked, race)
+    warnings = found.warnings
     for each in lists:
         refuse_without_level(asked, each)
+    fewest = min(len(each) for each in found.rosters)
     meeting = meeting_by(
         asked,
-        (rosters[0], rosters[1]),
+        (found.rosters[0], found.rosters[1]),
         [each.weights.tolist() for each in lists],
-        race=race_of(asked),
-        scale=scale,
-        sets=asked.sets or min(len(each) for each in rosters) * asked.times,
+        race=race,
+        scale=found.scale,
+        sets=asked.sets or usual_sets(fewest * asked.times, asked.cap),
         form=form_of_lists(each.file.form for each in lists),
+        levels=found.levels,
     )
     begun = {"used", "score", "playing", "named", "last"} & asked.given.keys()
     point = _point(asked, meeting) if begun else None
-    warnings += chart_doubts(meeting.race, scale)
-    for each, roster in zip(lists, rosters, strict=True):
+    warnings += chart_doubts(meeting.race, found.scale)
+    for each, roster in zip(lists, found.rosters, strict=True):
         warnings += filter(None, [starters_words(each.file.roster, roster)])
     return lineup_answer(meeting, point, seed=asked.seed, warnings=warnings)
 
@@ -173,10 +177,12 @@ def _of_a_set(meeting: Meeting) -> set[tuple[int, int]]:
     """Return what a set can bring to both teams, whoever plays it."""
     if meeting.count == "sets":
         return {(1, 0), (0, 1)}
-    points = meeting.ours.rating[:, None] - meeting.theirs.rating
-    first, second = games_needed(points, meeting.race, meeting.scale)
+    pairs = pairs_of(
+        meeting.ours, meeting.theirs, meeting.race, meeting.scale, levels=meeting.levels
+    )
+    needs = zip(pairs.needs_1.ravel().tolist(), pairs.needs_2.ravel().tolist(), strict=True)
     scores: set[tuple[int, int]] = set()
-    for m, n in set(zip(first.ravel().tolist(), second.ravel().tolist(), strict=True)):
+    for m, n in set(needs):
         ends = [(m, lost) for lost in range(n)] + [(won, n) for won in range(m)]
         scores |= {brought((m, n), end, meeting.count) for end in ends}
     return scores

@@ -10,22 +10,28 @@ from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Protocol, TypeAlias
 
-from evenbreak.checks import Between, made, one_of, whole
+from evenbreak.checks import Between, made, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.charts.race_of_pair import Fairest, Race
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    LevelChart,
+    level_chart,
+    points_chart,
+)
+from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
+from evenbreak.handicaps.charts.race_of_pair import Fairest
 from evenbreak.matches.form import MOST_FORM
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import order_of
+from evenbreak.teams.pairs import SetRace
 from evenbreak.teams.sealed import sealed
-from evenbreak.teams.set_laws import Count, Points
+from evenbreak.teams.set_laws import count_by
 from evenbreak.teams.solve import refuse_large
 from evenbreak.teams.squad import Squad, caps_of
-
-COUNTS = ("sets", "games", "points")
-"""What may decide a night."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,8 @@ class TeamSheet:
     ratings, errors
         of the players, and how far off a rating may be (0: not stated).
     weights
-        what each player counts for under a cap: their skill level, or their rating.
+        what each player counts for under a cap: their skill level, or their rating. A chart by
+        skill level reads them too.
     """
 
     name: str
@@ -53,7 +60,7 @@ class TeamSheet:
     @property
     def roster(self) -> Roster:
         """The players with their ratings."""
-        return Roster(self.players, self.ratings, self.errors)
+        return Roster(self.players, self.ratings, self.errors, level=self.weights)
 
 
 @dataclass(frozen=True)
@@ -92,6 +99,8 @@ class NightPlan:
         the game, for how long sets take.
     tables
         how many sets can be played at once.
+    by_level
+        whether the chances come from skill levels, and not from ratings.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -109,6 +118,7 @@ class NightPlan:
     match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
     discipline: str = "8-ball"
     tables: Annotated[int, Between(1, 100)] = 1
+    by_level: bool = False
 
 
 @lru_cache(maxsize=8)
@@ -128,14 +138,16 @@ def meeting_of(plan: NightPlan) -> Meeting:
     ((1, 1), 'AB')
     """
     first, second = (team.roster for team in plan.teams)
+    race = _race(plan)
     return meeting_by(
         plan,
         (first, second),
         [team.weights for team in plan.teams],
-        race=_race(plan),
+        race=race,
         scale=scale_of(plan.scale),
         sets=plan.sets,
         form=plan.match_form,
+        levels=level_skills(race) if plan.by_level and isinstance(race, LevelChart) else None,
     )
 
 
@@ -161,10 +173,11 @@ def meeting_by(
     sides: tuple[Roster, Roster],
     weights: Sequence[Sequence[float]],
     *,
-    race: Race,
+    race: SetRace,
     scale: Scale,
     sets: int,
     form: float = 0.0,
+    levels: LevelSkills | None = None,
 ) -> Meeting:
     """Return the meeting of two rosters by the rules of a night.
 
@@ -182,6 +195,8 @@ def meeting_by(
         how many are played.
     form
         how much the log-odds of a game vary from set to set.
+    levels
+        how strong skill levels are, if the chances come from those in place of ratings.
 
     Raises
     ------
@@ -189,7 +204,6 @@ def meeting_by(
         if the rules make no sense.
     """
     whole(sets, "sets", at_least=1)
-    one_of(rules.count, "count", COUNTS)
     wrong = [k for k in rules.doubles if not 1 <= k <= sets]
     if wrong:
         raise InputError(
@@ -199,7 +213,6 @@ def meeting_by(
         Squad(side.players, caps_of(counted, rules.cap, rules.at_most), rules.times)
         for side, counted in zip(sides, weights, strict=True)
     )
-    count: Count = Points() if rules.count == "points" else rules.count  # type: ignore[assignment]
     order = rules.order.strip().lower()
     return Meeting(
         *sides,
@@ -208,8 +221,9 @@ def meeting_by(
         scale,
         tuple(2 if k in rules.doubles else 1 for k in range(1, sets + 1)),
         order if order == SEALED else order_of(rules.order, sets),
-        count,
+        count_by(rules.count, race),
         form,
+        levels,
     )
 
 
@@ -232,7 +246,11 @@ def check_plan(plan: NightPlan) -> None:
         refuse_large(night)
 
 
-def _race(plan: NightPlan) -> Race:
+def _race(plan: NightPlan) -> SetRace:
+    if plan.chart in LEVEL_CHARTS:
+        return level_chart(plan.chart)
+    if plan.chart in POINTS_CHARTS:
+        return points_chart(plan.chart)
     if plan.chart:
         return chart(plan.chart)
     race = whole(plan.race, "race", at_least=1)

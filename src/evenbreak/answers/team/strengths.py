@@ -1,0 +1,85 @@
+"""How strong the players of teams are: by ratings, or by the skill levels of a chart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from evenbreak.answers.kit.scales import scale_words
+from evenbreak.answers.league.by_level import by_level, skills_of
+from evenbreak.errors import InputError
+from evenbreak.files.lists.roster import RosterFile
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.charts.level_skills import LevelSkills
+from evenbreak.ratings.scale import Scale
+from evenbreak.teams.pairs import SetRace
+from evenbreak.words import Parameter, Sentence, say
+
+
+def lists_by_level(
+    lists: Sequence[RosterFile], chart: LevelChart | PointsChart, results: str | None = None
+) -> tuple[list[RosterFile], LevelSkills | None]:
+    """Return the lists of teams with the levels that a chart reads, and how strong those are.
+
+    Parameters
+    ----------
+    lists
+        of the players of each team.
+    chart
+        the chart.
+    results
+        the file of the league's own results, which show how strong its levels are.
+
+    Returns
+    -------
+    tuple
+        the lists; and how strong the levels are, None if all lists have ratings, from which the
+        chances then come, or the chart is one of points. With levels the ratings of the lists are
+        their strengths, in Fargo points.
+
+    Raises
+    ------
+    InputError
+        if a list states no levels, or the results are not needed.
+    """
+    read = [by_level(file, chart) for file in lists]
+    files = [file for file, _ in read]
+    if isinstance(chart, PointsChart) or all(levels is None for _, levels in read):
+        if results is not None:
+            raise InputError(
+                "{results} is for chances by skill levels with a chart of races; leave it out",
+                results=Parameter("results"),
+            )
+        return files, None
+    levels = skills_of(chart, results)
+    strong = [
+        replace(file, roster=replace(file.roster, rating=levels.strength(file.roster.level)))
+        for file in files
+    ]
+    return strong, levels
+
+
+def strengths_words(race: SetRace, levels: LevelSkills | None, scale: Scale) -> Sentence:
+    """Return what says how strong the players are.
+
+    >>> from evenbreak.handicaps.charts.level_chart import points_chart
+    >>> from evenbreak.ratings import SCALES
+    >>> print(strengths_words(5, None, SCALES["npl"]))
+    Ratings on the NPL scale (30 points double the odds)
+    >>> strengths_words(points_chart("apa_9ball"), None, SCALES["fargo"])
+    'Players by skill level'
+    """
+    if levels is not None or isinstance(race, PointsChart):
+        return say("Players by skill level")
+    return say("Ratings {scale}", scale=scale_words(scale))
+
+
+def level_words(race: SetRace, levels: LevelSkills | None) -> Sentence | None:
+    """Return what the chances rest on where they come from skill levels; None where they do not."""
+    if isinstance(race, PointsChart):
+        return say(
+            "The chances are an assumption, not a measurement: that every level of {chart} needs "
+            "about as many innings to reach its points.",
+            chart=race.name,
+        )
+    return None if levels is None else levels.why

@@ -1,0 +1,117 @@
+"""Captains and operators of leagues of skill levels, through the command line."""
+
+import pytest
+
+from evenbreak.handicaps.charts.level_chart import level_chart
+
+OURS = {"Ann": 7, "Bo": 6, "Cleo": 5, "Dan": 4, "Eve": 4, "Fay": 3, "Gus": 2}
+THEIRS = {"Uli": 6, "Vic": 5, "Wim": 5, "Xi": 4, "Yu": 3, "Zed": 2}
+RATED = {name: 300 + 60 * level for name, level in {**OURS, **THEIRS}.items()}
+
+
+def written(path, rows, columns="player,level"):
+    path.write_text("\n".join([columns, *(",".join(map(str, row)) for row in rows)]) + "\n")
+    return str(path)
+
+
+@pytest.fixture
+def lists(tmp_path):
+    return tuple(
+        written(tmp_path / f"{name}.csv", team.items())
+        for name, team in (("ours", OURS), ("theirs", THEIRS))
+    )
+
+
+def test_a_captain_of_levels_asks_with_the_chart_alone(ask, lists):
+    told = ask("lineup", *lists, "--chart", "apa_8ball", "--cap", "23", "--at-most", "2:6")
+    assert told["set"] == 1
+    assert len(told["options"]) == len(OURS)
+    assert "Players by skill level" in told["heading"]
+    assert "40,000 matches" in " ".join(told["sentences"])
+    points = ask("lineup", *lists, "--chart", "apa_8ball", "--cap", "23", "--count", "points")
+    assert "A tie counts" in points["sentences"][0]
+    assert points["p_win"] != told["p_win"]
+
+
+def test_who_would_break_the_rule_is_named_and_not_offered(ask, run, lists):
+    """With a 7, a 6 and a 5 used, 23 leaves 5 for two sets: only the 2 and the 3 are left."""
+    asked = ("--chart", "apa_8ball", "--cap", "23", "--sets", "5", "--order", "A")
+    used = ("--used", "Ann,Bo,Cleo,Xi,Yu,Zed", "--score", "2:1")
+    told = ask("lineup", *lists, *asked, *used)
+    assert {row["name"] for row in told["options"]} == {"Fay", "Gus"}
+    assert any("Dan and Eve can't be put up now" in said for said in told["sentences"])
+    over = run(
+        "lineup", *lists, *asked, "--used", "Ann,Bo,Cleo,Dan,Xi,Yu,Zed,Uli", "--score", "2:2"
+    )
+    assert over.exit_code != 0
+    assert "can no longer keep its caps" in over.stderr
+
+
+def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
+    asked = ("lineup", *lists, "--chart", "apa_9ball", "--cap", "23", "--sets", "3")
+    told = ask(*asked, "--count", "points")
+    assert "assumption, not a measurement" in " ".join(told["sentences"])
+    assert 0.3 < told["p_win"] < 0.7
+    used = ("--used", "Ann,Uli", "--score", "12:8")
+    assert ask(*asked, "--count", "points", *used)["set"] == 2
+    wrong = run(*asked, "--count", "points", "--used", "Ann,Uli", "--score", "11:9")
+    assert "11:9 cannot be" in wrong.stderr
+    assert "points, not games" in run(*asked, "--count", "games").stderr
+
+
+def test_ratings_beside_levels_give_the_chances(ask, lists, tmp_path):
+    rated = [
+        written(
+            tmp_path / f"rated_{name}.csv",
+            [(one, RATED[one], level) for one, level in team.items()],
+            "player,rating,level",
+        )
+        for name, team in (("ours", OURS), ("theirs", THEIRS))
+    ]
+    asked = ("--chart", "apa_8ball", "--cap", "23")
+    told = ask("lineup", *rated, *asked, "--scale", "fargo")
+    assert "Ratings on the Fargo scale" in told["heading"]
+    mixed = ask("lineup", rated[0], lists[1], *asked)
+    assert mixed["p_win"] == ask("lineup", *lists, *asked)["p_win"]
+
+
+def test_a_round_and_the_caps_of_a_league_of_levels(ask, run, tmp_path):
+    two = [
+        written(tmp_path / f"{side}.csv", list(team.items())[:5])
+        for side, team in (("a", OURS), ("b", THEIRS))
+    ]
+    told = ask("round", *two, "--chart", "apa_8ball")
+    assert "Players by skill level" in told["heading"]
+    assert "points, not games" in run("round", *two, "--chart", "apa_9ball").stderr
+    teams = written(
+        tmp_path / "teams.csv",
+        [("Racks", *one) for one in OURS.items()] + [("Cues", *one) for one in THEIRS.items()],
+        "team,player,level",
+    )
+    asked = ("caps", teams, "--chart", "apa_8ball", "--cap", "16", "--sets", "4")
+    for more in ((), ("--count", "points"), ("--at-most", "1:6")):
+        told = ask(*asked, *more)
+        racks = next(row for row in told["teams"] if row["team"] == "Racks")
+        assert racks["level_sum"] == 22
+        assert racks["cap_worth"] < 0
+
+
+def test_own_charts_of_levels_and_ones_own_results(ask, run, lists, tmp_path):
+    apa = level_chart("apa_8ball")
+    rows = [(a, b, *apa.race(a, b)) for a in apa.levels for b in apa.levels if a >= b]
+    own = written(tmp_path / "own.csv", rows, "level,opponent_level,needs,opponent_needs")
+    named, mine = (
+        ask("lineup", *lists, "--chart", chart, "--sets", "3")["p_win"]
+        for chart in ("apa_8ball", own)
+    )
+    assert mine == named
+    said = run("lineup", *lists, "--chart", "npl_8", "--results", own).stderr
+    assert "--results is for chances by skill levels" in said
+    said = run("lineup", *lists, "--chart", "apa_8ball", "--scale", "3").stderr
+    assert "--scale is for ratings" in said
+
+
+def test_a_level_that_the_chart_does_not_have_is_named(run, lists, tmp_path):
+    wrong = written(tmp_path / "wrong.csv", [("Ann", 7), ("Bo", 9), ("Cleo", 4)])
+    result = run("lineup", wrong, lists[1], "--chart", "apa_8ball")
+    assert "Bo' has skill level 9; the levels of apa_8ball are 2, 3" in result.stderr
