@@ -20,7 +20,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
-from scipy.optimize import minimize_scalar
 from scipy.sparse.linalg import splu
 from scipy.special import expit
 
@@ -241,6 +240,8 @@ def _assumed(chart: LevelChart) -> LevelSkills:
 
 def _estimated(usual: LevelSkills, results: Results, places: tuple[Ints, Ints]) -> LevelSkills:
     """Return the strengths of the levels, and the spread inside them, by a league's results."""
+    from scipy.optimize import minimize_scalar
+
     season = _Season(usual, results, places)
     low, high = np.log([NARROWEST, WIDEST])
     best: Any = minimize_scalar(
