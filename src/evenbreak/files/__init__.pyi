@@ -12,6 +12,8 @@ from .lists.entrants import Entered as Entered
 from .lists.entrants import entered as entered
 from .lists.entrants import read_entrants as read_entrants
 from .lists.entrants import roster_of_entrants as roster_of_entrants
+from .lists.fixtures import read_fixture_list as read_fixture_list
+from .lists.fixtures import read_sides as read_sides
 from .lists.roster import RosterFile as RosterFile
 from .lists.roster import read_roster as read_roster
 from .lists.season import ScheduleFile as ScheduleFile
@@ -33,7 +35,7 @@ from .results.results_file import AliasesFile as AliasesFile
 from .results.results_file import ResultsFile as ResultsFile
 from .results.results_file import read_aliases as read_aliases
 from .results.results_file import read_results as read_results
-from .results.seasons import read_seasons as read_seasons
+from .results.results_file import read_seasons as read_seasons
 from .store.folder import write_files as write_files
 from .tables.problems import Problems as Problems
 from .tables.table import TextTable as TextTable

@@ -29,6 +29,11 @@ from .schedule import Schedule as Schedule
 from .season import Season as Season
 from .season import Tally as Tally
 from .simulate import simulate as simulate
+from .tables.fixtures import Fixture as Fixture
+from .tables.fixtures import fixtures as fixtures
+from .tables.fixtures import nights as nights
+from .tables.fixtures import round_robin as round_robin
+from .tables.fixtures import still_to_play as still_to_play
 from .tables.rules import TableRules as TableRules
 from .tables.table import LeagueTable as LeagueTable
 from .tables.table import TableMatches as TableMatches

@@ -3,13 +3,81 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import date, timedelta
+from datetime import time as daytime
 from typing import Annotated, Literal, TypeAlias
 
-from evenbreak.fields.kinds import Choice, File, Flag
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, File, Flag, Named, Text, Whole
 from evenbreak.fields.question import Field, Says
 from evenbreak.files.league.values import TABLE_POINTS, TIES
+from evenbreak.league.tables.fixtures import MOST_MEETINGS
 from evenbreak.league.tables.rules import USUAL_RULES, TableRules
-from evenbreak.questions.results import Day, Results
+from evenbreak.questions.results import Day, Reading, Results
+
+_WHEN, _WHERE = "When", "Where"
+_WEEKDAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
+_LONGEST_BREAK = 366
+
+
+def weekdays_in(text: str) -> tuple[int, ...]:
+    """Return days of the week, Monday being 0.
+
+    >>> weekdays_in("Tuesday, thu")
+    (1, 3)
+    """
+    words = [word.strip().lower() for word in text.split(",")]
+    found = {k for word in words for k, day in enumerate(_WEEKDAYS) if word[:3] == day}
+    if not found or len(found) < len(words):
+        raise InputError("{value!r}; name days such as tue or tue,thu", value=text)
+    return tuple(sorted(found))
+
+
+def weekdays_spelled(days: tuple[int, ...]) -> str:
+    """Return days of the week as they are typed."""
+    return ",".join(_WEEKDAYS[day] for day in days)
+
+
+def days_in(text: str) -> tuple[date, ...]:
+    """Return the days of a list of days and ranges.
+
+    >>> [day.day for day in days_in("2026-12-24..2026-12-26, 2027-01-01")]
+    [24, 25, 26, 1]
+    """
+    found: list[date] = []
+    for part in text.split(","):
+        first, sign, last = (piece.strip() for piece in part.partition(".."))
+        try:
+            begins = date.fromisoformat(first)
+            ends = date.fromisoformat(last) if sign else begins
+        except ValueError:
+            raise InputError(
+                "{value!r}; give days such as 2026-12-24, or 2026-12-24..2027-01-02",
+                value=part.strip(),
+            ) from None
+        many = (ends - begins).days + 1
+        if not 1 <= many <= _LONGEST_BREAK:
+            raise InputError("{value!r} is not a range of days up to a year", value=part.strip())
+        found += [begins + timedelta(days=k) for k in range(many)]
+    return tuple(found)
+
+
+def days_spelled(days: tuple[date, ...]) -> str:
+    """Return days as they are typed."""
+    return ",".join(map(str, days))
+
+
+def time_in(text: str) -> daytime:
+    """Return a time of day."""
+    try:
+        return daytime.fromisoformat(text.strip())
+    except ValueError:
+        raise InputError("{value!r}; give a time such as 19:00", value=text) from None
+
+
+Whose: TypeAlias = Annotated[
+    Literal["players", "teams"] | None, Field(Choice(("players", "teams")), "Whose table.")
+]
 
 TablePoints: TypeAlias = Annotated[
     TableRules,
@@ -56,9 +124,8 @@ class LeagueTable(Results):
     table_points: TablePoints = USUAL_RULES
     ties: Ties = USUAL_RULES.ties
     of: Annotated[
-        Literal["players", "teams"] | None,
-        Field(
-            Choice(("players", "teams")),
+        Whose,
+        Says(
             "Whose table; teams also where the two of each row are teams.",
             usual="teams where the results have the columns team_a and team_b",
         ),
@@ -84,3 +151,100 @@ class LeagueTable(Results):
             "`points`.",
         ),
     ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fixtures(Reading):
+    """Make the fixtures of a league: who plays whom, at home or away, on which night and table.
+
+    LIST.csv names the players or teams, a name on each line or with the columns of a roster; with
+    the column venue, and tables, teams that share a place with too few tables are at home in turn.
+    Everyone meets everyone, once unless {meetings} says more; home and away change, and a second
+    half mirrors the first. {left} lists what is still to be played.
+    """
+
+    examples = """\
+  evenbreak league fixtures teams.csv --meetings 2 --begins 2026-09-01 --skip 2026-12-22 --csv
+  evenbreak league fixtures players.csv --begins 2026-09-01 --rounds-a-night 2 --tables 4
+  evenbreak league fixtures teams.csv --begins 2026-09-01 --time 19:00 --ics fixtures.ics
+  evenbreak league fixtures --schedule fixtures.csv --left results.csv
+"""
+    names: Annotated[str | None, Field(File("LIST.csv"), metavar="[LIST.csv]", argument=True)] = (
+        None
+    )
+    schedule: Annotated[
+        str | None, Field(File("FIXTURES.csv"), "Fixtures that are made already, in place of LIST.")
+    ] = None
+    meetings: Annotated[
+        int, Field(Whole(1, MOST_MEETINGS), "How often every two meet.", metavar="K")
+    ] = 1
+    left: Annotated[
+        tuple[str, ...],
+        Field(File("RESULTS.csv"), "List what these results leave to be played.", many=True),
+    ] = ()
+    begins: Annotated[Day, Says("The first night.", section=_WHEN)] = None
+    ends: Annotated[Day, Says("The last day that may be a night.", section=_WHEN)] = None
+    weekdays: Annotated[
+        tuple[int, ...],
+        Field(
+            Named(weekdays_in, "DAY,...", spelled=weekdays_spelled),
+            "The days of the week, such as tue or tue,thu.",
+            usual="that of the first night",
+            section=_WHEN,
+        ),
+    ] = ()
+    skip: Annotated[
+        tuple[date, ...],
+        Field(
+            Named(days_in, "DATES", spelled=days_spelled),
+            "Days without matches, such as 2026-12-22..2027-01-02,2027-02-14.",
+            section=_WHEN,
+        ),
+    ] = ()
+    rounds_a_night: Annotated[
+        int, Field(Whole(1, 20), "How many rounds are played in a night.", section=_WHEN)
+    ] = 1
+    time: Annotated[
+        daytime | None,
+        Field(Named(time_in, "HH:MM"), "When a night starts, for the calendar.", section=_WHEN),
+    ] = None
+    minutes: Annotated[
+        int, Field(Whole(1, 1440), "How long a match lasts, for the calendar.", section=_WHEN)
+    ] = 180
+    venue: Annotated[
+        str | None,
+        Field(Text("PLACE"), "Where all play, unless the list says.", section=_WHERE),
+    ] = None
+    tables: Annotated[
+        int | None,
+        Field(Whole(1, 1000), "How many tables there are; each match gets one.", section=_WHERE),
+    ] = None
+    tables_a_match: Annotated[
+        int, Field(Whole(1, 100), "How many tables a match takes.", section=_WHERE)
+    ] = 1
+    of: Annotated[Whose, Says("Who plays.", usual="teams where LIST has the column team")] = None
+    only: Annotated[
+        str | None, Field(Text("NAME"), "List the matches of this team or player alone.")
+    ] = None
+    draw: Annotated[
+        int | None,
+        Field(
+            Whole(0, 2**32 - 1),
+            "Draw the numbers with this seed.",
+            usual="the order of the list",
+            metavar="SEED",
+        ),
+    ] = None
+    ics: Annotated[
+        str | None, Field(File("FILE.ics"), "Write a calendar that phones can open.")
+    ] = None
+
+    def check(self) -> None:
+        """Refuse two lists of fixtures or none, and dates without a first one."""
+        if (self.names is None) == (self.schedule is None):
+            self.refuse("give LIST.csv, or fixtures that are made with {schedule}")
+        for name in ("ends", "weekdays", "skip"):
+            if self.begins is None and name in self.given:
+                self.refuse(f"{{{name}}} needs the first night; add {{begins}} 2026-09-01")
+        if self.ics is not None and self.schedule is None and self.begins is None:
+            self.refuse("{ics} needs dates; add {begins} 2026-09-01")

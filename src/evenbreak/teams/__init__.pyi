@@ -22,8 +22,6 @@ from .season.chances import scores_of as scores_of
 from .season.chances import season_chances as season_chances
 from .season.chances import team_strengths as team_strengths
 from .season.season import TeamSeason as TeamSeason
-from .season.season import circle as circle
-from .season.season import still_to_play as still_to_play
 from .set_laws import Points as Points
 from .set_laws import Shares as Shares
 from .set_laws import count_by as count_by

@@ -20,12 +20,12 @@ def fixtures(folder: Path, text: str) -> Path:
 
 
 def test_weeks_and_names_are_read_in_the_order_of_the_file(tmp_path: Path) -> None:
-    path = fixtures(tmp_path, "Night;Home;Away;Table\n3;zoë;Bo;1\n1; Ann  Lee;Bo;2\n")
+    path = fixtures(tmp_path, "Night;Home;Away;Referee\n3;zoë;Bo;1\n1; Ann  Lee;Bo;2\n")
     file = read_schedule(path, CLUB)
     assert file.schedule.week.tolist() == [3, 1]
     assert (file.schedule.a.tolist(), file.schedule.b.tolist()) == ([2, 0], [1, 1])
     assert file.schedule.weeks == 3
-    assert "columns not used: 'Table'" in file.warnings[0]
+    assert "columns not used: 'Referee'" in file.warnings[0]
 
 
 def test_all_problems_are_told_at_once(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.league import TableRules
-from evenbreak.teams import TeamSeason, circle, score_chances, scores_of, season_chances
+from evenbreak.teams import TeamSeason, score_chances, scores_of, season_chances
 
 NAMES = ["Acers", "Bankers", "Caroms", "Diamonds"]
 PLAYED = [[0, 1, 3, 2], [2, 3, 5, 0], [1, 2, 2, 3], [3, 0, 1, 4]]
@@ -139,14 +139,6 @@ def by_fractions() -> list[Fraction]:
         for t in best:
             title[t] += Fraction(1, 16 * len(best))
     return title
-
-
-@pytest.mark.parametrize("teams", [4, 5, 10])
-def test_the_circle_lets_every_two_teams_meet_once_at_home_each(teams: int) -> None:
-    rows = circle(teams, 2)
-    assert len({tuple(row) for row in rows.tolist()}) == len(rows) == teams * (teams - 1)
-    home = np.bincount(circle(teams)[:, 0], minlength=teams)
-    assert np.ptp(home) <= 2
 
 
 def test_what_cannot_be_is_refused() -> None:

@@ -8,6 +8,7 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
     "table": Entry("league.tables:table", "The table: who is ahead of whom, and why."),
+    "fixtures": Entry("league.tables:fixtures", "Who plays whom, when and where; what is left."),
 }
 """Each command, with its line of help."""
 

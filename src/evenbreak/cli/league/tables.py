@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import date
 
 import numpy as np
 
@@ -11,8 +12,11 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.terminal import write_file
 from evenbreak.files.tables.names import same_name
-from evenbreak.questions.tables import LeagueTable
+from evenbreak.league.tables.fixtures import Fixture, left_of, nights
+from evenbreak.league.tables.fixtures import fixtures as round_robin_fixtures
+from evenbreak.questions.tables import Fixtures, LeagueTable
 
 
 @command_of(LeagueTable, "table")
@@ -88,3 +92,109 @@ def _with_teams(
     start = np.append(points, np.zeros(len(names) - len(points)))
     more = [f"{path}: {name!r} is not in it" for name in names[len(points) :]]
     return replace(matches, names=tuple(names), pairs=pairs), start, [*warnings, *more]
+
+
+@command_of(Fixtures, "fixtures")
+def fixtures(asked: Fixtures) -> Answer:
+    """Make the fixtures of a league, or list those that are left."""
+    from evenbreak.answers.league.fixtures import fixtures_answer
+
+    listed, who, warnings = _made(asked) if asked.schedule is None else _read(asked)
+    played = None
+    if asked.left:
+        listed, played, more = _without_played(asked, listed)
+        warnings += more
+    if asked.only is not None:
+        listed = [one for one in listed if _is_of(one, asked.only)]
+        if not listed:
+            asked.refuse(
+                "{only} {name} has no match; write the name as the list does", name=asked.only
+            )
+    if asked.ics is not None:
+        from evenbreak.files.calendar import calendar_bytes
+
+        calendar = calendar_bytes(
+            listed,
+            name=asked.only or "League matches",
+            venue=asked.venue or "",
+            start=asked.time,
+            minutes=asked.minutes,
+        )
+        write_file(asked.ics, calendar)
+    return fixtures_answer(listed, who=who, played=played, warnings=warnings)
+
+
+def _made(asked: Fixtures) -> tuple[list[Fixture], str, list[str]]:
+    """Return new fixtures, who plays, and warnings."""
+    sides = files.read_sides(asked.names or "", of=asked.of)
+    names, venues = list(sides.names), list(sides.venues)
+    if asked.draw is not None:
+        order = np.random.default_rng(asked.draw).permutation(len(names)).tolist()
+        names, venues = [names[k] for k in order], [venues[k] for k in order]
+    venues = [venue or asked.venue or "" for venue in venues]
+    tables = dict(sides.tables)
+    if asked.tables is not None:
+        tables.setdefault(asked.venue or "", asked.tables)
+    rounds = (len(names) - 1 + len(names) % 2) * asked.meetings
+    dates = []
+    if (begins := asked.day("begins")) is not None:
+        ends = asked.day("ends")
+        dates = nights(
+            -(-rounds // asked.rounds_a_night),
+            date.fromisoformat(begins),
+            weekdays=asked.weekdays,
+            skipped=asked.skip,
+            ends=None if ends is None else date.fromisoformat(ends),
+        )
+    listed = round_robin_fixtures(
+        names,
+        times=asked.meetings,
+        dates=dates,
+        rounds_a_night=asked.rounds_a_night,
+        venues=venues,
+        tables=tables,
+        tables_a_match=asked.tables_a_match,
+    )
+    late = sum(one.turn > 1 for one in listed) if asked.rounds_a_night == 1 else 0
+    warnings = [*sides.warnings]
+    if late:
+        many = count_of(late, "match waits", "matches wait")
+        warnings.append(f"{many} for a table that night: there are fewer tables than matches")
+    return listed, "team" if sides.of_teams else "player", warnings
+
+
+def _read(asked: Fixtures) -> tuple[list[Fixture], str, list[str]]:
+    """Return fixtures that are made already, who plays, and warnings."""
+    listed, warnings = files.read_fixture_list(asked.schedule or "")
+    return listed, "player" if asked.of == "players" else "team", [*warnings]
+
+
+def _without_played(asked: Fixtures, listed: list[Fixture]) -> tuple[list[Fixture], int, list[str]]:
+    """Return the fixtures that results leave, how many were played, and warnings."""
+    file = files.read_seasons(asked.left, **asked.reading, unplayed=True)
+    names = {same_name(name) for one in listed for name in (one.home, one.away)}
+    place = {name: k for k, name in enumerate(sorted(names))}
+    results = file.results
+    teams = results.team_a is not None and not names & {same_name(one) for one in results.players}
+    matches = league.team_matches(results) if teams else league.player_matches(results)
+    unknown = {name for name in matches.names if same_name(name) not in place}
+    pairs = [
+        (place[same_name(matches.names[a])], place[same_name(matches.names[b])])
+        for a, b in matches.pairs.tolist()
+        if not {matches.names[a], matches.names[b]} & unknown
+    ]
+    kept = left_of([(place[same_name(x.home)], place[same_name(x.away)]) for x in listed], pairs)
+    warnings = [*file.warnings]
+    done = len(listed) - len(kept)
+    if extra := len(matches) - done:
+        many = count_of(extra, "match is", "matches are")
+        warnings.append(f"{many} played that the fixtures do not have: {_first(unknown)}")
+    return [listed[k] for k in kept], done, warnings
+
+
+def _first(unknown: set[str]) -> str:
+    return f"such as those of {min(unknown)!r}" if unknown else "the two had met before"
+
+
+def _is_of(one: Fixture, name: str) -> bool:
+    return same_name(name) in {same_name(one.home), same_name(one.away)}

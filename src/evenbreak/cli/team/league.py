@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from evenbreak import files, handicaps, ratings, teams
+from evenbreak import files, handicaps, league, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
@@ -185,7 +185,7 @@ def _matches(asked: Season) -> tuple[Any, Any, Any, tuple[Any, tuple[str, ...]],
         warnings += ahead.warnings
     to_come = ahead.pairs, ahead.rounds
     if asked.meetings is not None:
-        to_come = teams.still_to_play(known.names, asked.meetings, played.pairs), ()
+        to_come = league.still_to_play(known.names, asked.meetings, played.pairs), ()
     elif not len(ahead.pairs):
         asked.refuse(
             "say which matches are to come: give a schedule, or {meetings} K, or list them in "

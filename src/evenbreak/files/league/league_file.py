@@ -13,14 +13,12 @@ from dataclasses import dataclass, field, replace
 from datetime import date, time
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.kinds import Choice, Kind, Whole
 from evenbreak.fields.question import Declared, Field, declared
-from evenbreak.files.league import LEAGUE_TOML, values
-from evenbreak.files.league import find_league as find_league
-from evenbreak.files.league import is_league as is_league
+from evenbreak.files.league import values
 from evenbreak.files.league.toml_lines import Keys, lines_of
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.rows import content_of
@@ -28,6 +26,14 @@ from evenbreak.league.tables.rules import TableRules
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.evening.format import DISCIPLINES, LONGEST_RACE, MOST_TABLES
 from evenbreak.words import say
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.system import System
+else:
+    System = Any
+
+LEAGUE_TOML = "league.toml"
+"""What the file is called."""
 
 _NOTHING: Mapping[str, str] = {}
 Section = TypeVar("Section")
@@ -77,9 +83,6 @@ class TeamRules:
     ] = None
     order: Annotated[
         str | None, Field(values.ORDER, "Who names first, as for `evenbreak lineup`.")
-    ] = None
-    count: Annotated[
-        str | None, Field(values.COUNT, "What decides a match: sets won, all games, or points.")
     ] = None
 
 
@@ -162,7 +165,7 @@ class LeagueFile:
         ),
     ] = None
     system: Annotated[
-        str | None, Field(values.SYSTEM_NAME, "The handicap system: how ratings move.")
+        System | None, Field(values.SYSTEM, "The handicap system: how ratings move.")
     ] = None
     begins: Annotated[date | None, Field(values.DAY, "The first day of the season.")] = None
     ends: Annotated[date | None, Field(values.DAY, "Its last day.")] = None
@@ -210,16 +213,17 @@ _FREE = {"aliases", "columns", "players"}
 """The tables whose keys are names."""
 
 
-def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile:
-    r"""Read the file of a league.
+def find_league(folder: str | Path = ".") -> Path | None:
+    """Return the league's file in a folder; None if it has none.
 
-    Parameters
-    ----------
-    place
-        the league's folder, or the file.
-    quickly
-        whether chart and system are left for the command that uses them to check: they take a
-        quarter of a second to load, which most commands do without.
+    The folders above are not looked at: a file far away would change an answer unseen.
+    """
+    path = Path(folder) / LEAGUE_TOML
+    return path if path.is_file() else None
+
+
+def read_league(place: str | Path = ".") -> LeagueFile:
+    r"""Read the file of a league; the place is its folder, or the file.
 
     Raises
     ------
@@ -254,7 +258,7 @@ def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile
             what=what,
         )
     problems.raise_any()
-    reader = _Reader(path.parent, problems, lines_of(text), quickly)
+    reader = _Reader(path.parent, problems, lines_of(text))
     league: LeagueFile = reader.section(LeagueFile, table, (), folder=path.parent)
     problems.raise_any()
     return league
@@ -263,11 +267,8 @@ def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile
 class _Reader:
     """Reads the tables of a file, and notes every problem."""
 
-    def __init__(
-        self, folder: Path, problems: Problems, lines: Mapping[Keys, int], quickly: bool
-    ) -> None:
+    def __init__(self, folder: Path, problems: Problems, lines: Mapping[Keys, int]) -> None:
         self.folder, self.problems, self.lines = folder, problems, lines
-        self.quickly = quickly
 
     def note(self, keys: Keys, template: str, /, **said: Any) -> None:
         """Note a problem in the line in which a key stands."""
@@ -329,8 +330,6 @@ class _Reader:
             return None
         if one.kind is values.FILE:
             return self.file(one.name, text, keys)
-        if one.kind is values.SYSTEM_NAME and self.quickly:
-            return text
         return self.read(one.kind, text, keys)
 
     def read(self, kind: Kind, text: str, keys: Keys) -> Any:
@@ -344,8 +343,6 @@ class _Reader:
     def file(self, key: str, name: str, keys: Keys) -> str | None:
         """Return the name of a file of the folder, or note that it is not there."""
         if (self.folder / name).is_file():
-            return name
-        if key == "chart" and self.quickly:
             return name
         if key == "chart":
             from evenbreak.files.charts import find_chart_file

@@ -20,6 +20,7 @@ from evenbreak.files.lists.roster import (
     RosterFile,
     roster_of,
 )
+from evenbreak.files.lists.teams import PLACE, ROUND
 from evenbreak.files.results.columns import RESULTS
 from evenbreak.files.tables.names import KnownNames, Name, clean_name
 from evenbreak.files.tables.problems import first_ones, quoted, refusal, warning
@@ -284,6 +285,8 @@ SCHEDULE = Schema(
         write=say("1 for the first week, 2, ..."),
     ),
     **PAIRS.columns,
+    **ROUND.only("date").columns,
+    **PLACE.columns,
 )
 """A list of who plays whom in which week."""
 

@@ -47,13 +47,21 @@ def _side(also: str, about: str) -> Name:
 
 
 _SETS = Whole(needed=True, empty=None)
-ROUND = Schema(round=Text("week, matchday, night, date, day", "the round"))
+ROUND = Schema(
+    round=Text("week, matchday, night", "the round; the date, where there is no such column"),
+    date=Text("day, match date", "the date"),
+)
+PLACE = Schema(
+    venue=Text("location, place", "where it is played"),
+    table=Text("table number", "the table"),
+    turn=Text("", "whether it is the first match there that night, the second, ..."),
+)
 PAIR = Schema(
     "matches",
     home=_side("home team, team a, team 1, player a, a", "the team at home"),
     away=_side("away team, visitor, visitors, guest, team b, team 2, player b, b", "the visitors"),
 )
-FIXTURES = PAIR | ROUND
+FIXTURES = PAIR | ROUND | PLACE
 """The matches to come of a team season."""
 
 TEAM_RESULTS = (
@@ -67,6 +75,7 @@ TEAM_RESULTS = (
         ),
     )
     | ROUND
+    | PLACE
 )
 """The matches of a team season; those without a score, or with 0:0, have not been played."""
 
@@ -319,7 +328,7 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
                 line, "{name} meets itself; correct one of the teams", name=quoted(both[0])
             )
     table.problems.raise_any()
-    rounds = tuple(table.cells("round"))
+    rounds = tuple(table.cells("round" if "round" in table else "date"))
     twice = _twice(table, pairs, scores, rounds, teams.names)
     similar: Sequence[str] = ()
     if not teams.fixed:

@@ -238,7 +238,7 @@ def _has_header(lines: Sequence[str], header: Header) -> bool:
     """Return whether the first line that is not empty has a title by which players are known."""
     first = next((line for line in lines if line.strip()), "")
     return any(
-        "player" in header.places(first.split(separator), 1, Problems(""))[0]
+        header.has("player", header.places(first.split(separator), 1, Problems(""))[0])
         for separator in ",;\t"
     )
 

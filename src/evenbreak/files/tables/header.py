@@ -207,12 +207,13 @@ class Header:
 
     def _missing(self, found: Collection[str]) -> list[str]:
         """Return the required columns that are not found, and not replaced."""
-        return [
-            name for name in self.required if name not in found and not self._replaced(name, found)
-        ]
+        return [name for name in self.required if not self.has(name, found)]
 
-    def _replaced(self, name: str, found: Collection[str]) -> bool:
-        return any(set(found) >= set(group) for group in self._instead.get(name, ()))
+    def has(self, name: str, found: Collection[str]) -> bool:
+        """Return whether a column is among those found, or others that can take its place are."""
+        return name in found or any(
+            set(found) >= set(group) for group in self._instead.get(name, ())
+        )
 
 
 def _joined(upper: Sequence[str], lower: Sequence[str]) -> list[str]:

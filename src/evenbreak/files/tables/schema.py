@@ -17,7 +17,6 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.given_names import with_given_names_first
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.table import TextTable, Values, read_table
@@ -68,7 +67,6 @@ class Column:
     nothing: Any = ""
 
     dtype: ClassVar[Any] = object
-    given_first: ClassVar[bool] = False
 
     @property
     def aliases(self) -> tuple[str, ...]:
@@ -321,7 +319,14 @@ class Schema:
 
     def header(self) -> Header:
         """Return the header by which the columns are found in a file."""
-        return Header(self._names(needed=True), self._names(needed=False), {})
+        return Header(self._names(needed=True), self._names(needed=False), self._instead())
+
+    def _instead(self) -> dict[str, list[list[str]]]:
+        return {
+            name: [names.split() for names in column.instead]
+            for name, column in self.columns.items()
+            if column.instead
+        }
 
     def _names(self, *, needed: bool) -> dict[str, tuple[str, ...]]:
         return {name: c.aliases for name, c in self.columns.items() if c.needed == needed}
@@ -336,15 +341,8 @@ class Schema:
         how
             as for `read_table`.
         """
-        instead = {
-            name: [names.split() for names in column.instead]
-            for name, column in self.columns.items()
-            if column.instead
-        }
         needed, optional = (self._names(needed=needed) for needed in (True, False))
-        table = read_table(path, needed, optional, instead, rows=self.rows, **how)
-        names = [name for name, column in self.columns.items() if column.given_first]
-        return with_given_names_first(table, names)
+        return read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
 
     def of(self, table: TextTable) -> TextTable:
         """Return a table with what its cells mean; those without a meaning are its problems."""

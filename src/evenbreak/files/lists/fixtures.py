@@ -1,0 +1,149 @@
+"""Who takes part in a round robin, and lists of fixtures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from evenbreak.files.lists.teams import PAIR
+from evenbreak.files.lists.typed_list import read_players
+from evenbreak.files.tables.dates import Day
+from evenbreak.files.tables.names import Name, same_name
+from evenbreak.files.tables.problems import quoted
+from evenbreak.files.tables.schema import Schema, Text, Whole
+from evenbreak.league.tables.fixtures import Fixture
+
+SIDES = Schema(
+    "names",
+    player=Name("name, player name", "a player", needed=True, instead=("team",)),
+    team=Text("team name", "a team; each is taken once"),
+    venue=Text("home venue, location, place", "where the team is at home"),
+    tables=Whole("tables there", "the number of tables at that venue", most=1000),
+    rating=Text("rating now"),
+)
+"""Who takes part: players, or teams with their venues."""
+
+FIXTURE_LIST = PAIR | Schema(
+    round=Whole("week, matchday, night", "the round", most=10_000),
+    date=Day("day, match date", "the day"),
+    venue=Text("location, place", "where it is played"),
+    table=Whole("table number", "the table", most=1000),
+    turn=Whole("", "which match on that table it is that night", most=1000),
+)
+"""Fixtures, as `league fixtures` writes them."""
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Who takes part.
+
+    Parameters
+    ----------
+    names
+        the teams or players, in the order of the file.
+    of_teams
+        whether they are teams.
+    venues
+        where each is at home; '' where the file does not say.
+    tables
+        the number of tables of venues.
+    warnings
+        about the file.
+    """
+
+    names: tuple[str, ...]
+    of_teams: bool
+    venues: tuple[str, ...]
+    tables: dict[str, int]
+    warnings: tuple[str, ...]
+
+
+def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
+    r"""Read who takes part: a list of names, a roster, or a list of teams with their venues.
+
+    Parameters
+    ----------
+    path
+        the file; '-' is standard input.
+    of
+        'players' or 'teams'; None: teams where the file has a column team.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file: fewer than two names, a player who is listed twice.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "teams.csv"
+    ...     _ = path.write_text("team,venue,tables\nAcers,Corner,2\nBankers,Corner,\nCaroms,,\n")
+    ...     sides = read_sides(path)
+    >>> sides.names, sides.venues, sides.tables
+    (('Acers', 'Bankers', 'Caroms'), ('Corner', 'Corner', ''), {'Corner': 2})
+    """
+    table = SIDES.of(read_players(path, SIDES))
+    teams = "team" in table if of is None else of == "teams"
+    column = "team" if teams else "player"
+    if column not in table:
+        table.problems.add(
+            None, "has no column {column}; add it, or ask for the other table", column=column
+        )
+        table.problems.raise_any()
+    names: dict[str, str] = {}
+    venues: dict[str, str] = {}
+    for line, name, venue in zip(
+        table.lines.tolist(), table.cells(column), table.cells("venue"), strict=True
+    ):
+        if not name.strip():
+            continue
+        known = same_name(name)
+        if known in names and not teams:
+            table.problems.add(line, "{name} is listed twice; delete one", name=quoted(name))
+        names.setdefault(known, " ".join(name.split()))
+        venues[known] = venues.get(known) or venue.strip()
+    if len(names) < 2:
+        table.problems.add(None, "names fewer than two; list everyone who takes part")
+    table.problems.raise_any()
+    tables = {
+        venue.strip(): int(many)
+        for venue, many in zip(table.cells("venue"), table["tables"].tolist(), strict=True)
+        if many
+    }
+    return Sides(
+        tuple(names.values()), teams, tuple(venues[key] for key in names), tables, table.warnings
+    )
+
+
+def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]:
+    r"""Read fixtures, and what to check in their file.
+
+    Raises
+    ------
+    DataError
+        with every problem of the file.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "fixtures.csv"
+    ...     _ = path.write_text("round,date,home,away\n1,2026-09-01,Acers,Bankers\n")
+    ...     read_fixture_list(path)[0][0].date
+    datetime.date(2026, 9, 1)
+    """
+    table = FIXTURE_LIST.read(path)
+    for row, (home, away) in enumerate(zip(table["home"], table["away"], strict=True)):
+        if home and same_name(home) == same_name(away):
+            table.note(row, "{name} meets itself; correct one of the names", name=quoted(home))
+    table.problems.raise_any()
+    days = [None if np.isnat(day) else day.astype(object) for day in table["date"]]
+    columns = (
+        table["round"].tolist(),
+        table["home"],
+        table["away"],
+        days,
+        table["venue"],
+        table["table"].tolist(),
+        [max(turn, 1) for turn in table["turn"].tolist()],
+    )
+    return [Fixture(*row) for row in zip(*columns, strict=True)], table.warnings

@@ -1,0 +1,349 @@
+"""Who plays whom, where and when: round robins with home and away, dates, tables, what is left.
+
+The rounds are those of the canonical factorization with its home and away pattern (de Werra 1981,
+"Scheduling in sports"): as few breaks, two matches in a row at home or away, as there can be.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import date, timedelta
+from itertools import combinations
+
+import numpy as np
+
+from evenbreak.arrays import Ints
+from evenbreak.checks import whole
+from evenbreak.errors import InputError
+
+MOST_MEETINGS = 10
+
+
+def round_robin(sides: int, times: int = 1) -> Ints:
+    """Return a schedule in which every two meet: round (from 1), home, away.
+
+    Of n sides each plays as often at home as away, or once more or less; a single round robin has
+    n - 2 breaks (none if n is odd, where each side has a bye), and a double one, whose second half
+    mirrors the first, 3n - 6.
+
+    Parameters
+    ----------
+    sides
+        how many teams or players there are.
+    times
+        how often every two meet; home and away change from one time to the next.
+
+    >>> round_robin(4).tolist()
+    [[1, 0, 3], [1, 1, 2], [2, 3, 1], [2, 2, 0], [3, 2, 3], [3, 0, 1]]
+    """
+    count = whole(sides, "sides", at_least=2)
+    turning = count - 1 + count % 2
+    rows: list[tuple[int, int, int]] = []
+    for week in range(turning):
+        pairs = [(week, turning) if week % 2 == 0 else (turning, week)]
+        for k in range(1, (turning + 1) // 2):
+            ahead, behind = (week + k) % turning, (week - k) % turning
+            pairs.append((ahead, behind) if k % 2 else (behind, ahead))
+        rows += [(week + 1, *pair) for pair in pairs if max(pair) < count]
+    once = np.array(rows, dtype=np.int64)
+    mirrored = once[:, [0, 2, 1]]
+    every = []
+    for time in range(whole(times, "times", at_least=1, at_most=MOST_MEETINGS)):
+        half = (mirrored if time % 2 else once).copy()
+        half[:, 0] += time * turning
+        every.append(half)
+    return np.concatenate(every)
+
+
+def clashes(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> int:
+    """Return how many matches of a schedule find no room at their venue, round by round.
+
+    Parameters
+    ----------
+    schedule
+        as `round_robin` returns it.
+    venues
+        the venue at which each side is at home; '' where it does not matter.
+    room
+        how many matches fit at each venue in a round; venues without a number have room.
+    """
+    at = Counter((week, venues[home]) for week, home, _ in schedule.tolist())
+    return sum(max(0, many - room.get(venue, many)) for (_, venue), many in at.items() if venue)
+
+
+def seated(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> Ints:
+    """Return a schedule in which sides that share a venue with too little room are at home in turn.
+
+    They get numbers that are never at home in the same round, two by two; then sides change places
+    as long as that leaves fewer clashes.
+
+    Parameters
+    ----------
+    schedule, venues, room
+        as for `clashes`.
+
+    >>> venues, room = ["Corner", "Corner", "", ""], {"Corner": 1}
+    >>> schedule = round_robin(4, 2)
+    >>> clashes(schedule, venues, room), clashes(seated(schedule, venues, room), venues, room)
+    (2, 0)
+    """
+    count = len(venues)
+    number = list(range(count))
+    if not clashes(schedule, venues, room):
+        return schedule
+    at_home = [{week for week, home, _ in schedule.tolist() if home == k} for k in range(count)]
+    free = list(range(count))
+    seats: dict[int, int] = {}
+    for venue in dict.fromkeys(filter(None, venues)):
+        sharing = [side for side in range(count) if venues[side] == venue]
+        if len(sharing) <= room.get(venue, len(sharing)):
+            continue
+        for one, other in zip(sharing[::2], sharing[1::2], strict=False):
+            apart = (p for p in combinations(free, 2) if not at_home[p[0]] & at_home[p[1]])
+            pair = next(apart, None)
+            if pair is not None:
+                seats[one], seats[other] = pair
+                free = [k for k in free if k not in pair]
+    rest = iter(free)
+    number = [seats[side] if side in seats else next(rest) for side in range(count)]
+    return _improved(schedule, number, venues, room)
+
+
+def _improved(
+    schedule: Ints, number: list[int], venues: Sequence[str], room: Mapping[str, int]
+) -> Ints:
+    """Return the schedule with these numbers, sides swapped while that leaves fewer clashes."""
+
+    def drawn(number: Sequence[int]) -> Ints:
+        side = np.argsort(number)
+        return np.column_stack([schedule[:, 0], side[schedule[:, 1]], side[schedule[:, 2]]])
+
+    best = clashes(drawn(number), venues, room)
+    better = best > 0
+    while better:
+        better = False
+        for one, other in combinations(range(len(number)), 2):
+            if venues[one] == venues[other]:
+                continue
+            swapped = list(number)
+            swapped[one], swapped[other] = number[other], number[one]
+            left = clashes(drawn(swapped), venues, room)
+            if left < best:
+                number, best, better = swapped, left, left > 0
+    return drawn(number)
+
+
+def nights(
+    count: int,
+    begins: date,
+    *,
+    weekdays: Sequence[int] = (),
+    skipped: Iterable[date] = (),
+    ends: date | None = None,
+) -> list[date]:
+    """Return the dates of so many nights.
+
+    Parameters
+    ----------
+    count
+        how many.
+    begins
+        the first day that may be one.
+    weekdays
+        on which days of the week (0 is Monday); that of the first day, if none is given.
+    skipped
+        days that are left out, such as holidays.
+    ends
+        the last day that may be one.
+
+    Raises
+    ------
+    InputError
+        if there are too few days.
+
+    >>> [str(day) for day in nights(3, date(2026, 12, 15), skipped=[date(2026, 12, 22)])]
+    ['2026-12-15', '2026-12-29', '2027-01-05']
+    """
+    wanted = set(weekdays) or {begins.weekday()}
+    free = set(skipped)
+    found: list[date] = []
+    day = begins
+    last = ends or begins + timedelta(days=7 * (count + len(free) + 1))
+    while len(found) < count and day <= last:
+        if day.weekday() in wanted and day not in free:
+            found.append(day)
+        day += timedelta(days=1)
+    if len(found) < count:
+        raise InputError(
+            "{count} nights are needed, but there are {n} up to {ends}; start earlier, end later, "
+            "or play more rounds a night",
+            count=count,
+            n=len(found),
+            ends=str(last),
+        )
+    return found
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """A match to come.
+
+    Parameters
+    ----------
+    round
+        from 1.
+    home, away
+        who plays whom.
+    date
+        when; None where no dates are set.
+    venue
+        where; '' where that is not known.
+    table
+        the (first) table; 0 where tables are not given out.
+    turn
+        1 if it starts when the night does, 2 after the matches that do, and so on.
+    """
+
+    round: int
+    home: str
+    away: str
+    date: date | None = None
+    venue: str = ""
+    table: int = 0
+    turn: int = 1
+
+
+def fixtures(
+    names: Sequence[str],
+    *,
+    times: int = 1,
+    dates: Sequence[date] = (),
+    rounds_a_night: int = 1,
+    venues: Sequence[str] = (),
+    tables: Mapping[str, int] | None = None,
+    tables_a_match: int = 1,
+) -> list[Fixture]:
+    """Return the fixtures of a round robin, by round.
+
+    Parameters
+    ----------
+    names
+        the teams or players; the first has the first number.
+    times
+        how often every two meet.
+    dates
+        the date of each night.
+    rounds_a_night
+        how many rounds are played in a night.
+    venues
+        where each is at home, '' where that is not known; all '' if left out.
+    tables
+        the number of tables of each venue: a match is given one (or `tables_a_match`), in turn, and
+        sides that share a venue with too few are at home in turn.
+    tables_a_match
+        how many tables a match takes.
+
+    >>> for match in fixtures(["Ann", "Bo", "Cy"], dates=[date(2026, 9, k) for k in (1, 8, 15)]):
+    ...     print(match.date, match.home, match.away)
+    2026-09-01 Bo Cy
+    2026-09-08 Cy Ann
+    2026-09-15 Ann Bo
+    """
+    at = list(venues) or [""] * len(names)
+    room = {venue: many // tables_a_match for venue, many in (tables or {}).items()}
+    for venue, fitting in room.items():
+        if not fitting:
+            raise InputError(
+                "{venue} has fewer tables than a match takes ({tables_a_match})",
+                venue=venue or "the venue",
+                tables_a_match=tables_a_match,
+            )
+    schedule = seated(round_robin(len(names), times), at, room)
+    listed = []
+    for week, home, away in schedule.tolist():
+        night = (week - 1) // rounds_a_night
+        day = dates[night] if dates else None
+        listed.append(Fixture(week, names[home], names[away], day, at[home]))
+    return _with_tables(listed, room, rounds_a_night, tables_a_match)
+
+
+def _with_tables(
+    listed: Sequence[Fixture], room: Mapping[str, int], rounds_a_night: int, each: int
+) -> list[Fixture]:
+    """Return the fixtures with tables, which move on by one from round to round."""
+    found = []
+    turns: Counter[tuple[int, str]] = Counter()  # those of earlier rounds of the night
+    for week in dict.fromkeys(one.round for one in listed):
+        night, earlier = divmod(week - 1, rounds_a_night)
+        played: Counter[str] = Counter()
+        for one in (one for one in listed if one.round == week):
+            if one.venue not in room:
+                found.append(replace(one, turn=earlier + 1))
+                continue
+            turn, place = divmod(played[one.venue], room[one.venue])
+            table = (place + week - 1) % room[one.venue] * each + 1
+            before = max(turns[night, one.venue], earlier)
+            found.append(replace(one, table=table, turn=before + turn + 1))
+            played[one.venue] += 1
+        for venue, many in played.items():
+            turns[night, venue] = max(turns[night, venue], earlier) - (-many // room[venue])
+    return found
+
+
+def still_to_play(names: Sequence[str], times: int, played: Ints) -> Ints:
+    """Return the matches of a round robin that have not been played yet: home, away.
+
+    Parameters
+    ----------
+    names
+        the teams or players.
+    times
+        how often every two meet.
+    played
+        the matches played: home, away. Who was home does not matter.
+
+    Raises
+    ------
+    InputError
+        if two have met more often than `times`.
+
+    >>> still_to_play(["Acers", "Bankers", "Caroms"], 1, np.array([[2, 1]])).tolist()
+    [[2, 0], [0, 1]]
+    """
+    met = Counter(tuple(sorted(pair)) for pair in played[:, :2].tolist())
+    for pair, many in met.items():
+        if many > times:
+            raise InputError(
+                "{team} and {team_2} have met {many} times, more than the {times} of this "
+                "round robin",
+                team=names[pair[0]],
+                team_2=names[pair[1]],
+                many=many,
+                times=times,
+            )
+    every = round_robin(len(names), times)[:, 1:]
+    kept = left_of(
+        [(int(a), int(b)) for a, b in every], [(int(a), int(b)) for a, b in played[:, :2]]
+    )
+    return every[kept].reshape(-1, 2)
+
+
+def left_of(listed: Sequence[tuple[int, int]], played: Iterable[tuple[int, int]]) -> list[int]:
+    """Return the positions of the fixtures that have not been played.
+
+    Each match played is the first fixture of its two that is left, with the same side at home if
+    there is one.
+
+    >>> left_of([(0, 1), (1, 0), (0, 2)], [(1, 0)])
+    [0, 2]
+    """
+    left = dict(enumerate(listed))
+    for pair_played in played:
+        for wanted in (pair_played, pair_played[::-1]):
+            done = next((k for k, pair in left.items() if pair == wanted), None)
+            if done is not None:
+                del left[done]
+                break
+    return list(left)
