@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.files.lists.saved_ratings import read_saved
-from evenbreak.files.results.results_file import read_seasons
+from evenbreak.files.results.seasons import read_seasons
 from evenbreak.files.store.desk import PROPOSED, kept_prizes, phone_entries
 from evenbreak.files.store.evening_file import opened
 from evenbreak.files.store.team_night import read_team_events

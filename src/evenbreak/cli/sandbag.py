@@ -94,7 +94,7 @@ def watch(asked: SandbagWatch) -> Answer:
     )
 
     first = files.read_roster(asked.roster)
-    season = files.read_results(asked.results, **asked.reading)
+    season = files.read_seasons([asked.results], **asked.reading)
     system = handicaps.steps_of(asked.system or "npl")
     system, doubts = _moved(system, asked.scale, first, season)
     ladder, warnings = watched_ladder(asked, system)

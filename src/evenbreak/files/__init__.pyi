@@ -35,7 +35,7 @@ from .results.results_file import AliasesFile as AliasesFile
 from .results.results_file import ResultsFile as ResultsFile
 from .results.results_file import read_aliases as read_aliases
 from .results.results_file import read_results as read_results
-from .results.results_file import read_seasons as read_seasons
+from .results.seasons import read_seasons as read_seasons
 from .store.folder import write_files as write_files
 from .tables.problems import Problems as Problems
 from .tables.table import TextTable as TextTable

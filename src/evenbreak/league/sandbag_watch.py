@@ -14,7 +14,9 @@ from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
+from evenbreak.handicaps.systems.night_table import SeasonSoFar
 from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_evidence import (
     DEPTHS,
     FARTHEST,
@@ -339,11 +341,11 @@ class PlayedNight(NamedTuple):
 
 
 def played_nights(
-    system: StepSystem,
+    system: System,
     roster: Roster,
     results: Results,
     *,
-    chart: Chart | str | None = None,
+    chart: Chart | System | str | None = None,
     apply: Callable[[Roster, Ints], RatingChanges] | None = None,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
@@ -378,9 +380,10 @@ def played_nights(
                 row=rows[problem.row],
                 message=problem.message,
             )
-        return apply_results(system, list_, night, chart=chart)
+        return apply_results(system, list_, night, chart=chart, so_far=so_far)
 
     nights, now = [], roster
+    so_far = SeasonSoFar(system, roster)
     for rows in _nights(results):
         changes = (apply or by_results)(now, rows)
         nights.append(PlayedNight(rows, changes))

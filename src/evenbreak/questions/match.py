@@ -17,8 +17,10 @@ from evenbreak.questions.common import (
     SCORE,
     USUAL_RACE,
     ByWay,
+    ChartName,
     FormOfDay,
     Lengths,
+    LevelResults,
     PlotFile,
     ScaleOf,
     Target,
@@ -47,6 +49,16 @@ class Players(Question):
         ),
     ] = None
     scale: ScaleOf = None
+    chart: Annotated[
+        ChartName,
+        Says(
+            "The league's chart, by name or in a file; with a chart by skill level, such as "
+            "apa_8ball, A and B are levels.",
+            more="It sets the race where none is given. The names of a list need its column level; "
+            "the chances come from its ratings if there are any, else from the levels.",
+        ),
+    ] = None
+    results: LevelResults = None
     p: Annotated[float | None, Field(CHANCE, "Chance that A wins a game.", section=_BY_CHANCE)] = (
         None
     )
@@ -90,6 +102,13 @@ class Players(Question):
             self.refuse(f"the players are given twice; {remedy}")
         if self.from_file is not None and not self.ratings:
             self.refuse("{from_file} is for two players by name, but none are named; leave it out")
+        if self.chart is not None and not self.ratings:
+            self.refuse("{chart} is for ratings or skill levels, but none are given; leave it out")
+        if self.results is not None and self.chart is None:
+            self.refuse(
+                "{results} is for chances by skill levels; give {chart} apa_8ball or such, or "
+                "leave it out"
+            )
         if self.scale is not None and not self.ratings:
             self.refuse("{scale} is for ratings, but none are given; leave it out")
         if by_break and None in (self.p1, self.p2, self.breaks):
@@ -170,20 +189,22 @@ class Played(Question):
             self.refuse("{win_by} cannot be combined with {ahead}; leave it out")
         if self.win_by is not None and self.set_:
             self.refuse("{win_by} cannot be combined with {set_}; leave it out")
-        if self.race is None and self.ahead is None:
-            self.refuse("the match is missing; give {race} M:N or {ahead} M:N")
+        if self.race is None and self.ahead is None and getattr(self, "chart", None) is None:
+            self.refuse("the match is missing; give {race} M:N or {ahead} M:N, or the {chart}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Odds(Players, Played):
     """Give the odds of a match, and how long it lasts.
 
-    Describe the players by two ratings A B, by two names with {from_file}, by {p}, or by {p1}, {p2}
-    and {breaks}; the match by {race} or {ahead}, perhaps in sets.
+    Describe the players by two ratings A B, by two skill levels with {chart}, by two names with
+    {from_file}, by {p}, or by {p1}, {p2} and {breaks}; the match by {race} or {ahead}, perhaps in
+    sets, or by the {chart}.
     """
 
     examples = """\
   evenbreak odds 612 521 --scale fargo --race 7:5
+  evenbreak odds 5 3 --chart apa_8ball
   evenbreak odds "Ann Lee" "Bo Diaz" --from ratings.csv --race 7:5
   evenbreak odds --p1 0.6 --p2 0.5 --breaks winner --race 9:9 --score 4:6
 """

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import sys
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from evenbreak.fields.kinds import Number
@@ -16,14 +17,27 @@ else:  # systems take a quarter of a second to load, which most questions do wit
     System = Any
 
 
+def _system(text: str) -> System:
+    from evenbreak.handicaps.systems.catalogue import system_of
+    from evenbreak.handicaps.systems.own import own_system
+
+    if ":" in text:
+        if "" not in sys.path:  # a class in the folder where the command is run
+            sys.path.append("")
+        return own_system(text)
+    return system_of(text)
+
+
 SystemOf: TypeAlias = Annotated[
     System | None,
     Field(
-        SYSTEM,
-        "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K] or fixed [GAMES].",
+        replace(SYSTEM, reader=_system),
+        "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K], fixed [GAMES], "
+        "none [GAMES], fargo-like, level-review, apa-like, tap-like, level-steps [STEPS], "
+        "averages, win-percent, napa-like, or a class of your own as MODULE:CLASS.",
         usual="npl",
-        more="Put a name with a blank in quotes, or write a hyphen: `step-2`. See "
-        "[Systems](../systems.md).",
+        more="Put a name with a blank in quotes, or write a hyphen: `step-2`. Open parameters are "
+        "set by name: `'level-review window=15'`. See [Systems](../systems.md).",
     ),
 ]
 """A handicap system; `asked.system or system_of("npl")` is the one that is meant."""

@@ -168,7 +168,7 @@ class League:
         """Return the sheet; the steps are told to whoever looks meanwhile."""
         from evenbreak.answers.league.roster_matchups import OfferedRaces
         from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, most_active
-        from evenbreak.files.results.results_file import read_seasons
+        from evenbreak.files.results.seasons import read_seasons
         from evenbreak.ratings.usual import usual_ratings
 
         paths = self.paths

@@ -53,6 +53,7 @@ sets = 5
 cap = 23
 at_most = "2:6"
 order = "alternate"
+count = "points"
 
 [standings]
 points = [3, 1, 0]
@@ -97,7 +98,7 @@ def problems(folder, text):
 def test_every_key_is_read(folder):
     league = read(folder, WHOLE)
     assert (league.folder, league.path) == (folder, find_league(folder))
-    assert (league.name, league.scale.name, league.system.name) == (
+    assert (league.name, league.scale.name, league.system) == (
         "Tuesday 8-Ball",
         "fargo",
         "npl",
@@ -175,6 +176,12 @@ def test_a_problem_has_its_line_and_its_remedy(folder, text, line, remedy):
 def test_all_problems_come_at_once(folder):
     text = 'scale = "fargoo"\ntabels = 6\n[team]\ncap = -1\nat_most = "two"\n'
     assert [problem[:2] for problem in problems(folder, text)] == ["1:", "2:", "4:", "5:"]
+
+
+def test_read_quickly_neither_chart_nor_system_is_looked_up(folder):
+    (folder / "league.toml").write_text('chart = "nochart"\nsystem = "nosystem"\ntables = 6\n')
+    assert read_league(folder, quickly=True).system == "nosystem"
+    assert len(problems(folder, (folder / "league.toml").read_text())) == 2
 
 
 def test_only_the_folder_itself_is_looked_at(folder):

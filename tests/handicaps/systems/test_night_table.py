@@ -3,7 +3,7 @@
 import numpy as np
 
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.rating_changes import night_table
+from evenbreak.handicaps.systems.night_table import night_table
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 

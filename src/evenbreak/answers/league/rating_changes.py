@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,17 +21,22 @@ from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
+from evenbreak.handicaps.systems.night_table import SeasonSoFar, listed, published
 from evenbreak.handicaps.systems.rating_changes import (
     MatchChange,
     RatingChanges,
     apply_results,
     night_problems,
 )
+from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_watch import PlayedNight, played_nights
 from evenbreak.ratings.provisional import established_from
 from evenbreak.ratings.results import Problem, Results
 from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.words import Parameter, say
+
+Races: TypeAlias = Chart | System
+"""What sets the races of results that do not state them: a chart, or a system by its own rule."""
 
 MOST_NAMES = 6
 """How many players who gained, and who lost, the first sentence names."""
@@ -77,8 +82,10 @@ def rating_changes_answer(
         warnings=[*last.warnings, *tonight.warnings, *_night_warnings(moves, tonight, chart)],
         data={
             "system": moves.system.name,
-            "scale": moves.system.scale.name,
-            "points_per_doubling": moves.system.scale.points_per_doubling,
+            "scale": None if moves.system.scale is None else moves.system.scale.name,
+            "points_per_doubling": None
+            if moves.system.scale is None
+            else moves.system.scale.points_per_doubling,
             "chart": None if chart is None else chart.name,
             "forfeits_left_out": moves.forfeits,
             "empty_left_out": moves.empty,
@@ -107,6 +114,8 @@ def _heading(moves: RatingChanges, last: RosterFile, tonight: ResultsFile) -> st
 
 def _newcomers(moves: RatingChanges) -> str:
     """Return how newcomers move, where the list has some and the system a rule for them."""
+    if not isinstance(moves.system, StepSystem):
+        return ""
     steps, before = moves.system.newcomer_steps, moves.before.matches
     first = sum(matches for matches, _ in steps)
     if not ((before != NOT_STATED) & (before < first)).any():
@@ -122,7 +131,8 @@ def _newcomers(moves: RatingChanges) -> str:
 
 def _in_words(moves: RatingChanges) -> str:
     """Return who gained and who lost points, the largest changes first."""
-    change = moves.after.rating - moves.before.rating
+    was, now = _numbers_of(moves)
+    change = now - was
     order = sorted(range(len(change)), key=lambda k: (-abs(change[k]), moves.before.players[k]))
     sentences = []
     for verb, sign in (("Up", 1), ("Down", -1)):
@@ -139,6 +149,11 @@ def _in_words(moves: RatingChanges) -> str:
     return " ".join(sentences) or "Nobody's rating changed."
 
 
+def _numbers_of(moves: RatingChanges) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what the system published before and after: ratings or levels."""
+    return published(moves.system, moves.before), published(moves.system, moves.after)
+
+
 def _order(moves: RatingChanges) -> list[int]:
     """Return the players in the order of a list, those without a rating last."""
     by_name = sorted(range(len(moves.after)), key=moves.after.players.__getitem__)
@@ -148,18 +163,19 @@ def _order(moves: RatingChanges) -> list[int]:
 
 def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | None) -> Table:
     """Return the list after a night as files hold it, a roster with more columns."""
-    before, after = moves.before, moves.after
-    why = _reasons(moves)
+    after, why = moves.after, _reasons(moves)
+    was, now = _numbers_of(moves)
     columns: dict[str, list[Any]] = {
         "player": list(after.players),
-        "rating": _numbers(after.rating),
+        **({} if np.array_equal(after.rating, after.level) else {"rating": _numbers(after.rating)}),
+        **({} if np.isnan(after.level).all() else {"level": _numbers(after.level)}),
         "standard_error": _stated(after.standard_error),
         "games": _stated(after.games),
         "component": [one or None for one in after.component.tolist()],
         **({"provisional": after.provisional.tolist()} if after.provisional.any() else {}),
         "matches": _stated(after.matches),
-        "rating_before": _numbers(before.rating),
-        "change": _numbers(after.rating - before.rating),
+        "rating_before": _numbers(was),
+        "change": _numbers(now - was),
         "matches_won": moves.won.tolist(),
         "matches_lost": moves.lost.tolist(),
         "why": ["; ".join(why.get(place, ())) for place in range(len(after))],
@@ -185,7 +201,7 @@ def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
     why = _reasons(moves)
     rows: list[tuple[Any, ...]] = []
     for place in order:
-        was, now = float(moves.before.rating[place]), float(moves.after.rating[place])
+        was, now = (float(numbers[place]) for numbers in _numbers_of(moves))
         for number, reason in enumerate(why.get(place, ())):
             name = moves.after.players[place]
             rows.append((*((None,) * 4 if number else (name, was, now, now - was)), reason))
@@ -194,10 +210,10 @@ def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
 
 
 def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
-    games = _stated(moves.after.games)
+    games, (_, now) = _stated(moves.after.games), _numbers_of(moves)
     places = places_in_list(moves.after.provisional[order])
     rows = [
-        (at, moves.after.players[place], float(moves.after.rating[place]), games[place])
+        (at, moves.after.players[place], float(now[place]), games[place])
         for at, place in zip(places, order, strict=True)
     ]
     columns = columns_of("rank player rating games", show={"rating": points_or_new})
@@ -246,7 +262,7 @@ def _matches(moves: RatingChanges) -> list[dict[str, Any]]:
 
 
 def _night_warnings(
-    moves: RatingChanges, tonight: ResultsFile, chart: Chart | None
+    moves: RatingChanges, tonight: ResultsFile, chart: Races | None
 ) -> Iterator[str]:
     """Yield the races that the chart does not have."""
     if chart is None:
@@ -265,7 +281,7 @@ def _night_warnings(
 
 
 def nights_of_files(
-    system: StepSystem, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+    system: System, first: RosterFile, season: ResultsFile, *, chart: Races | None = None
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
@@ -286,6 +302,8 @@ def nights_of_files(
         with every problem that keeps the results from moving ratings, and its line.
     """
     problems: dict[str, None] = {}
+    first = replace(first, roster=listed(system, first.roster))
+    so_far = SeasonSoFar(system, first.roster)
 
     def of_night(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
         # The season goes on without a night that has problems, so that all are listed at once.
@@ -294,7 +312,7 @@ def nights_of_files(
             night = replace(season, results=season.results.select(kept), lines=season.lines[kept])
             try:
                 return rating_changes_of_files(
-                    system, replace(first, roster=list_), night, chart=chart
+                    system, replace(first, roster=list_), night, chart=chart, so_far=so_far
                 )
             except DataError as error:
                 problems.update(dict.fromkeys(error.problems))
@@ -307,7 +325,7 @@ def nights_of_files(
 
 
 def rating_changes_of_season(
-    system: StepSystem, first: RosterFile, season: ResultsFile, *, chart: Chart | None = None
+    system: System, first: RosterFile, season: ResultsFile, *, chart: Races | None = None
 ) -> RatingChanges:
     """Return how the results of one or several dates change the ratings of a list.
 
@@ -323,6 +341,7 @@ def rating_changes_of_season(
     DataError
         as `nights_of_files` does.
     """
+    first = replace(first, roster=listed(system, first.roster))
     if count_dates(season.results) < 2:
         return rating_changes_of_files(system, first, season, chart=chart)
     nights = nights_of_files(system, first, season, chart=chart)
@@ -362,7 +381,12 @@ def _once(problems: Iterable[str]) -> list[str]:
 
 
 def rating_changes_of_files(
-    system: StepSystem, last: RosterFile, tonight: ResultsFile, *, chart: Chart | None = None
+    system: System,
+    last: RosterFile,
+    tonight: ResultsFile,
+    *,
+    chart: Races | None = None,
+    so_far: SeasonSoFar | None = None,
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
@@ -393,10 +417,10 @@ def rating_changes_of_files(
             message += _suggestion(alike.get(results.players[side[problem.row]], ()))
         problems.add(int(tonight.lines[problem.row]), message)
     problems.raise_any()
-    return apply_results(system, last.roster, results, chart=chart)
+    return apply_results(system, last.roster, results, chart=chart, so_far=so_far)
 
 
-def _needs_chart(problem: Problem, results: Results, chart: Chart | None) -> bool:
+def _needs_chart(problem: Problem, results: Results, chart: Races | None) -> bool:
     """Return whether nothing in a row, and no chart, says who won."""
     stated = results.winner is not None and results.winner[problem.row] > 0
     return chart is None and problem.column == "winner" and not stated

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.kit.answer import Answer
@@ -20,6 +20,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import joined, say
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.ways import Way
     from evenbreak.handicaps.charts.fair import FairRace
     from evenbreak.handicaps.charts.gap import Gap
+    from evenbreak.handicaps.charts.level_skills import LevelSkills
     from evenbreak.questions.match import Fair
 
 
@@ -39,6 +41,8 @@ FORMATS = {
     "b": BREAK_FORMATS["player 2"],
 }
 """Break formats as people name them; A is player 1."""
+
+_AVERAGED = say("All of this is averaged over how far off that may be.")
 
 
 @dataclass(frozen=True)
@@ -59,6 +63,11 @@ class TwoPlayers:
         how far each rating may be off (standard errors), if they come from a list.
     form
         how much the log-odds of a game vary from match to match (standard deviation).
+    levels
+        their skill levels, where a chart by skill level is used.
+    skills
+        how strong the levels are, where the chances come from them: the ratings are then points of
+        difference, the second one 0.
 
     >>> from evenbreak.ratings import scale_of
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
@@ -75,6 +84,18 @@ class TwoPlayers:
     names: tuple[str, str] = ("A", "B")
     errors: tuple[float, float] | None = None
     form: float = 0.0
+    levels: tuple[int, int] | None = None
+    skills: LevelSkills | None = None
+
+    @classmethod
+    def of_levels(
+        cls, levels: tuple[int, int], skills: LevelSkills, names: tuple[str, str] = ("A", "B")
+    ) -> TwoPlayers:
+        """Return two players of whom the skill levels are known."""
+        off = float(skills.error(*levels)) / math.sqrt(2.0)
+        apart = float(skills.difference(*levels))
+        players = cls.rated(apart, 0.0, skills.scale, names, (off, off) if off else None)
+        return replace(players, levels=levels, skills=skills)
 
     @classmethod
     def rated(
@@ -122,14 +143,24 @@ class TwoPlayers:
 
     @property
     def named(self) -> dict[str, Any]:
-        """The names and the form, for JSON, where there are any."""
+        """The names, the levels and the form, for JSON, where there are any."""
         a, b = self.names
-        names = {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
+        names: dict[str, Any] = {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
+        if self.levels is not None:
+            names |= {"level_a": self.levels[0], "level_b": self.levels[1]}
+        if self.skills is not None:
+            names |= {
+                "levels_source": self.skills.source,
+                "difference": self.difference,
+                "difference_error": self.error or None,
+            }
         return {**names, **({"form": self.form} if self.form else {})}
 
     @property
     def averaged(self) -> str:
-        """The sentence that chances are averaged over errors, '' where there are none."""
+        """The sentence that says what the chances rest on, '' where they are as stated."""
+        if self.skills is not None:
+            return joined([self.skills.why, _AVERAGED] if self.error else [self.skills.why])
         if not self.error:
             return ""
         return "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
@@ -146,6 +177,8 @@ class TwoPlayers:
     @property
     def taken_as_right(self) -> str:
         """The sentence that the ratings are taken as right, '' where they are not in doubt."""
+        if self.skills is not None:
+            return self.skills.why
         if not self.error:
             return ""
         return (
@@ -156,7 +189,7 @@ class TwoPlayers:
     @property
     def doubts(self) -> list[str]:
         """What is unusual in the ratings."""
-        if self.ratings is None or self.scale is None:
+        if self.skills is not None or self.ratings is None or self.scale is None:
             return []
         return two_ratings_doubts(self.scale, *self.ratings)
 
@@ -164,6 +197,9 @@ class TwoPlayers:
     def description(self) -> str:
         """Who they are, in a line."""
         a, b = self.names
+        if self.skills is not None and self.levels is not None:
+            of_chart = self.skills.chart.name
+            return f"{a} level {self.levels[0]}, {b} level {self.levels[1]} of {of_chart}"
         if self.ratings is not None and self.scale is not None:
             first, second = (self._rating(k) for k in (0, 1))
             return f"{a} rated {first}, {b} rated {second}, {scale_words(self.scale)}"

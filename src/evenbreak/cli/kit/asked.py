@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from inspect import cleandoc
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
@@ -12,11 +13,21 @@ from click.core import ParameterSource
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import FACES, faces
+from evenbreak.cli.kit.league import (
+    LEAGUE,
+    LeagueArgument,
+    LeagueOption,
+    defaults,
+    league_option,
+    point_at,
+    show_taken,
+)
 from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import say
-from evenbreak.errors import InputError
+from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.fields.kinds import NUMBER, Choice, Flag, Kind
 from evenbreak.fields.question import AskedError, Declared, declaration, declared, worded
+from evenbreak.questions.of_league import takes_any
 
 Asked = TypeVar("Asked")
 
@@ -79,8 +90,9 @@ _OLD_WORDS = "old_words"
 def _param(one: Declared, question: type) -> click.Parameter:
     field = one.field
     if field.argument:
-        return click.Argument(
+        return LeagueArgument(
             [one.name],
+            question=question,
             type=Typed(one.kind),
             nargs=-1 if field.many else 1,
             required=one.required,
@@ -90,8 +102,9 @@ def _param(one: Declared, question: type) -> click.Parameter:
     more: dict[str, Any] = {"help": help_of(one, question), "required": one.required}
     if isinstance(one.kind, Flag):
         return click.Option(words, is_flag=True, show_default=False, **more)
-    return click.Option(
+    return LeagueOption(
         words,
+        question=question,
         type=Typed(one.kind),
         multiple=field.many,
         nargs=field.words,
@@ -133,6 +146,9 @@ class AskedCommand(click.Command):
         self._old = {
             f"--{name}": one.option for one in declared(question) for name in one.field.old
         }
+        names = {one.name for one in declared(question)}
+        if takes_any(question) and "league" not in names:
+            self.params.append(league_option())
         self.params.append(
             click.Option(
                 [ALL_HELP],
@@ -270,8 +286,12 @@ def command_of(
             try:
                 return answer(asked_of(question, values, ctx), **asks)
             except AskedError as error:
+                show_taken(ctx)
                 message = said(error.sentence, _spelling(question))
                 raise click.UsageError(message, ctx=ctx) from None
+            except (EvenbreakError, click.ClickException):
+                show_taken(ctx)  # what is wrong may come from there
+                raise
 
         lines = getattr(question, "examples", "")
         shown: Any = faces(**options)(run) if answers else run
@@ -298,7 +318,19 @@ def asked_of(question: type[Asked], values: dict[str, Any], ctx: click.Context) 
     words = typed.pop(_OLD_WORDS, ())
     if words:
         _read_old_words(question, words, typed)
-    return question(**question.split(typed))  # type: ignore[attr-defined]
+    typed = question.split(typed)  # type: ignore[attr-defined]
+    return question(**_with_league(question, typed, ctx) | typed)
+
+
+def _with_league(question: type, typed: dict[str, Any], ctx: click.Context) -> dict[str, Any]:
+    """Return what the league's file gives; one that {league} itself names is read here."""
+    place = typed.get("league")  # of a question that draws opponents from a league
+    if place is not None and (Path(place).is_dir() or place.endswith(".toml")):
+        league = point_at(ctx, place)
+        if league.files.roster is None:
+            raise click.BadParameter(f"{league.path} names no roster", param_hint=LEAGUE)
+        typed["league"] = league.place(league.files.roster)
+    return defaults(question, typed, ctx)
 
 
 def _read_old_words(question: Any, words: tuple[str, ...], typed: dict[str, Any]) -> None:

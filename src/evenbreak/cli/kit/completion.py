@@ -112,7 +112,7 @@ def _players_of(path: str) -> Iterable[str]:
 
     readers: tuple[Any, ...] = (
         lambda: files.read_roster(path).roster.players,
-        lambda: files.read_results(path).results.players,
+        lambda: files.read_seasons([path]).results.players,
     )
     for read in readers:
         try:

@@ -89,14 +89,21 @@ def refuse_other_scale(
         refuse_to_read(file, scale, whose, remedy)
 
 
-def refuse_for_system(file: files.RosterFile, system: handicaps.StepSystem) -> None:
-    """Refuse a list that a system cannot move: skill levels, or points of another scale."""
+def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
+    """Refuse a list that a system cannot move: levels or points, or points of another scale."""
+    import numpy as np
+
     whose = f"the system {system.name}"
+    if system.publishes == "levels":
+        if np.isnan(file.roster.level).all():
+            refuse(f"{file.source} states no skill level, which {whose} moves; add a column level")
+        return
     if file.scale is None:
         refuse_levels(file, f"{whose} needs ratings in points; give a list of those")
-    refuse_other_scale(
-        file, system.scale, whose, "give another --system, or state the scale in a column scale"
-    )
+    if system.scale is not None:
+        refuse_other_scale(
+            file, system.scale, whose, "give another --system, or state the scale in a column scale"
+        )
 
 
 def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str) -> None:

@@ -34,7 +34,7 @@ MANY = 2_000_000
 def rate(asked: Rate) -> Answer:
     """Rate players from their results."""
     if asked.system is not None:
-        return _by_system(asked, handicaps.steps_of(asked.system), asked.roster or "")
+        return _by_system(asked, asked.system, asked.roster or "")
     from evenbreak.ratings.scale import unstated_scale
 
     file = files.read_seasons(asked.results, **asked.reading)
@@ -98,7 +98,7 @@ def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
 # A league's own rule.
 
 
-def _by_system(asked: Rate, system: handicaps.StepSystem, roster: str) -> Answer:
+def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
     """Return the list of ratings after a night, or after several, night by night.
 
     Without a chart the results say who won, or else the only one of the system's charts that fits
@@ -106,10 +106,12 @@ def _by_system(asked: Rate, system: handicaps.StepSystem, roster: str) -> Answer
     """
     from evenbreak.answers.kit.scales import league_doubts
 
+    if not isinstance(system, handicaps.StepSystem):
+        return _by_all_results(asked, system, roster)
     by_chart = None if asked.chart is None else chart_by_difference("--chart", asked.chart)
     last = files.read_roster(roster)
     refuse_for_system(last, system)
-    tonight = files.read_results(asked.results[0], **asked.reading)
+    tonight = files.read_seasons(asked.results, **asked.reading)
     if by_chart is None:
         by_chart = handicaps.chart_of_night(system, last.roster, _first_night(tonight.results))
     try:
@@ -126,6 +128,17 @@ def _by_system(asked: Rate, system: handicaps.StepSystem, roster: str) -> Answer
     remedy = f"the system {system.name} takes them as they are"
     doubts = league_doubts(system.scale, last.roster.rating, remedy)
     return replace(answer, warnings=[*answer.warnings, *doubts])
+
+
+def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answer:
+    """Return the list after all nights of a file by a system that looks at all its results."""
+    if asked.chart is not None:
+        system = system.on_chart(files.find_chart(asked.chart))
+    last = files.read_roster(roster)
+    refuse_for_system(last, system)
+    season = files.read_results(asked.results[0], **asked.reading)
+    moves = answers.rating_changes_of_season(system, last, season, chart=system)
+    return answers.rating_changes_answer(moves, last, season)
 
 
 def _first_night(results: Results) -> Results:

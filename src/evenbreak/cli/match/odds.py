@@ -1,19 +1,31 @@
 """The commands about one match, `odds`, `fair` and `live`: who plays, and what is played."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.match.odds import TwoPlayers
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import SAY_WHICH, number_of, refuse
 from evenbreak.cli.kit.terminal import write_plot
+from evenbreak.errors import InputError
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.questions.match import Fair, Live, Odds, Players
-from evenbreak.ratings.scale import Scale, unstated_scale
+from evenbreak.ratings.scale import SCALES, Scale, refuse_contradicted, unstated_scale
+from evenbreak.words import Parameter
+
+if TYPE_CHECKING:
+    from evenbreak.files.lists.roster import RosterFile
+    from evenbreak.handicaps.charts.chart import Chart
+    from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+
+    AnyChart: TypeAlias = Chart | LevelChart | PointsChart
 
 MOST_SCORES = 10_000
 """The most scores that a match may still come to, so that every answer takes seconds."""
@@ -26,6 +38,8 @@ def command(asked: Odds) -> Answer:
     """Give the odds of a match."""
     from evenbreak.answers.match.odds import odds_answer
 
+    if (points := _points(asked)) is not None:
+        return points
     players, match = match_of(asked)
     if asked.via is not None:
         refuse_uncertain(players)
@@ -54,6 +68,8 @@ def live(asked: Live) -> Answer:
     from evenbreak.answers.match.live import live_answer
     from evenbreak.matches.live import live_odds, order_is_free
 
+    if (points := _points(asked)) is not None:
+        return points
     players, match = match_of(asked)
     refuse_giants(match)
     if players.form and not order_is_free(match):
@@ -84,10 +100,88 @@ def match_of(asked: Odds | Live) -> tuple[TwoPlayers, Match]:
         from evenbreak.games.ahead import Ahead
 
         return players, Ahead(*asked.ahead, rack, breaks=breaks, first_breaker=first, score=start)
-    m, n = asked.race or (1, 1)
+    m, n = asked.race or _race_of(asked, players)
     return players, Race(
         m, n, rack, breaks=breaks, first_breaker=first, score=start, win_by=asked.win_by or 1
     )
+
+
+def _chart_of(asked: Players) -> AnyChart | None:
+    """Return the chart of a question, None where there is none."""
+    if asked.chart is None:
+        return None
+    from evenbreak.files.charts import find_chart
+
+    return find_chart(asked.chart)
+
+
+def _race_of(asked: Odds | Live, players: TwoPlayers) -> tuple[int, int]:
+    """Return the race that the chart of a question sets."""
+    chart: Any = _chart_of(asked)
+    a, b = (math.floor(rating + 0.5) for rating in players.ratings or (0.0, 0.0))
+    race: tuple[int, int] = chart.race(*players.levels) if players.levels else chart.race(a - b)
+    return race
+
+
+def _points(asked: Odds | Live) -> Answer | None:
+    """Return the answer by a chart of points; None where the chart is none."""
+    if asked.chart is None:
+        return None
+    from evenbreak.answers.match.points import points_answer
+    from evenbreak.handicaps.charts.level_chart import PointsChart
+
+    chart = _chart_of(asked)
+    if not isinstance(chart, PointsChart):
+        return None
+    needless = ("race", "ahead", "set_", "win_by", "scale", "results", "form", "via", "exact")
+    for name in (*needless, "racks", "set_score", "comebacks", "plot"):
+        if name in asked.given:
+            asked.refuse(
+                "{part} is not for a chart of points such as {name}; leave it out",
+                part=Parameter(name),
+                name=chart.name,
+            )
+    names = ("A", "B")
+    if asked.from_file is None:
+        levels = _levels(asked, chart)
+    else:
+        file, names, places = _listed(asked, asked.from_file, chart)
+        levels = _levels_of(file, places, chart)
+    return points_answer(chart, levels, names, asked.score or (0, 0))
+
+
+def _levels(asked: Players, chart: LevelChart | PointsChart) -> tuple[int, int]:
+    """Return the levels that are typed, or refuse numbers that are none of the chart."""
+    from evenbreak.answers.league.by_level import SCALE_OF_LEVELS
+
+    if asked.scale is not None:
+        raise InputError(SCALE_OF_LEVELS)
+    for text in asked.ratings:
+        if number_of(text) not in chart.levels:
+            refuse(
+                f"{text} is not a skill level of {chart.name}, whose levels are "
+                f"{', '.join(map(str, chart.levels))}; for ratings give a chart of rating "
+                "differences"
+            )
+    a, b = (int(number_of(text)) for text in asked.ratings)
+    return a, b
+
+
+def _levels_of(
+    file: RosterFile, places: Sequence[int], chart: LevelChart | PointsChart
+) -> tuple[int, int]:
+    """Return the levels of two players of a list, or refuse what is no level of the chart."""
+    roster = file.roster
+    for place in places:
+        if roster.level[place] not in chart.levels:
+            level = roster.level[place]
+            has = "no skill level" if math.isnan(level) else f"skill level {level:g}"
+            refuse(
+                f"{roster.players[place]!r} has {has} in {file.source}; the levels of "
+                f"{chart.name} are {', '.join(map(str, chart.levels))}"
+            )
+    a, b = (int(roster.level[place]) for place in places)
+    return a, b
 
 
 def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
@@ -124,18 +218,69 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
         return TwoPlayers(rack, asked.breaks, 1 if first == "a" else 2, form=form or 0.0)
     if asked.p is not None:
         return TwoPlayers(Rack(asked.p), form=form or 0.0)
+    chart = _chart_of(asked)
+    if chart is not None:
+        from evenbreak.handicaps.charts.level_chart import LevelChart
+
+        if isinstance(chart, LevelChart):
+            return _by_level(asked, chart, form)
+    if asked.results is not None:
+        asked.refuse("{results} is for chances by skill levels, which {chart} has none of")
+    if not isinstance(asked, Odds | Live) and chart is not None:
+        asked.refuse("{chart} must be a chart of games by skill level here, such as apa_8ball")
     if asked.from_file is not None:
-        return _named(asked.ratings, asked.from_file, asked.scale, form)
+        return _named(asked, asked.from_file, form)
     a, b = map(number_of, asked.ratings)
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
-    scale = asked.scale or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
+    scale = asked.scale or _scale_of_chart(chart) or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
+    if asked.scale is None and chart is not None:
+        refuse_contradicted(
+            scale, [a, b], ["A", "B"], whose=f"the chart {chart.name}", remedy=SAY_WHICH
+        )
     return replace(TwoPlayers.rated(a, b, scale), form=form or 0.0)
 
 
-def _named(
-    names: tuple[str, ...], path: str, scale: Scale | None, form: float | None
-) -> TwoPlayers:
+def _scale_of_chart(chart: AnyChart | None) -> Scale | None:
+    """Return the scale that a chart is made for, if its name says it."""
+    return None if chart is None else SCALES.get(chart.name.partition("_")[0])
+
+
+def _by_level(asked: Players, chart: LevelChart, form: float | None) -> TwoPlayers:
+    """Return two players by their skill levels: typed, or on a list, perhaps with ratings."""
+    from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, skills_of
+
+    if asked.from_file is None:
+        levels, skills = _levels(asked, chart), skills_of(chart, asked.results)
+        return replace(TwoPlayers.of_levels(levels, skills), form=form or 0.0)
+    file, names, places = _listed(asked, asked.from_file, chart)
+    levels = _levels_of(file, places, chart)
+    if not file.levels:
+        return replace(_named(asked, asked.from_file, form), levels=levels)
+    if asked.scale is not None:
+        raise InputError(SCALE_OF_LEVELS)
+    _, read = by_level(file, chart, asked.results)
+    players = TwoPlayers.of_levels(levels, read or skills_of(chart, None), names)
+    return replace(players, form=file.form if form is None else form)
+
+
+def _listed(
+    asked: Players, path: str, chart: LevelChart | PointsChart
+) -> tuple[RosterFile, tuple[str, str], list[int]]:
+    """Return a list with levels, and the names and the places of two players on it."""
+    from evenbreak.answers.league.by_level import by_level
+    from evenbreak.answers.league.sheet import find_players
+    from evenbreak.files.lists.roster import read_roster
+
+    file, _ = by_level(read_roster(path), chart, asked.results)
+    places = find_players(file.roster, asked.ratings, said="--from", where=file.source)
+    if len(places) < 2:
+        refuse(f"{asked.ratings[0]!r} and {asked.ratings[1]!r} are one player; name two")
+    a, b = (file.roster.players[place] for place in places)
+    return file, (a, b), places
+
+
+def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
     from evenbreak.answers.league.prior import games_words
     from evenbreak.answers.league.roster_matchups import cannot_be_compared
@@ -145,13 +290,16 @@ def _named(
     from evenbreak.files.lists.roster import read_roster
     from evenbreak.ratings.roster import NOT_STATED, Roster
 
+    names, scale = asked.ratings, asked.scale
     file = read_roster(path)
     if scale is not None:
         refuse_other_scale(
             file, scale, "--scale", "leave --scale out, or correct the file", stated=True
         )
     elif file.scale is None:
-        refuse_levels(file, "say with --scale how many levels double the odds")
+        refuse_levels(
+            file, "give --chart apa_8ball or such, or say with --scale how many double the odds"
+        )
     points = file.scale_by(scale, SAY_WHICH)
     roster = file.roster.with_starters(points.centre, points.points_per_doubling, points)
     places = find_players(roster, names, said="--from", where=file.source)

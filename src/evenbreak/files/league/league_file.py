@@ -13,12 +13,14 @@ from dataclasses import dataclass, field, replace
 from datetime import date, time
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
+from typing import Annotated, Any, TypeVar, cast
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.kinds import Choice, Kind, Whole
 from evenbreak.fields.question import Declared, Field, declared
-from evenbreak.files.league import values
+from evenbreak.files.league import LEAGUE_TOML, values
+from evenbreak.files.league import find_league as find_league
+from evenbreak.files.league import is_league as is_league
 from evenbreak.files.league.toml_lines import Keys, lines_of
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.rows import content_of
@@ -26,14 +28,6 @@ from evenbreak.league.tables.rules import TableRules
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.evening.format import DISCIPLINES, LONGEST_RACE, MOST_TABLES
 from evenbreak.words import say
-
-if TYPE_CHECKING:
-    from evenbreak.handicaps.systems.system import System
-else:
-    System = Any
-
-LEAGUE_TOML = "league.toml"
-"""What the file is called."""
 
 _NOTHING: Mapping[str, str] = {}
 Section = TypeVar("Section")
@@ -83,6 +77,9 @@ class TeamRules:
     ] = None
     order: Annotated[
         str | None, Field(values.ORDER, "Who names first, as for `evenbreak lineup`.")
+    ] = None
+    count: Annotated[
+        str | None, Field(values.COUNT, "What decides a match: sets won, all games, or points.")
     ] = None
 
 
@@ -165,7 +162,7 @@ class LeagueFile:
         ),
     ] = None
     system: Annotated[
-        System | None, Field(values.SYSTEM, "The handicap system: how ratings move.")
+        str | None, Field(values.SYSTEM_NAME, "The handicap system: how ratings move.")
     ] = None
     begins: Annotated[date | None, Field(values.DAY, "The first day of the season.")] = None
     ends: Annotated[date | None, Field(values.DAY, "Its last day.")] = None
@@ -213,17 +210,16 @@ _FREE = {"aliases", "columns", "players"}
 """The tables whose keys are names."""
 
 
-def find_league(folder: str | Path = ".") -> Path | None:
-    """Return the league's file in a folder; None if it has none.
+def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile:
+    r"""Read the file of a league.
 
-    The folders above are not looked at: a file far away would change an answer unseen.
-    """
-    path = Path(folder) / LEAGUE_TOML
-    return path if path.is_file() else None
-
-
-def read_league(place: str | Path = ".") -> LeagueFile:
-    r"""Read the file of a league; the place is its folder, or the file.
+    Parameters
+    ----------
+    place
+        the league's folder, or the file.
+    quickly
+        whether chart and system are left for the command that uses them to check: they take a
+        quarter of a second to load, which most commands do without.
 
     Raises
     ------
@@ -258,7 +254,7 @@ def read_league(place: str | Path = ".") -> LeagueFile:
             what=what,
         )
     problems.raise_any()
-    reader = _Reader(path.parent, problems, lines_of(text))
+    reader = _Reader(path.parent, problems, lines_of(text), quickly)
     league: LeagueFile = reader.section(LeagueFile, table, (), folder=path.parent)
     problems.raise_any()
     return league
@@ -267,8 +263,11 @@ def read_league(place: str | Path = ".") -> LeagueFile:
 class _Reader:
     """Reads the tables of a file, and notes every problem."""
 
-    def __init__(self, folder: Path, problems: Problems, lines: Mapping[Keys, int]) -> None:
+    def __init__(
+        self, folder: Path, problems: Problems, lines: Mapping[Keys, int], quickly: bool
+    ) -> None:
         self.folder, self.problems, self.lines = folder, problems, lines
+        self.quickly = quickly
 
     def note(self, keys: Keys, template: str, /, **said: Any) -> None:
         """Note a problem in the line in which a key stands."""
@@ -330,6 +329,8 @@ class _Reader:
             return None
         if one.kind is values.FILE:
             return self.file(one.name, text, keys)
+        if one.kind is values.SYSTEM_NAME and self.quickly:
+            return text
         return self.read(one.kind, text, keys)
 
     def read(self, kind: Kind, text: str, keys: Keys) -> Any:
@@ -343,6 +344,8 @@ class _Reader:
     def file(self, key: str, name: str, keys: Keys) -> str | None:
         """Return the name of a file of the folder, or note that it is not there."""
         if (self.folder / name).is_file():
+            return name
+        if key == "chart" and self.quickly:
             return name
         if key == "chart":
             from evenbreak.files.charts import find_chart_file

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from datetime import date, time
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,15 @@ def _system(text: str) -> System:
 
 SYSTEM = Named(_system, "NAME", offers="systems", spelled=lambda system: str(system.name))
 """A handicap system."""
+
+
+def _system_name(text: str) -> str:
+    _system(text)
+    return text.strip()
+
+
+SYSTEM_NAME = Named(_system_name)
+"""The name of one."""
 
 MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
 TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
@@ -122,6 +132,7 @@ def _order(text: str) -> str:
 
 
 ORDER = Named(_order, "PATTERN")
+COUNT = Choice(("sets", "games", "points"))
 
 
 def _day(text: str) -> date:
@@ -176,11 +187,11 @@ CURRENCY = Named(_currency)
 
 
 def _line(text: str) -> str:
-    from evenbreak.files.tables.names import clean_name, is_name
-
-    line: str = clean_name(text)
-    if not is_name(line):
-        raise InputError("{value!r} can't be printed on a line; shorten it", value=text[:40])
+    line = " ".join(unicodedata.normalize("NFC", text).split())
+    if not 1 <= len(line) <= 200 or not line.isprintable():
+        raise InputError(
+            "{value!r}: give a line of up to 200 letters that can be printed", value=line[:40]
+        )
     return line
 
 

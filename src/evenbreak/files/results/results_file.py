@@ -8,13 +8,14 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import compress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.foreign.results import export_of
+from evenbreak.files.league.league_file import is_league, read_league
 from evenbreak.files.results.columns import NAMES, RESULTS_FILE
 from evenbreak.files.results.doubts import (
     date_warnings,
@@ -292,34 +293,8 @@ def met_pairs(results: Results) -> Iterator[tuple[str, str]]:
         yield results.players[a], results.players[b]
 
 
-def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
-    r"""Read several files of results as one career of each player.
-
-    Names that differ in case or spaces alone are one player's, by the name in the first file.
-
-    Parameters
-    ----------
-    paths
-        the files, in any order: matches go by their dates.
-    reading
-        as for `read_results`.
-
-    Raises
-    ------
-    InputError
-        if two of the files hold the same.
-    DataError
-        as `read_results` does.
-
-    >>> import tempfile, pathlib
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     last, this = (pathlib.Path(folder) / name for name in ("last.csv", "this.csv"))
-    ...     _ = last.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n")
-    ...     _ = this.write_text("player_a,player_b,score_a,score_b\nBO,Cy,7,2\n")
-    ...     read_seasons([last, this]).results.players
-    ('Ann', 'Bo', 'Cy')
-    """
-    files = [read_results(path, **reading) for path in paths]
+def in_a_row(files: Sequence[ResultsFile]) -> ResultsFile:
+    """Return several files of results as one; see `evenbreak.files.results.seasons`."""
     if len(files) == 1:
         return files[0]
     prints = [file.sha256 for file in files]
@@ -406,6 +381,7 @@ ALIASES = Schema(
         "alias, written, as written, nickname, from",
         "a name as it may appear in the results",
         needed=True,
+        given_first=False,
         write=_WRITE,
     ),
     means=Name(
@@ -439,6 +415,8 @@ class AliasesFile:
 def read_aliases(path: str | Path) -> AliasesFile:
     r"""Read which names mean the same player from a CSV file; '-' is standard input.
 
+    A league's file has them as `[aliases]`.
+
     Names are cleaned as those of results are. A name that means itself changes nothing.
 
     Raises
@@ -454,6 +432,9 @@ def read_aliases(path: str | Path) -> AliasesFile:
     ...     read_aliases(path).means
     {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
     """
+    if is_league(path):
+        league = read_league(path, quickly=True)
+        return AliasesFile(dict(league.aliases), str(league.path), ())
     table = ALIASES.read(path)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}

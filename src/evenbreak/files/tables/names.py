@@ -61,10 +61,11 @@ def clean_name(text: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Name(Column):
-    """Names of players or teams, cleaned."""
+    """Names of players or teams, cleaned; with `given_first` Lee, Ann becomes Ann Lee."""
 
     filled: bool = True
     write: str = say("a name")
+    given_first: bool = True  # type: ignore[misc]
 
     @property
     def wanted(self) -> str:

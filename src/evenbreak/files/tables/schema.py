@@ -17,6 +17,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.files.tables.given_names import with_given_names_first
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.table import TextTable, Values, read_table
@@ -67,6 +68,7 @@ class Column:
     nothing: Any = ""
 
     dtype: ClassVar[Any] = object
+    given_first: ClassVar[bool] = False
 
     @property
     def aliases(self) -> tuple[str, ...]:
@@ -342,7 +344,9 @@ class Schema:
             as for `read_table`.
         """
         needed, optional = (self._names(needed=needed) for needed in (True, False))
-        return read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
+        table = read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
+        names = [name for name, column in self.columns.items() if column.given_first]
+        return with_given_names_first(table, names)
 
     def of(self, table: TextTable) -> TextTable:
         """Return a table with what its cells mean; those without a meaning are its problems."""

@@ -29,7 +29,7 @@ from evenbreak.handicaps.charts.level_audit import audit_levels
 from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
 from evenbreak.handicaps.charts.played_chart import level_numbers_of
 from evenbreak.ratings.results import Results
-from evenbreak.ratings.scale import SCALES
+from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.words import Sentence, say
 
 FARGO = SCALES["fargo"]
@@ -104,6 +104,11 @@ class LevelSkills:
     def levels(self) -> tuple[int, ...]:
         """The skill levels of the chart."""
         return tuple(self.chart.levels)
+
+    @property
+    def scale(self) -> Scale:
+        """The scale of the points: Fargo's."""
+        return FARGO
 
     @property
     def is_known(self) -> bool:

@@ -74,6 +74,8 @@ class StepSystem(System):
         (matches, factor) for each stage of a newcomer: for that many matches a newcomer moves by
         an established player's points times the factor. Empty: newcomers move like everybody
         else.
+    winner_never_falls
+        whether nobody loses points by a match won.
     """
 
     name: str
@@ -85,6 +87,7 @@ class StepSystem(System):
     asks: tuple[str, ...] = ()
     conserving: bool = True
     newcomer_steps: tuple[tuple[int, int], ...] = ()
+    winner_never_falls: bool = True
 
     def moves(self, match: PlayedMatch) -> tuple[int, int]:
         """Return by how many points the rule moves the winner and the loser of a match.
@@ -118,16 +121,6 @@ class StepSystem(System):
         """Return the stated ratings; a player without one starts at the centre of the scale."""
         return np.where(np.isnan(entries.rating), self.scale.centre, entries.rating)
 
-    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
-        """Return the chart's races for ratings rounded to whole points, halves upwards.
-
-        >>> from evenbreak.handicaps import system_of
-        >>> system_of("npl").race([92, 80], 80)
-        (array([5, 5]), array([4, 5]))
-        """
-        a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
-        return self.usual_chart().races(a - b)
-
     def update(self, history: History) -> Floats:
         """Return the ratings after all moves of the last night.
 
@@ -149,26 +142,16 @@ class StepSystem(System):
     ) -> Floats:
         night = history.tonight
         last = sum(matches for matches, _ in self.newcomer_steps)
-        factors = np.array([factor for many, factor in self.newcomer_steps for _ in range(many)])
-        before = np.broadcast_to(
-            history.entries.matches.reshape(len(ratings), *(1,) * (ratings.ndim - 1))
-            if history.entries.matches.ndim < ratings.ndim
-            else history.entries.matches,
-            ratings.shape,
-        )
-        flat = ratings.reshape(-1)
-        already = history.counts("matches", lambda _: 1).reshape(-1)
-        for side in (night.a, night.b):  # less tonight's
-            place = positions(side, ratings.shape)[night.played]
-            already -= np.bincount(place.ravel(), minlength=flat.size)
-        played = np.where(before < 0, last, before).reshape(-1) + already
+        steps = [factor for matches, factor in self.newcomer_steps for _ in range(matches)]
+        factors = np.array([*steps, 1])
+        flat, played = ratings.reshape(-1), history.matches_before.reshape(-1)
         for row in range(len(night)):
             there = np.atleast_1d(night.played[row])
             for who, up in ((night.a, points[0]), (night.b, points[1])):
                 place = np.atleast_1d(positions(who, ratings.shape)[row])[there]
-                count = played[place].astype(np.int64)
-                factor = np.where(count < last, factors[np.minimum(count, last - 1)], 1)
-                flat[place] += np.atleast_1d(up[row])[there] * factor
+                flat[place] += (
+                    np.atleast_1d(up[row])[there] * factors[np.minimum(played[place], last)]
+                )
                 played[place] += 1
         return flat.reshape(ratings.shape)
 

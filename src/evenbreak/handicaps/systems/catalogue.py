@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.averages import Averages, WinPercent
 from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.elo import elo_system
+from evenbreak.handicaps.systems.fargo_like import FargoLike
 from evenbreak.handicaps.systems.fixed import fixed_length_system
+from evenbreak.handicaps.systems.level_review import LevelReview, apa_like, tap_like
+from evenbreak.handicaps.systems.level_steps import LevelSteps
 from evenbreak.handicaps.systems.margin import margin_system
+from evenbreak.handicaps.systems.napa_like import NapaLike
+from evenbreak.handicaps.systems.none import NoHandicap
 from evenbreak.handicaps.systems.npl import NPL
 from evenbreak.handicaps.systems.step import step_system
 from evenbreak.handicaps.systems.system import System
@@ -47,6 +54,15 @@ FAMILIES: Mapping[str, _Family] = MappingProxyType(
         "margin": _Family("margin [MOST]", margin_system, (0, 1)),
         "elo": _Family("elo [K]", elo_system, (0, 1)),
         "fixed": _Family("fixed [GAMES]", fixed_length_system, (0, 1)),
+        "none": _Family("none [GAMES]", NoHandicap, (0, 1)),
+        "fargo-like": _Family("fargo-like", FargoLike, (0, 0)),
+        "level-review": _Family("level-review", LevelReview, (0, 0)),
+        "apa-like": _Family("apa-like", apa_like, (0, 0)),
+        "tap-like": _Family("tap-like", tap_like, (0, 0)),
+        "level-steps": _Family("level-steps [STEPS]", LevelSteps, (0, 1)),
+        "averages": _Family("averages", Averages, (0, 0)),
+        "win-percent": _Family("win-percent", WinPercent, (0, 0)),
+        "napa-like": _Family("napa-like", NapaLike, (0, 0)),
     }
 )
 """The families of systems, by the word with which their names begin."""
@@ -62,13 +78,15 @@ SYSTEMS: Mapping[str, System] = MappingProxyType(
 
 
 def system_of(name: Any) -> System:
-    """Return the system of this name: a word, and then its numbers.
+    """Return the system of this name: its words, and then its numbers or parameters.
 
     Parameters
     ----------
     name
-        a word of `FAMILIES` and the numbers of its grammar, set apart by blanks or hyphens, in
-        any case: 'npl', 'step 2', 'step-2-1'. A `System` is returned as it is.
+        a name of `FAMILIES` and the numbers of its grammar, set apart by blanks or hyphens, in
+        any case: 'npl', 'step 2', 'step-2-1'. Systems with open parameters take them by name:
+        'level-review window=15 kept=.5'. The systems of installed packages (entry points
+        `evenbreak.systems`) are found by their own names. A `System` is returned as it is.
 
     Raises
     ------
@@ -79,19 +97,19 @@ def system_of(name: Any) -> System:
     ('npl_8', 'npl_10', 'npl_12', 'npl_20')
     >>> system_of("step 3").name
     'step 3'
+    >>> system_of("level review window=15").window
+    15
     """
     if isinstance(name, System):
         return name
-    word, *numbers = re.split(r"\s+|-", str(name).strip().lower())
-    family = FAMILIES.get(word)
-    if family is None:
-        *listed, last = (entry.grammar for entry in FAMILIES.values())
-        raise InputError(
-            "system is {name!r}; give {listed} or {last}",
-            name=name,
-            listed=", ".join(listed),
-            last=last,
-        )
+    written = name.strip().lower() if isinstance(name, str) else ""
+    word = next((word for word in _BY_LENGTH if _spelled(word).match(written)), None)
+    if word is None:
+        return _added(name, written)
+    family = FAMILIES[word]
+    rest = re.split(r"\s+|-", written[len(word) :])[1:]
+    options = dict(part.split("=", 1) for part in rest if "=" in part)
+    numbers = [part for part in rest if "=" not in part]
     fewest, most = family.numbers
     if not fewest <= len(numbers) <= most or not all(_NUMBER.fullmatch(each) for each in numbers):
         whole = ", in whole numbers" if most else ""
@@ -102,9 +120,71 @@ def system_of(name: Any) -> System:
             whole=whole,
         )
     try:
-        return family.make(*map(int, numbers))
+        system = family.make(*map(int, numbers))
+        return _with_options(system, options, " ".join([word, *rest])) if rest else system
     except InputError as error:
         raise InputError("system is {name!r}: {error}", name=name, error=error) from None
+
+
+_BY_LENGTH = sorted(FAMILIES, key=len, reverse=True)
+
+
+def _spelled(word: str) -> re.Pattern[str]:
+    """Return how a name may be written: with blanks or hyphens between its words."""
+    return re.compile(word.replace("-", r"[\s-]") + r"(?![^\s-])")
+
+
+def _with_options(system: System, options: Mapping[str, str], name: str) -> System:
+    """Return a system with parameters set by name, and called as it was asked for."""
+    if isinstance(system, StepSystem):
+        if options:
+            raise InputError("it has no parameters by name; leave {first}= out", first=min(options))
+        return system
+    known = [
+        field.name
+        for field in fields(cast("Any", system))
+        if field.name not in ("name", "own_chart")
+    ]
+    values = {}
+    for option, text in options.items():
+        if option not in known:
+            raise InputError(
+                "{option} is no parameter of it; give {known}",
+                option=option,
+                known=", ".join(known),
+            )
+        values[option] = _value(option, text, getattr(system, option))
+    return cast("System", replace(cast("Any", system), **values, name=name))
+
+
+def _value(option: str, text: str, usual: Any) -> Any:
+    """Return the value of a parameter by its text; 'none' where it may be left out."""
+    if text == "none":
+        return None
+    if isinstance(usual, str):
+        return text
+    if isinstance(usual, bool):
+        return text in ("1", "yes", "true")
+    try:
+        return float(text) if isinstance(usual, float) else int(text)
+    except ValueError:
+        raise InputError("{option} is {text!r}; give a number", option=option, text=text) from None
+
+
+def _added(name: Any, written: str) -> System:
+    """Return the system of an installed package, or refuse a name that nobody has."""
+    from evenbreak.handicaps.systems.own import added_system, added_systems
+
+    added = added_systems()
+    if written in added:
+        return added_system(written, added[written])
+    *listed, last = [*(family.grammar for family in FAMILIES.values()), *sorted(added)]
+    raise InputError(
+        "system is {name!r}; give {listed} or {last}",
+        name=name,
+        listed=", ".join(listed),
+        last=last,
+    )
 
 
 def steps_of(name: Any) -> StepSystem:

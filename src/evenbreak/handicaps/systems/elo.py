@@ -68,4 +68,5 @@ def elo_system(k: Any = 16) -> StepSystem:
         f"{points} point{'s' * (points > 1)} for each game won above expectation on Elo's scale",
         own_chart=fixed_length_chart(_GAMES, _SCALE),
         asks=("games",),
+        winner_never_falls=False,
     )

@@ -6,7 +6,7 @@ of the league across. The one league of a file is one column.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, MutableMapping
+from collections.abc import Callable, Iterator, MutableMapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any, TypeVar
@@ -14,6 +14,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from evenbreak.arrays import Bools, Floats, Ints
+
+ESTABLISHED = 1_000_000
+"""The matches or games of a player of whom the list does not state them."""
 
 NOBODY = -1
 """The position of both players of a match that was not played."""
@@ -147,6 +150,16 @@ class Matches:
         return replace(self, **swapped)
 
 
+def joined(nights: Sequence[Matches]) -> Matches:
+    """Return the matches of several nights, one after the other."""
+    columns = {
+        name: np.concatenate([getattr(night, name) for night in nights])
+        for name, value in vars(nights[0]).items()
+        if value is not None
+    }
+    return Matches(**columns)
+
+
 @dataclass(frozen=True, eq=False)
 class History:
     """All that was played up to and with a night, and what was published before it.
@@ -195,6 +208,17 @@ class History:
         nights = self.matches.night
         days = 7.0 * np.arange(self.night) if self.days is None else np.asarray(self.days)
         return np.asarray(days[nights - 1], dtype=float)
+
+    @property
+    def matches_before(self) -> Ints:
+        """How many matches each had played before the last night; a million if not stated."""
+        stated = column_of(self.entries.matches, self.initial.shape)
+        tonight = np.zeros(self.initial.size)
+        for who in (self.tonight.a, self.tonight.b):
+            place = positions(who, self.initial.shape)[self.tonight.played]
+            tonight += np.bincount(place, minlength=tonight.size)
+        so_far = self.counts("matches", lambda _: 1) - tonight.reshape(self.initial.shape)
+        return np.where(stated < 0, ESTABLISHED, stated) + so_far.astype(np.int64)
 
     def one(self, replica: int) -> History:
         """Return the history of one replica: arrays without an axis for replicas."""
@@ -306,6 +330,17 @@ class History:
         turn = (count - 1 - np.arange(most)[:, None]) % most
         newest = np.take_along_axis(scores, turn, axis=0)
         return newest.reshape(most, *self.initial.shape)
+
+
+def column_of(values: Any, shape: tuple[int, ...]) -> Any:
+    """Return values with an entry for each player and replica, where they may be a column.
+
+    >>> column_of([3, 5], (2, 4)).shape
+    (2, 4)
+    """
+    array = np.asarray(values)
+    extra = (None,) * (len(shape) - array.ndim)
+    return np.broadcast_to(array[(..., *extra)], shape)
 
 
 def positions(who: Ints, shape: tuple[int, ...]) -> Ints:

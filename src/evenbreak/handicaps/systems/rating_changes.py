@@ -6,18 +6,26 @@ The ratings before the night set all of its races, and all changes are added up 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Bools, Ints, array_values
+from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
-from evenbreak.ratings.results import Problem, Results, find_problems, who_won
+from evenbreak.handicaps.systems.night_table import (
+    NightTable,
+    SeasonSoFar,
+    levels_alone,
+    night_table,
+    published,
+)
+from evenbreak.handicaps.systems.system import System
+from evenbreak.ratings.results import Problem, Results, find_problems
 from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
@@ -37,7 +45,8 @@ class MatchChange(NamedTuple):
     by_chart
         the race that the chart has for their ratings, in the same order; None without one.
     points
-        how much the winner's and the loser's ratings change.
+        how much the winner's and the loser's ratings change; None in a system that does not move
+        them match by match.
     ratings
         the winner's and the loser's before the night.
     """
@@ -48,7 +57,7 @@ class MatchChange(NamedTuple):
     games: tuple[int, int] | None
     race: tuple[int, int] | None
     by_chart: tuple[int, int] | None
-    points: tuple[int, int]
+    points: tuple[int, int] | None
     ratings: tuple[float, float]
 
 
@@ -72,7 +81,7 @@ class RatingChanges:
         the number of rows that changed nothing: forfeits, and matches at 0-0.
     """
 
-    system: StepSystem
+    system: System
     before: Roster
     after: Roster
     matches: tuple[MatchChange, ...]
@@ -83,7 +92,12 @@ class RatingChanges:
 
 
 def apply_results(
-    system: StepSystem, roster: Roster, results: Results, *, chart: Chart | str | None = None
+    system: System,
+    roster: Roster,
+    results: Results,
+    *,
+    chart: Chart | System | str | None = None,
+    so_far: SeasonSoFar | None = None,
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
@@ -103,7 +117,10 @@ def apply_results(
     chart
         which set the races where the results state none, for ratings rounded to whole points.
         Without it a match with neither race nor winner is refused: in a handicap race the higher
-        score is not always the winner's.
+        score is not always the winner's. A system that does not move ratings match by match stands
+        for its own races.
+    so_far
+        the nights before, which such a system needs; they are added to. None: there were none.
 
     Raises
     ------
@@ -136,23 +153,32 @@ def apply_results(
     won, lost = np.zeros_like(games), np.zeros_like(games)
     for match in matches:
         pair = [match.winner, match.loser]
-        change[pair] += match.points
+        change[pair] += match.points or 0
         games[pair] += sum(match.games or ())
         won[match.winner] += 1
         lost[match.loser] += 1
+    rating, level = roster.rating + change, roster.level
+    if not isinstance(system, StepSystem):
+        numbers = (so_far or SeasonSoFar(system, roster)).after(night)
+        both = system.publishes == "levels" and levels_alone(roster)
+        if system.publishes == "levels":
+            level = numbers
+        if system.publishes == "ratings" or both:
+            rating = numbers
     after = Roster(
         roster.players,
-        roster.rating + change,
+        rating,
         roster.standard_error,
         np.where(roster.games == NOT_STATED, NOT_STATED, roster.games + games),
         component=roster.component,
+        level=level,
         matches=np.where(roster.matches == NOT_STATED, NOT_STATED, roster.matches + won + lost),
     )
     _, forfeits, empty = results.played()
     return RatingChanges(system, roster, after, matches, won, lost, forfeits, empty)
 
 
-def _match_changes(system: StepSystem, roster: Roster, night: NightTable) -> Iterator[MatchChange]:
+def _match_changes(system: System, roster: Roster, night: NightTable) -> Iterator[MatchChange]:
     """Yield what each match of the night did."""
     played = [None if many == NOT_STATED else many for many in roster.matches.tolist()]
     for row in np.flatnonzero(night.counted).tolist():
@@ -163,7 +189,7 @@ def _match_changes(system: StepSystem, roster: Roster, night: NightTable) -> Ite
 
 
 def _match_change(
-    system: StepSystem, roster: Roster, night: NightTable, played: list[int | None], row: int
+    system: System, roster: Roster, night: NightTable, played: list[int | None], row: int
 ) -> MatchChange:
     """Return what the match in one row did, given the matches that each had played before."""
     results = night.results
@@ -181,8 +207,11 @@ def _match_change(
     score = int(results.score_a[row]), int(results.score_b[row])
     games = None if unscored else (score[sides[0]], score[sides[1]])
     race = winner_first(results.race_a, results.race_b)
-    ratings = float(roster.rating[winner]), float(roster.rating[loser])
-    points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
+    numbers = published(system, roster)
+    ratings = float(numbers[winner]), float(numbers[loser])
+    points = None
+    if isinstance(system, StepSystem):
+        points = system.moves(PlayedMatch(ratings, games, race, (played[winner], played[loser])))
     by_chart = winner_first(night.chart_a, night.chart_b)
     return MatchChange(row, winner, loser, games, race, by_chart, points, ratings)
 
@@ -191,7 +220,11 @@ def _match_change(
 
 
 def night_problems(
-    system: StepSystem, roster: Roster, results: Results, *, chart: Chart | str | None = None
+    system: System,
+    roster: Roster,
+    results: Results,
+    *,
+    chart: Chart | System | str | None = None,
 ) -> list[Problem]:
     """Return every problem that keeps a night's results from changing ratings, by row.
 
@@ -206,11 +239,11 @@ def night_problems(
     """
     night = night_table(roster, results, chart)
     problems = [
-        *_strangers(roster, night),
+        *_strangers(published(system, roster), night),
         *(
             problem
             if chart is None or not _off_chart(night, problem)
-            else problem._replace(message=_no_end(roster, night, chart_of(chart), problem.row))
+            else problem._replace(message=_no_end(roster, night, chart, problem.row))
             for problem in find_problems(night.results)
         ),
     ]
@@ -246,13 +279,13 @@ def chart_of_night(system: StepSystem, roster: Roster, results: Results) -> Char
     return fitting[0] if len(fitting) == 1 else None
 
 
-def _strangers(roster: Roster, night: NightTable) -> Iterator[Problem]:
+def _strangers(numbers: Floats, night: NightTable) -> Iterator[Problem]:
     """Yield for each player without a rating on the list the first row that needs it."""
     seen = set()
     for row in np.flatnonzero(night.counted):
         for column, place in (("player_a", night.a[row]), ("player_b", night.b[row])):
             name = night.results.players[getattr(night.results, column)[row]]
-            if name in seen or (place >= 0 and np.isfinite(roster.rating[place])):
+            if name in seen or (place >= 0 and np.isfinite(numbers[place])):
                 continue
             seen.add(name)
             yield Problem(
@@ -276,17 +309,20 @@ def _ended(night: NightTable) -> bool:
     return not any(_off_chart(night, problem) for problem in find_problems(night.results))
 
 
-def _no_end(roster: Roster, night: NightTable, chart: Chart, row: int) -> str:
+def _no_end(roster: Roster, night: NightTable, chart: Chart | System | str, row: int) -> str:
     results, a, b = night.results, night.a[row], night.b[row]
+    by = chart if isinstance(chart, System) else chart_of(chart)
+    numbers = published(by, roster) if isinstance(by, System) else roster.rating
+    whose = "system" if isinstance(by, System) else "chart"
     return (
         f"{results.score_a[row]}-{results.score_b[row]} does not finish the race "
-        f"{night.chart_a[row]}:{night.chart_b[row]}, which the chart {chart.name} has for "
-        f"{roster.players[a]!r} ({roster.rating[a]:g}) and {roster.players[b]!r} "
-        f"({roster.rating[b]:g}); correct the score, give race_a and race_b, or mark a forfeit"
+        f"{night.chart_a[row]}:{night.chart_b[row]}, which the {whose} {by.name} has for "
+        f"{roster.players[a]!r} ({numbers[a]:g}) and {roster.players[b]!r} "
+        f"({numbers[b]:g}); correct the score, give race_a and race_b, or mark a forfeit"
     )
 
 
-def _no_winner(system: StepSystem, results: Results, row: int) -> str:
+def _no_winner(system: System, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
     return (
         f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
@@ -294,13 +330,13 @@ def _no_winner(system: StepSystem, results: Results, row: int) -> str:
     )
 
 
-def _give_chart(system: StepSystem) -> str:
-    *charts, last = system.charts or ("",)
+def _give_chart(system: System) -> str:
+    *charts, last = (system.charts if isinstance(system, StepSystem) else ()) or ("",)
     names = f" ({', '.join(charts)} or {last})" if charts else ""
     return f"give the chart that was used{names}, or the columns race_a and race_b"
 
 
-def _missing(system: StepSystem, night: NightTable) -> Iterator[Problem]:
+def _missing(system: System, night: NightTable) -> Iterator[Problem]:
     """Yield the matches without a score or race that the system's rule needs."""
     results = night.results
     for row in np.flatnonzero(night.counted & night.rated).tolist():
@@ -318,72 +354,3 @@ def _missing(system: StepSystem, night: NightTable) -> Iterator[Problem]:
                 f"the race is not stated, and the system {system.name} moves ratings by it; "
                 f"{_give_chart(system)}",
             )
-
-
-# A night's results beside the list of ratings: who played whom, by which race, and who won.
-
-
-class NightTable(NamedTuple):
-    """A night's results beside the list: arrays with an entry for each row.
-
-    Parameters
-    ----------
-    results
-        the results, with the chart's race where none was stated.
-    a, b
-        positions of the two players in the list; -1 for a player who is not on it.
-    rated
-        whether both have a rating.
-    counted
-        whether the row changes ratings: it is not a forfeit and not 0-0.
-    winner
-        1, 2, or 0 where it is not known.
-    chart_a, chart_b
-        the chart's race; 0 where no chart was looked up.
-    from_chart
-        whether `results` has the chart's race in this row.
-    """
-
-    results: Results
-    a: Ints
-    b: Ints
-    rated: Bools
-    counted: Bools
-    winner: NDArray[np.int8]
-    chart_a: Ints
-    chart_b: Ints
-    from_chart: Bools
-
-
-def night_table(roster: Roster, results: Results, chart: Chart | str | None) -> NightTable:
-    """Return a night's results beside the list, with races by the chart if there is one."""
-    on_list = {name: position for position, name in enumerate(roster.players)}
-    place = np.array([on_list.get(name, -1) for name in results.players], dtype=np.int64)
-    a, b = place[results.player_a], place[results.player_b]
-    chart_a, chart_b = np.zeros((2, len(results)), dtype=np.int64)
-    # One entry more, for players who are not on the list, whose place is -1.
-    has_rating = np.append(np.isfinite(roster.rating), False)
-    rated = has_rating[a] & has_rating[b]
-    if chart is not None:
-        # As `evenbreak matchups` rounds: each rating, halves upwards.
-        points = np.floor(np.append(roster.rating, 0.0) + 0.5)
-        chart_a[rated], chart_b[rated] = chart_of(chart).races((points[a] - points[b])[rated])
-    race_a = np.zeros_like(chart_a) if results.race_a is None else results.race_a
-    race_b = np.zeros_like(chart_b) if results.race_b is None else results.race_b
-    unraced = (race_a == 0) & (race_b == 0)
-    filled = replace(
-        results,
-        race_a=np.where(unraced, chart_a, race_a),
-        race_b=np.where(unraced, chart_b, race_b),
-    )
-    given_away = np.zeros(len(results), bool) if results.forfeit is None else results.forfeit
-    unscored = np.zeros(len(results), bool) if results.unscored is None else results.unscored
-    counted = ~given_away & (unscored | (results.score_a > 0) | (results.score_b > 0))
-    return NightTable(filled, a, b, rated, counted, _winner(filled), chart_a, chart_b, unraced)
-
-
-def _winner(results: Results) -> NDArray[np.int8]:
-    """Return 1 or 2 where a winner is stated or a player reached the race, else 0."""
-    raced = 0 if results.race_a is None else results.race_a
-    reached = np.where(raced, who_won(results), 0).astype(np.int8)
-    return reached if results.winner is None else np.where(results.winner, results.winner, reached)

@@ -7,7 +7,8 @@ list after a night and the watch for sandbaggers know a system by these alone.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any, ClassVar, Literal
+from dataclasses import replace
+from typing import Any, ClassVar, Literal, cast
 
 import numpy as np
 
@@ -17,10 +18,11 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.systems.history import Entries, History
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Parameter
 
 
 class System(ABC):
-    """A handicap system; one's own is a subclass with the three methods.
+    """A handicap system; one's own is a subclass with `initial`, `update`, and a chart or `race`.
 
     Attributes
     ----------
@@ -56,10 +58,6 @@ class System(ABC):
         """Return the published ratings (or levels) before the first night, shaped as `entries`."""
 
     @abstractmethod
-    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
-        """Return (m, n): the games needed by players of published ratings a and b, elementwise."""
-
-    @abstractmethod
     def update(self, history: History) -> Floats:
         """Return the published ratings after the last night, shaped as `history.ratings`."""
 
@@ -67,6 +65,37 @@ class System(ABC):
     def chart(self) -> Chart | LevelChart | None:
         """The chart that sets the races, if one does."""
         return None
+
+    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
+        """Return (m, n): the games needed by players of published ratings a and b, elementwise.
+
+        A system without a chart has a method of its own. A chart of rating differences is read at
+        ratings rounded to whole points, halves upwards.
+        """
+        chart = self.chart
+        if chart is None:
+            raise InputError(
+                "the system {name} has no chart and no method race; give it one", name=self.name
+            )
+        a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
+        return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
+
+    def on_chart(self, chart: Any) -> System:
+        """Return the same system with races by another chart.
+
+        Raises
+        ------
+        InputError
+            if its races come from no chart, or from one of another kind.
+        """
+        if self.chart is None or not isinstance(chart, type(self.chart)):
+            raise InputError(
+                "the system {name} cannot be played by the chart {chart}; leave {chart_option} out",
+                name=self.name,
+                chart=chart.name,
+                chart_option=Parameter("chart"),
+            )
+        return cast("System", replace(cast("Any", self), own_chart=chart))
 
 
 def updated(system: System, history: History) -> Floats:

@@ -1,0 +1,79 @@
+"""Two players and a match by a chart of points, such as APA 9-ball."""
+
+from __future__ import annotations
+
+from evenbreak.answers.chart.audit import FEW, MANY
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import quantities_of
+from evenbreak.answers.kit.parts import Quantities
+from evenbreak.answers.kit.wording import percent
+from evenbreak.handicaps.charts.level_audit import INNINGS
+from evenbreak.handicaps.charts.level_chart import PointsChart
+from evenbreak.handicaps.charts.points_odds import MATCH_POINTS, points_odds
+from evenbreak.words import say
+
+
+def points_answer(
+    chart: PointsChart,
+    levels: tuple[int, int],
+    names: tuple[str, str] = ("A", "B"),
+    score: tuple[int, int] = (0, 0),
+) -> Answer:
+    """Return the chances of a match by a chart of points, from a score on.
+
+    >>> from evenbreak.handicaps import points_chart
+    >>> answer = points_answer(points_chart("apa_9ball"), (5, 3))
+    >>> print(answer.sentences[0])
+    B wins the match 50% of the time.
+    On average A gets 9.9 of the 20 match points, and B 10.1.
+    """
+    odds = points_odds(chart, *levels, score=score)
+    by_innings = [points_odds(chart, *levels, score=score, innings=n).p_win_1 for n in (FEW, MANY)]
+    (a, b), (level_a, level_b), (need_a, need_b) = names, levels, odds.needs
+    ours, theirs = odds.p_win_1, odds.p_win_2
+    winner, p, other = (a, ours, theirs) if ours >= theirs else (b, theirs, ours)
+    text = f"{winner} wins the match {percent(p, other)} of the time."
+    if odds.share_1 is not None and odds.share_2 is not None:
+        text += (
+            f"\nOn average {a} gets {odds.share_1:.1f} of the {MATCH_POINTS} match points, and {b} "
+            f"{odds.share_2:.1f}."
+        )
+    so_far = f", score {score[0]}:{score[1]}" if any(score) else ""
+    low, high = (percent(chance) for chance in sorted(by_innings))
+    values = {
+        "p_win_a": ours,
+        "p_win_b": theirs,
+        "share_a": odds.share_1,
+        "share_b": odds.share_2,
+        "mean_innings": odds.mean_innings,
+        "-needs_a": need_a,
+        "-needs_b": need_b,
+    }
+    return Answer(
+        f"{a} level {level_a}, {b} level {level_b} of {chart.name}\n"
+        f"{need_a} points against {need_b}{so_far}",
+        [
+            text,
+            Quantities(quantities_of(values, a=a, b=b)),
+            say(
+                "The chances are an assumption, not a measurement: that players of every level "
+                "need about {innings:.0f} innings to reach their points, and make each shot with "
+                "the same chance. With {few:.0f} to {many:.0f} innings {a}'s chance is {low} to "
+                "{high}.",
+                innings=INNINGS,
+                few=FEW,
+                many=MANY,
+                a=a,
+                low=low,
+                high=high,
+            ),
+        ],
+        data={
+            **({} if names == ("A", "B") else {"player_a": a, "player_b": b}),
+            "level_a": level_a,
+            "level_b": level_b,
+            "score_a": score[0],
+            "score_b": score[1],
+            "p_win_a_range": sorted(by_innings),
+        },
+    )

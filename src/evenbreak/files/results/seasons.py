@@ -1,0 +1,84 @@
+"""The seasons of a league in a row: several files of results, or those that its file names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from evenbreak.files.league.league_file import is_league, read_league
+from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_results
+from evenbreak.files.tables.dates import DateOrder
+from evenbreak.files.tables.problems import refusal
+
+
+def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
+    r"""Read several files of results as one career of each player.
+
+    In place of a file may stand that of a league, `league.toml`: it names files, the titles of
+    their columns and aliases.
+
+    Names that differ in case or spaces alone are one player's, by the name in the first file.
+
+    Parameters
+    ----------
+    paths
+        the files, in any order: matches go by their dates.
+    reading
+        as for `read_results`.
+
+    Raises
+    ------
+    InputError
+        if two of the files hold the same.
+    DataError
+        as `read_results` does.
+
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     last, this = (pathlib.Path(folder) / name for name in ("last.csv", "this.csv"))
+    ...     _ = last.write_text("player_a,player_b,score_a,score_b\nAnn,Bo,7,5\n")
+    ...     _ = this.write_text("player_a,player_b,score_a,score_b\nBO,Cy,7,2\n")
+    ...     read_seasons([last, this]).results.players
+    ('Ann', 'Bo', 'Cy')
+    """
+    return in_a_row(
+        [
+            _of_league(path, **reading) if is_league(path) else read_results(path, **reading)
+            for path in paths
+        ]
+    )
+
+
+def _of_league(
+    path: str | Path,
+    *,
+    aliases: str | Path | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+    skip_bad: bool = False,
+) -> ResultsFile:
+    """Return the results of a league as one file; what is given here replaces what it says.
+
+    Raises
+    ------
+    DataError
+        as `read_league` and `read_results` do, and if the league names no results.
+    """
+    league = read_league(path, quickly=True)
+    if not league.results:
+        raise refusal(
+            str(league.path), 'names no results; add a line [[results]], and below it file = "..."'
+        )
+    return in_a_row(
+        [
+            read_results(
+                league.place(one.file),
+                aliases=aliases or (league.path if league.aliases else None),
+                columns=columns or one.columns,
+                dates=dates or one.dates,  # type: ignore[arg-type]
+                skip_bad=skip_bad,
+            )
+            for one in league.results
+        ]
+    )

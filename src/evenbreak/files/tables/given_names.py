@@ -1,0 +1,63 @@
+"""Names written as Lee, Ann: put as Ann Lee where nearly all names of a column are written so."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.table import Texts, TextTable
+from evenbreak.files.tables.titles import BYE, key_of
+from evenbreak.words import say_count
+
+_LAST_FIRST = re.compile(r"([^,\d]*[^\W\d_]),\s*([^\W\d_][^,\d]*)")
+_SUFFIX = {"jr", "sr", "ii", "iii", "iv"}
+_NEARLY_ALL = 0.9
+
+
+def given_name_first(name: str) -> str:
+    """Return a name with the given name first; as it is where no comma is between the two.
+
+    >>> given_name_first("Lee, Ann"), given_name_first("Sammy Davis, Jr."), given_name_first("Bo")
+    ('Ann Lee', 'Sammy Davis, Jr.', 'Bo')
+    """
+    parts = _LAST_FIRST.fullmatch(name.strip())
+    if parts is None or key_of(parts[2]) in _SUFFIX:
+        return name
+    return f"{parts[2]} {parts[1]}"
+
+
+def with_given_names_first(table: TextTable, names: Sequence[str]) -> TextTable:
+    """Return a table with the names of some columns so, and a warning, if it has them as Lee, Ann.
+
+    Columns where more than a few are not are left as they are; other columns that name one of the
+    players follow.
+    """
+    turned: dict[str, str] = {}
+    for column in names:
+        stated = [
+            text for text in table.columns[column].distinct if text and key_of(text) not in BYE
+        ]
+        own = {text: name for text in stated if (name := given_name_first(text)) != text}
+        if own and len(own) >= _NEARLY_ALL * len(stated):
+            turned |= own
+    if len(turned) < 2:
+        return table
+    columns = {}
+    for column, (distinct, codes) in table.columns.items():
+        if turned.keys().isdisjoint(distinct):
+            columns[column] = Texts(distinct, codes)
+        else:
+            new, numbers = Texts.of([turned.get(text, text) for text in distinct])
+            columns[column] = Texts(new, numbers[codes])
+    first = next(iter(turned))
+    text = say_count(
+        "{n} name is written with the last name first; {name} is read as {turned}",
+        "{n:,} names are written with the last name first; {name} is read as {turned}",
+        len(turned),
+        name=quoted(first),
+        turned=quoted(turned[first]),
+    )
+    warnings = (*table.warnings, warning(table.source, None, text))
+    return replace(table, columns=columns, warnings=warnings)

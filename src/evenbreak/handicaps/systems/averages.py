@@ -1,0 +1,178 @@
+"""Averages: points per game as BCA and VNEA leagues keep them, and the share of games won.
+
+**Points per game.** The winner of a game scores 10, the loser a point for each own ball made, 0 to
+7. A player's number is all points by all games, and the difference of two averages, times a
+correction and the games, is the head start in points. Results state games and not balls, so the
+loser is taken to make `balls` of them on average. Over N games the head start h is then worth
+h / (10 - balls) games: the better player needs m = floor(N / 2 + h / (2 (10 - balls))) + 1 of them,
+the other one N + 1 - m, which is the race here.
+
+**Share of games won.** The percentage of the last 50 games; the difference of two players, times
+five for the five of a team, is looked up in a chart of 25 games.
+
+Source: the rules of BCAPL, VNEA and PPL leagues as they print them (10 and 0-7 points, newcomers
+7); Tucson's correction 1.8; PASCO's chart and the chart of a 3-player league, as printed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import number, whole
+from evenbreak.errors import InputError
+from evenbreak.handicaps.systems.history import Entries, History, Matches, column_of
+from evenbreak.handicaps.systems.system import System
+
+WIN = 10.0
+"""The points of a game won."""
+
+
+@dataclass(frozen=True)
+class Averages(System):
+    """Points per game, and a head start by the difference of two averages.
+
+    Parameters
+    ----------
+    games
+        the games of a match, an odd number.
+    correction
+        by what the difference of the averages is multiplied: 1 as most leagues print it, 1.8 in
+        Tucson. If points are additive in skill, 2 is fair.
+    balls
+        the loser's balls in a game, on average (an assumption: results do not state them).
+    newcomer
+        the average of a player without one.
+
+    >>> Averages(correction=1.8).head_start(40.0, 35.0)
+    9.0
+    """
+
+    games: int = 9
+    correction: float = 1.0
+    balls: float = 3.8
+    newcomer: float = 7.0
+    name: str = "averages"
+
+    asks = ("games",)
+    in_words = (
+        "points per game (10 for a game won, the loser's own balls for a game lost); the "
+        "difference of two averages is the head start of a game, played here as the race it is "
+        "worth"
+    )
+
+    def __post_init__(self) -> None:
+        if whole(self.games, "games", at_least=1) % 2 == 0:
+            raise InputError("{games} is {value}; give an odd number", value=self.games)
+        number(self.correction, "correction", low=0.0, high=4.0)
+        number(self.balls, "balls", low=0.0, high=7.0)
+        number(self.newcomer, "newcomer", low=0.0, high=WIN)
+
+    def head_start(self, average_1: Any, average_2: Any) -> Any:
+        """Return the points that the second player (or team of sums) gets each game (round)."""
+        return self.correction * (average_1 - average_2)
+
+    def initial(self, entries: Entries) -> Floats:
+        """Return the stated averages; ratings that can be none are left out."""
+        stated = (entries.rating >= 0.0) & (entries.rating <= WIN)
+        return np.where(stated, entries.rating, self.newcomer)
+
+    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
+        """Return the race that the head start is worth over the games of a match."""
+        points = self.games * np.asarray(self.head_start(np.asarray(a), np.asarray(b)), dtype=float)
+        more = np.floor(self.games / 2.0 + np.abs(points) / (2.0 * (WIN - self.balls)) + 1e-9)
+        stronger = np.minimum(more.astype(np.int64) + 1, self.games)
+        weaker = self.games + 1 - stronger
+        ahead = points >= 0.0
+        return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
+
+    def update(self, history: History) -> Floats:
+        """Return all points by all games; games before the first night count where stated."""
+        points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
+        games = history.counts("games", _games)
+        before = np.maximum(column_of(history.entries.games, history.initial.shape), 0)
+        played = games + before
+        total = points + before * history.initial
+        return np.where(played > 0, total / np.maximum(played, 1), history.initial)
+
+
+@dataclass(frozen=True)
+class WinPercent(System):
+    """The percentage of the last games won, and PASCO's chart of 25 games.
+
+    Parameters
+    ----------
+    window
+        the games that count, the last ones.
+    players
+        the players of a team, by whom the difference of two is multiplied.
+    """
+
+    window: int = 50
+    players: int = 5
+    name: str = "win-percent"
+
+    asks = ("games",)
+    in_words = (
+        "the percentage of the last 50 games won; races by a chart of 25 games for the sums of "
+        "five players, read for two players as if both teams were five of them"
+    )
+
+    def __post_init__(self) -> None:
+        whole(self.window, "window", at_least=1, at_most=1000)
+        whole(self.players, "players", at_least=1, at_most=100)
+
+    def initial(self, entries: Entries) -> Floats:
+        """Return 50 % for everyone whose rating is no percentage."""
+        stated = (entries.rating >= 0.0) & (entries.rating <= 100.0)
+        return np.where(stated, entries.rating, 50.0)
+
+    def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
+        """Return the race of PASCO's chart."""
+        return pasco_race(self.players * (np.asarray(a, dtype=float) - np.asarray(b, dtype=float)))
+
+    def update(self, history: History) -> Floats:
+        """Return the percentage of the last games; of a match that is half in, half its games."""
+        won = history.last(self.window, "won", lambda m: m.score_a)
+        played = history.last(self.window, "games", _games)
+        played, won = np.nan_to_num(played), np.nan_to_num(won)
+        left = np.maximum(self.window - (np.cumsum(played, axis=0) - played), 0.0)
+        counted = np.minimum(played, left)
+        share = np.divide(counted, played, out=np.zeros_like(played), where=played > 0)
+        games = counted.sum(axis=0)
+        percent = 100.0 * (won * share).sum(axis=0) / np.maximum(games, 1.0)
+        return np.where(games > 0, percent, history.initial)
+
+
+def _games(matches: Matches) -> Any:
+    return matches.score_a + matches.score_b
+
+
+def pasco_race(difference: Any) -> tuple[Ints, Ints]:
+    """Return the games to win out of 25, by the difference of two teams' sums of percentages.
+
+    >>> pasco_race([0, 14, 15, 66.4, -145])
+    (array([13, 13, 14, 15,  7]), array([13, 13, 12, 11, 19]))
+    """
+    points = np.floor(np.abs(np.asarray(difference, dtype=float)) + 0.5)
+    more = np.searchsorted([15, 41, 67, 93, 119, 145], points, side="right")
+    ahead = np.asarray(difference) >= 0
+    return np.where(ahead, 13 + more, 13 - more), np.where(ahead, 13 - more, 13 + more)
+
+
+def games_of_18(handicap: Any) -> tuple[int, int | None]:
+    """Return the games to win, and to tie, of a 3-player team with a handicap from -12 to 12.
+
+    Raises
+    ------
+    InputError
+        if the handicap is beyond the chart.
+
+    >>> [games_of_18(h) for h in (8, 3, -1, -3, -6)]
+    [(14, 13), (11, None), (9, None), (8, None), (7, 6)]
+    """
+    h = whole(handicap, "handicap", at_least=-12, at_most=12)
+    return (10 + (h - 1) // 2, None) if h % 2 else (10 + h // 2, 9 + h // 2)

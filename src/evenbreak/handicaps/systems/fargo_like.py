@@ -1,0 +1,295 @@
+r"""Fargo-like: after every night all ratings are estimated anew from all games.
+
+A game between ratings x and y is won with the chance p = 1 / (1 + 2^(-(x - y) / 100)), and a game
+of age t counts 2^(-t / half-life). The ratings are the maximum of
+
+    sum over games log p  +  sum over players c_i / 2 (log p(x_i - r_i) + log p(r_i - x_i))
+
+where r_i is the rating on the list and c_i the games that it rests on, aged alike, and a few
+pseudo-games, without which a player who won everything would have no rating. A player with n games
+of 200 is published at the maximum of their own games, against the ratings of the others, and
+200 - n games against the starter r_i, half of them won; what a starter says moves nobody else.
+
+Published: the scale, that all games count by maximum likelihood, the 200 games and the 200 - n
+games against a starter. By report: the half-life of three years. Assumed: the pseudo-games; that
+ratings on the list rest on as many games as the list states, `past` at most (200 where it states
+none); and that the level of the scale is held by the list (the real one's anchor is unpublished).
+
+All replicas are solved at once: Newton's method from the last ratings, each step by conjugate
+gradients with a scaled diagonal. Games of a pair are one entry, so the work does not grow with the
+matches of a pair.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import expit
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import number, whole
+from evenbreak.errors import AccuracyError
+from evenbreak.handicaps.charts.chart import Chart, chart
+from evenbreak.handicaps.systems.history import Entries, History, Matches, column_of
+from evenbreak.handicaps.systems.system import System
+from evenbreak.ratings.scale import SCALES
+
+_SCALE = SCALES["fargo"]
+_UNIT = _SCALE.points_per_log_odds
+_YEAR = 365.25
+_GAMES_A_MATCH = 7.0
+"""How many games a stated match is taken for, where a list states matches and no games."""
+
+_ENOUGH = 1e-8
+"""A step below this many log-odds ends a fit."""
+
+_LONGEST = 2.0
+"""The longest step, in log-odds: from farther away Newton's method may overshoot."""
+
+_STEPS = 100
+
+
+class _Games(NamedTuple):
+    """Games by pair: `low` and `high` are the two players' places among players and replicas."""
+
+    low: Ints
+    high: Ints
+    won: Floats
+    played: Floats
+
+
+@dataclass(frozen=True)
+class FargoLike(System):
+    """All results refitted every night, on the Fargo scale.
+
+    Parameters
+    ----------
+    half_life
+        the years after which a game counts half.
+    established
+        the games from which a player's starter no longer counts.
+    pseudo_games
+        games against the list's rating, half of them won, that never age.
+    past
+        the most games that a rating on the list rests on.
+    starter
+        the rating of a player without one.
+    own_chart
+        which sets the races; None: `fargo_r6_hot`.
+    """
+
+    half_life: float = 3.0
+    established: int = 200
+    pseudo_games: float = 2.0
+    past: int = 500
+    starter: float = 525.0
+    own_chart: Chart | None = None
+    name: str = "fargo-like"
+
+    scale = _SCALE
+    asks = ("games",)
+    in_words = (
+        "all games of all players refitted every night, with a half-life of three years; under "
+        "200 games a starter rating counts for the games that lack"
+    )
+
+    def __post_init__(self) -> None:
+        number(self.half_life, "half_life", above=0.0, high=1e6)
+        number(self.pseudo_games, "pseudo_games", above=0.0, high=1e6)
+        whole(self.established, "established", at_least=0)
+        whole(self.past, "past", at_least=0)
+
+    @property
+    def chart(self) -> Chart:
+        """The chart that sets the races."""
+        return self.own_chart or chart("fargo_r6_hot")
+
+    def initial(self, entries: Entries) -> Floats:
+        """Return the stated ratings, the starter for a player without one."""
+        return np.where(np.isnan(entries.rating), self.starter, entries.rating)
+
+    def robustness(self, history: History) -> Floats:
+        """Return the games behind each rating, those before the first night included."""
+        return self._behind(history) + history.counts("games", _games)
+
+    def _behind(self, history: History) -> Floats:
+        """Return the games that the ratings of the list rest on."""
+        games, matches = (
+            column_of(values, history.initial.shape).astype(float)
+            for values in (history.entries.games, history.entries.matches)
+        )
+        unstated = np.where(matches < 0, self.established, _GAMES_A_MATCH * matches)
+        stated = np.where(games < 0, unstated, games)
+        unrated = column_of(np.isnan(history.entries.rating), history.initial.shape)
+        return np.where(unrated, 0.0, np.minimum(stated, self.past))
+
+    def update(self, history: History) -> Floats:
+        """Return the ratings that all games give."""
+        now = float(history.days[history.night - 1]) if history.days is not None else None
+        age = 7.0 * (history.night - 1) if now is None else now
+        faded = 0.5 ** (age / _YEAR / self.half_life)
+        games = self._by_pair(history)
+        aged = games._replace(won=games.won * faded, played=games.played * faded)
+        start = history.initial.reshape(-1) / _UNIT
+        before = self._behind(history).reshape(-1)
+        counted = self.pseudo_games + before * faded
+        fit = history.kept.get("fit", start)
+        fit = history.kept["fit"] = _fitted(aged, start, counted, fit, history.initial.shape)
+        lacking = np.maximum(self.established - self.robustness(history).reshape(-1), 0.0)
+        published = _alone(aged, fit, start, counted + lacking, lacking > 0.0)
+        return (published * _UNIT).reshape(history.initial.shape)
+
+    def _by_pair(self, history: History) -> _Games:
+        """Return the games of each pair, each worth 2^(its day / half-life)."""
+        shape, size = history.initial.shape, history.initial.size
+        across = size // shape[0]
+        days = 7.0 * np.arange(history.night) if history.days is None else history.days
+
+        def add(state: tuple[Ints, Floats, Floats], night: Matches) -> tuple[Ints, Floats, Floats]:
+            weight = 2.0 ** (float(days[night.night[0] - 1]) / _YEAR / self.half_life)
+            replica = np.broadcast_to(np.arange(across), (len(night), across))
+            sides = [np.reshape(x, (len(night), -1)) for x in (night.a, night.b)]
+            there = np.broadcast_to(sides[0] >= 0, replica.shape)
+            a, b, won, lost = (
+                np.broadcast_to(np.reshape(x, (len(night), -1)), replica.shape)[there]
+                for x in (night.a, night.b, night.score_a, night.score_b)
+            )
+            turned = a > b
+            low, high = np.where(turned, b, a), np.where(turned, a, b)
+            keys = (low * shape[0] + high) * across + replica[there]
+            of_low = np.where(turned, lost, won) * weight
+            return _joined(state, keys, of_low, (won + lost) * weight)
+
+        def start() -> tuple[Ints, Floats, Floats]:
+            return np.empty(0, dtype=np.int64), np.empty(0), np.empty(0)
+
+        keys, won, played = history.fold("games of pairs", start, add)
+        pair, replica = np.divmod(keys, across)
+        low, high = np.divmod(pair, shape[0])
+        return _Games(low * across + replica, high * across + replica, won, played)
+
+
+def _games(matches: Matches) -> Any:
+    return matches.score_a + matches.score_b
+
+
+def _joined(
+    state: tuple[Ints, Floats, Floats], keys: Ints, won: Floats, played: Floats
+) -> tuple[Ints, Floats, Floats]:
+    """Return sums by key with more of them added; the keys stay sorted."""
+    old, old_won, old_played = state
+    new, place = np.unique(keys, return_inverse=True)
+    won = np.bincount(place, won, len(new)).astype(float)
+    played = np.bincount(place, played, len(new)).astype(float)
+    at = np.searchsorted(old, new)
+    known = at < len(old)
+    known[known] = old[at[known]] == new[known]
+    old_won[at[known]] += won[known]
+    old_played[at[known]] += played[known]
+    into, lacks = at[~known], ~known
+    return (
+        np.insert(old, into, new[lacks]),
+        np.insert(old_won, into, won[lacks]),
+        np.insert(old_played, into, played[lacks]),
+    )
+
+
+def _pull(games: _Games, at: Floats, start: Floats, counted: Floats) -> tuple[Floats, Floats]:
+    """Return the slope of the log-likelihood by player, and the curvature of each pair."""
+    p = expit(at[games.low] - at[games.high])
+    left = games.won - games.played * p
+    slope = np.bincount(games.low, left, at.size) - np.bincount(games.high, left, at.size)
+    return slope + counted * (0.5 - expit(at - start)), games.played * p * (1.0 - p)
+
+
+def _of_start(at: Floats, start: Floats, counted: Floats) -> Floats:
+    p = expit(at - start)
+    return counted * p * (1.0 - p)
+
+
+def _fitted(
+    games: _Games, start: Floats, counted: Floats, at: Floats, shape: tuple[int, ...]
+) -> Floats:
+    """Return the maximum, in log-odds, by Newton's method from `at`."""
+    for _ in range(_STEPS):
+        slope, curvature = _pull(games, at, start, counted)
+        held = _of_start(at, start, counted)
+        step = _solved(games, curvature, held, slope, shape)
+        longest = np.abs(step).max(initial=0.0)
+        at = at + step * min(1.0, _LONGEST / max(longest, _LONGEST))
+        if longest < _ENOUGH:
+            return at
+    raise AccuracyError("the ratings did not settle in {steps} steps of the fit", steps=_STEPS)
+
+
+def _solved(
+    games: _Games, curvature: Floats, held: Floats, right: Floats, shape: tuple[int, ...]
+) -> Floats:
+    """Return the Newton step of all replicas by conjugate gradients, each with its own lengths."""
+    low, high, size = games.low, games.high, right.size
+    diagonal = held + np.bincount(low, curvature, size) + np.bincount(high, curvature, size)
+
+    def image(of: Floats) -> Floats:
+        force = curvature * (of[low] - of[high])
+        return held * of + np.bincount(low, force, size) - np.bincount(high, force, size)
+
+    def product(one: Floats, other: Floats) -> NDArray[Any]:
+        return np.asarray((one * other).reshape(shape[0], -1).sum(axis=0))
+
+    def spread(of_replicas: Any) -> Floats:
+        return np.broadcast_to(of_replicas, (shape[0], len(of_replicas))).reshape(-1)
+
+    step, residual = np.zeros(size), right.copy()
+    direction = residual / diagonal
+    square = product(residual, direction)
+    # Newton's method mends what is left over, so a step need be no better than the next one.
+    enough = 1e-6 * square + 1e-20
+    for _ in range(10 * shape[0] + 10):
+        if (square <= enough).all():
+            break
+        forward = image(direction)
+        curved = product(direction, forward)
+        length = spread(np.divide(square, curved, out=np.zeros_like(square), where=curved > 0.0))
+        step += length * direction
+        residual -= length * forward
+        scaled = residual / diagonal
+        before, square = square, product(residual, scaled)
+        turn = np.divide(square, before, out=np.zeros_like(square), where=before > 0.0)
+        direction = scaled + spread(turn) * direction
+    return step
+
+
+def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any) -> Floats:
+    """Return each of few games at their own maximum, against the others as they were fitted."""
+    if not few.any():
+        return fit
+    concerned = few[games.low] | few[games.high]
+    games = _Games(*(column[concerned] for column in games))
+    at = fit.copy()
+    for _ in range(_STEPS):
+        slope, curvature = counted * (0.5 - expit(at - start)), _of_start(at, start, counted)
+        of_low = expit(at[games.low] - fit[games.high])
+        of_high = expit(at[games.high] - fit[games.low])
+        for who, won, p in (
+            (games.low, games.won, of_low),
+            (games.high, games.played - games.won, of_high),
+        ):
+            slope = slope + np.bincount(who, won - games.played * p, at.size)
+            curvature = curvature + np.bincount(who, games.played * p * (1.0 - p), at.size)
+        step = np.where(few, np.clip(slope / curvature, -_LONGEST, _LONGEST), 0.0)
+        at = at + step
+        if np.abs(step).max() < _ENOUGH:
+            return at
+    raise AccuracyError("the ratings did not settle in {steps} steps of the fit", steps=_STEPS)
+
+
+def performance(won: int, played: int, opponent: float) -> float:
+    """Return the rating at which a score against opponents of one rating is the expected one.
+
+    >>> [round(performance(won, 10, 550.0)) for won in (1, 3, 5, 8)]
+    [233, 428, 550, 750]
+    """
+    return opponent + float(_SCALE.difference(won / played))

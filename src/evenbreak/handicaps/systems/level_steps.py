@@ -1,0 +1,109 @@
+"""Level steps: a skill level in steps inside, one up for a match won and one down for one lost.
+
+A *like* system with a finite state, so that its long run can be solved exactly: each level has ten
+steps inside, as TAP-like leagues have; who passes the top of a level enters the next one at step
+`entry`, and who falls below the first enters the level below as many steps under its top, so that
+nobody changes back at once. The published number is the level.
+
+Source: ten steps a level, and that a promoted player needs three to four losses to fall back, as
+TAP leagues publish; that a match moves one step is an assumption.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from evenbreak.arrays import Floats, Ints
+from evenbreak.checks import whole
+from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
+from evenbreak.handicaps.systems.history import Entries, History, Matches, positions
+from evenbreak.handicaps.systems.level_review import nearest_level
+from evenbreak.handicaps.systems.system import System
+
+
+@dataclass(frozen=True)
+class LevelSteps(System):
+    """Levels in steps, moved by matches won and lost.
+
+    Parameters
+    ----------
+    steps
+        the steps inside a level.
+    entry
+        the step, from 1, at which a promoted player enters a level.
+    newcomer
+        the level of a player without one.
+    own_chart
+        which sets the races; None: `apa_8ball`.
+
+    >>> LevelSteps(10, 3).move(19, won=True), LevelSteps(10, 3).move(20, won=False)
+    (22, 17)
+    """
+
+    steps: int = 10
+    entry: int = 3
+    newcomer: int = 3
+    own_chart: LevelChart | None = None
+    name: str = "level-steps"
+
+    publishes = "levels"
+    winner_never_falls = True
+
+    def __post_init__(self) -> None:
+        whole(self.steps, "steps", at_least=1, at_most=100)
+        whole(self.entry, "entry", at_least=1, at_most=self.steps)
+
+    @property
+    def in_words(self) -> str:  # type: ignore[override]
+        """The rule in words."""
+        return f"a step up for a match won, down for one lost, {self.steps} steps to a level"
+
+    @property
+    def chart(self) -> LevelChart:
+        """The chart that sets the races."""
+        return self.own_chart or level_chart("apa_8ball")
+
+    @cached_property
+    def states(self) -> Ints:
+        """The published level of each state, the lowest first."""
+        return np.repeat(np.array(self.chart.levels), self.steps)
+
+    def first_state(self, levels: Any) -> Ints:
+        """Return the state in the middle of each level."""
+        place = np.searchsorted(self.chart.levels, np.asarray(levels))
+        return place * self.steps + self.steps // 2
+
+    def move(self, state: Any, *, won: Any) -> Any:
+        """Return the state after a match, elementwise; the ends stay."""
+        state = np.asarray(state)
+        inside = state % self.steps
+        up = np.where(inside == self.steps - 1, state + self.entry, state + 1)
+        down = np.where(inside == 0, state - self.entry, state - 1)
+        after = np.where(won, up, down)
+        after = np.where((after < 0) | (after >= len(self.states)), state, after)
+        return int(after) if after.ndim == 0 else after
+
+    def initial(self, entries: Entries) -> Floats:
+        """Return the stated levels, and the newcomers' for the others."""
+        stated = np.where(np.isnan(entries.level), self.newcomer, entries.level)
+        return nearest_level(self.chart, stated)
+
+    def update(self, history: History) -> Floats:
+        """Return the levels after the matches of the night, one after the other."""
+
+        def add(state: Ints, matches: Matches) -> Ints:
+            flat = state.reshape(-1)
+            won = matches.won_a
+            for row in range(len(matches)):
+                there = np.atleast_1d(matches.played[row])
+                for who, has_won in ((matches.a, won), (matches.b, ~won)):
+                    place = np.atleast_1d(positions(who, state.shape)[row])[there]
+                    flat[place] = self.move(flat[place], won=np.atleast_1d(has_won[row])[there])
+            return flat.reshape(state.shape)
+
+        states = history.fold("states", lambda: self.first_state(history.initial), add)
+        return np.asarray(self.states[states], dtype=float)

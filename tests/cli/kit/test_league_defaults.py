@@ -1,0 +1,177 @@
+"""What commands take from the league's file: every option that it can set, in every command."""
+
+import click
+import pytest
+
+from evenbreak.cli.kit.asked import AskedCommand, asked_of
+from evenbreak.cli.kit.faces import FACES
+from evenbreak.cli.program import program
+from evenbreak.fields.question import declared
+from evenbreak.questions.of_league import KEYS, key_of
+
+RACES = {"chart": 'chart = "npl_8"', "race": "race = 6", "race_to": "race_to = 6"}
+TOP = {
+    "scale": 'scale = "elo"',
+    "system": 'system = "step 2"',
+    "hours": 'hours = ["18:30", "23:00"]',
+    "tables": "tables = 3",
+    "turnover": "turnover = 4.5",
+    "discipline": 'discipline = "10-ball"',
+    "minutes_per_game": "minutes_per_game = 6.5",
+    "name": 'name = "Tuesday"',
+    "paper": 'paper = "letter"',
+}
+TABLES = """
+[files]
+roster = "players.csv"
+fixtures = "fixtures.csv"
+teams = "teams.csv"
+team_results = "team_results.csv"
+[[results]]
+file = "autumn.csv"
+columns = { score_a = "H", score_b = "G" }
+dates = "mdy"
+[aliases]
+"Al P" = "Al Peterson"
+[team]
+sets = 4
+order = "ABBA"
+cap = 23
+at_most = "2:6"
+count = "points"
+[standings]
+points = [3, 1, 0]
+ties = ["wins"]
+[prices]
+entry = 12
+"""
+OTHER = {
+    "scale": "fargo",
+    "system": "npl",
+    "hours": "20:00",
+    "tables": "7",
+    "turnover": "2",
+    "discipline": "8-ball",
+    "minutes_per_game": "9",
+    "name": "Another",
+    "paper": "a4",
+    "chart": "npl_12",
+    "race": "4",
+    "race_to": "4",
+    "team.sets": "3",
+    "team.order": "home",
+    "team.cap": "19",
+    "team.at_most": "1:5",
+    "team.count": "games",
+    "standings.points": "2,1,0",
+    "standings.ties": "scored",
+    "prices.entry": "5",
+    "results.columns": "score_a=X,score_b=Y",
+    "results.dates": "dmy",
+}
+"""Another value for each key, as it is typed; that of a file is other.csv."""
+
+LINEUP = ["ours.csv", "theirs.csv"]
+WORDS = {
+    "odds": ["92", "80"],
+    "fair": ["92", "80"],
+    "live": ["92", "80"],
+    "compare": ["7:7", "9:9", "92", "80"],
+    "why": ["Ann", "Bo"],
+    "lineup": LINEUP,
+    "round": LINEUP,
+    "report": ["--out", "sheet"],
+    "simulate": ["--out", "season"],
+    "chart design": ["--games", "7..13"],
+    "chart team": ["417", "447"],
+    "chips odds": ["entrants.csv", "--chips", "hoboken"],
+    "chips audit": ["hoboken"],
+    "chips design": ["entrants.csv"],
+    "sandbag watch": ["--roster", "start.csv"],
+    "tournament new": ["entrants.csv"],
+    "tournament odds": ["entrants.csv"],
+    "tournament time": ["entrants.csv"],
+    "tournament import": ["saved.json"],
+}
+"""What is typed with each command that needs more than the file of the league."""
+
+MORE = {
+    ("matchups", "tables"): ["--pairs", "tonight.csv"],
+    ("matchups", "turnover"): ["--pairs", "tonight.csv"],
+    ("rate", "chart"): ["--system", "npl", "--roster", "last.csv"],
+    **{(name, "from_file"): ["Ann", "Bo"] for name in ("odds", "fair", "live")},
+}
+"""What is typed for some options besides, or in place of the words."""
+
+
+def commands(group, words=()):
+    for name in group.list_commands(None):
+        command = group.get_command(click.Context(group), name)
+        if isinstance(command, click.Group):
+            yield from commands(command, (*words, name))
+        elif isinstance(command, AskedCommand):
+            yield " ".join((*words, name)), command
+
+
+COMMANDS = dict(commands(program))
+OPTIONS = [
+    pytest.param(name, one, id=f"{name} {one.name}")
+    for name, command in COMMANDS.items()
+    for one in declared(command.question)
+    if key_of(command.question, one.name)
+]
+
+
+@pytest.fixture
+def league(tmp_path, monkeypatch):
+    names = "players fixtures teams team_results autumn other ours theirs entrants start last"
+    for name in names.split():
+        (tmp_path / f"{name}.csv").write_text("")
+    monkeypatch.chdir(tmp_path)
+
+    def write(key, question):
+        by_chart = any(one.name == "chart" for one in declared(question))
+        races = key if key in RACES else "chart" if by_chart else "race"
+        pace = "discipline" if key != "minutes_per_game" else "minutes_per_game"
+        leaves_out = {"discipline", "minutes_per_game"} - {pace}
+        top = [line for name, line in TOP.items() if name not in leaves_out]
+        (tmp_path / "league.toml").write_text("\n".join([*top, RACES[races], TABLES]))
+
+    return write
+
+
+def asked(name, words):
+    command = COMMANDS[name]
+    with command.make_context(name, list(words)) as ctx:
+        values = {name: value for name, value in ctx.params.items() if name not in FACES}
+        return asked_of(command.question, values, ctx)
+
+
+@pytest.mark.parametrize(("name", "one"), OPTIONS)
+def test_each_option_is_taken_shown_and_overridden(league, capsys, name, one):
+    question = COMMANDS[name].question
+    key = key_of(question, one.name)
+    league(key, question)
+    words = WORDS.get(name, [])
+    more = MORE.get((name, one.name), [])
+    words = more if one.name == "from_file" else [*words, *more]
+    if key.startswith("results."):
+        words = [*words, *(["--results"] if name == "why" else []), "autumn.csv"]
+    value = getattr(asked(name, words), one.name)
+    assert value != one.default
+    verbose = ["-v"] if any(param.name == "verbose" for param in COMMANDS[name].params) else []
+    if verbose:
+        capsys.readouterr()
+        asked(name, [*words, "-v"])
+        assert f" {one.name} " in capsys.readouterr().err
+    other = OTHER.get(key, "other.csv")
+    typed = [other] if one.field.argument else [one.option, other]
+    if one.name == "schedule":
+        typed = ["results.csv", other]
+    own = getattr(asked(name, [*words, *typed]), one.name)
+    read = one.kind.read(other)
+    assert own == ((read,) if one.field.many else read) != value
+
+
+def test_every_key_of_the_map_is_an_option_of_some_command():
+    assert {one.values[1].name for one in OPTIONS} >= {*KEYS} - {"paper"}

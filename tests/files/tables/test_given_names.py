@@ -1,0 +1,43 @@
+"""Names written as Lee, Ann."""
+
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.results.results_file import read_results
+from evenbreak.files.tables.given_names import given_name_first
+from rows import each_of
+
+
+@each_of(
+    "name, meant",
+    [
+        ("Lee, Ann", "Ann Lee"),
+        ("van der Berg,Jo", "Jo van der Berg"),
+        ("Żak, Élodie Maria", "Élodie Maria Żak"),
+        ("O'Neil, Ed", "Ed O'Neil"),
+        ("Davis, Jr.", "Davis, Jr."),
+        ("Lee, Ann, 7", "Lee, Ann, 7"),
+        ("Racks 7, Bo", "Racks 7, Bo"),
+        ("Lee,", "Lee,"),
+    ],
+)
+def test_a_name_is_turned_where_one_comma_is_between_two_names(name, meant):
+    assert given_name_first(name) == meant
+
+
+def test_results_and_lists_name_the_players_alike_whichever_name_comes_first(tmp_path):
+    results, players = tmp_path / "r.csv", tmp_path / "p.csv"
+    results.write_text(
+        'player_a,player_b,score,winner\n"Lee, Ann","Diaz, Bo",7-5,"Lee, Ann"\n'
+        '"Diaz, Bo",BYE,,\n"Ng, Cy","Diaz, Bo",3-7,b\n'
+    )
+    players.write_text('name,rating\n"Lee, Ann",600\n"Diaz, Bo",500\n')
+    file = read_results(results)
+    assert file.results.players == ("Ann Lee", "Bo Diaz", "Cy Ng")
+    assert file.results.winner.tolist() == [1, 2]
+    assert any("last name first" in text for text in file.warnings)
+    assert read_roster(players).roster.players == ("Ann Lee", "Bo Diaz")
+
+
+def test_a_few_commas_among_other_names_change_nothing(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text('name,rating\n"Lee, Ann",600\nBo Diaz,500\n"Ng, Cy",400\n')
+    assert read_roster(path).roster.players == ("Lee, Ann", "Bo Diaz", "Ng, Cy")
