@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import File, Flag, Named, NumberOr, Text, Whole
@@ -23,10 +23,9 @@ from evenbreak.questions.common import (
     Seed,
     refuse_workers,
 )
-from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, Day, Reading, Results
+from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, ByChart, Day, Results
 from evenbreak.questions.systems import SystemOf
 from evenbreak.ratings.provisional import ESTABLISHED
-from evenbreak.words import Parameter
 
 MOST_PAIRED = 1000
 """The most players that are paired."""
@@ -87,7 +86,7 @@ class Assumed(Question):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HowToRate(Assumed, Reading):
+class HowToRate(Assumed, ByChart):
     """How to rate the players of results."""
 
     as_of: Annotated[
@@ -188,22 +187,23 @@ class Rate(Results, HowToRate):
     chart: Annotated[
         ChartName,
         Says(
-            "With {system}: the chart that set the races, where the file states neither race nor "
-            "winner.",
-            usual="the system's chart, if only one fits all scores",
-            section=_RULE,
+            "The chart that set the races, where the file states skill levels (or ratings) but no "
+            "races; with {system}, where it states neither race nor winner.",
+            usual="with {system} the system's chart, if only one fits all scores",
         ),
     ] = None
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """How to read the results; a system looks its ratings up in the chart itself."""
+        own = super().reading
+        return own if self.system is None else {**own, "chart": None}
 
     def check(self) -> None:
         """Refuse options of a fit for a league's own rule, and the other way round."""
         if self.system is None:
-            for name in ("roster", "chart"):
-                if getattr(self, name) is not None:
-                    self.refuse(
-                        "{part} is for {system}; give {system} npl too, or leave it out",
-                        part=Parameter(name),
-                    )
+            if self.roster is not None:
+                self.refuse("{roster} is for {system}; give {system} npl too, or leave it out")
             return
         of_fit = ("anchor", "prior", "half_life", "begin", "save", "as_of", "provisional")
         given = [

@@ -10,8 +10,9 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, File, Flag, Named, Text
-from evenbreak.fields.question import Field, Question
+from evenbreak.fields.question import Field, Question, Says
 from evenbreak.files.tables.dates import is_two_dates, read_date
+from evenbreak.questions.common import ChartName
 from evenbreak.words import Parameter
 
 _READING = "Reading the file"
@@ -139,7 +140,27 @@ class Reading(Question):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Results(Reading):
+class ByChart(Reading):
+    """Results whose races a chart may have set."""
+
+    chart: Annotated[
+        ChartName,
+        Says(
+            "The chart that set the races, where the file states skill levels (or ratings) but no "
+            "races.",
+            section=_READING,
+            more="See [races that a chart has set](../files.md#races-that-a-chart-has-set).",
+        ),
+    ] = None
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """How to read the results, as `files.read_results` takes it."""
+        return {**super().reading, "chart": self.chart}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Results(ByChart):
     """A question about results, in one file or several."""
 
     results: Annotated[tuple[str, ...], RESULTS]

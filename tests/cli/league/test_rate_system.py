@@ -225,11 +225,10 @@ def test_warnings_stand_beside_what_they_explain(rate, tmp_path):
     assert "if 'Diaz Bo' is meant" in error
 
 
-def test_chart_and_roster_are_for_a_system(run):
-    for words in (["--chart", "npl_10"], ["--roster", "last.csv"]):
-        result = run("rate", "night.csv", *words)
-        assert result.exit_code == 2
-        assert "is for --system" in result.stderr
+def test_a_roster_is_for_a_system(run):
+    result = run("rate", "night.csv", "--roster", "last.csv")
+    assert result.exit_code == 2
+    assert "is for --system" in result.stderr
 
 
 @given(st.text(max_size=40), st.text(max_size=40))

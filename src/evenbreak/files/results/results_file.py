@@ -24,6 +24,7 @@ from evenbreak.files.results.doubts import (
 )
 from evenbreak.files.results.matches import one_layout, results_columns, results_rows
 from evenbreak.files.results.proposals import columns_hint
+from evenbreak.files.results.races_by_chart import races_by_chart
 from evenbreak.files.results.statuses import LeftOut, played_matches
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.names import Name, PlayerNames, hidden_letter_warnings, same_name
@@ -94,6 +95,7 @@ def read_results(
     dates: DateOrder | None = None,
     skip_bad: bool = False,
     unplayed: bool = False,
+    chart: str | Path | None = None,
 ) -> ResultsFile:
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
@@ -119,6 +121,9 @@ def read_results(
         listed in the warnings; otherwise the file is refused for the former, and the latter count.
     unplayed
         whether rows that state no result are left out, as matches to come.
+    chart
+        the name or the file of the chart that set the races, where the results state the levels or
+        the ratings of both players but no race.
 
     Raises
     ------
@@ -156,11 +161,15 @@ def read_results(
         table, skipped, bad = without_bad_rows(table, lambda rows: read(rows)[1])
     names, results = read(table)
     table.problems.raise_any()
+    by_chart: list[str] = []
+    if chart is not None:
+        results, by_chart = races_by_chart(results, chart, table.lines, table.source)
     groups = tuple(similar_names(results.players, met_pairs(results)))
     warnings = [
         *by_alias.warnings,
         *table.warnings,
         *skipped,
+        *by_chart,
         *doubtful_score_warnings(results, table.lines, table.source),
         *_repeated_rows(table),
         *([] if results.date is None else date_warnings(results.date, table.lines, table.source)),

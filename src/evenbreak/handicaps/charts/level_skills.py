@@ -2,11 +2,7 @@
 
 A chart by skill level does not say what a level is worth. Three sources do, the best first:
 
-- The league's own results. A player of level L has the strength s_L + u, where u, the player's own
-  distance from the middle of the level, is N(0, spread²); a game has the log-odds of the difference
-  of the two strengths. The strengths are estimated together with all u, shrunk towards what the
-  next source says (standard deviation `PRIOR_SD`), and the spread by the largest marginal
-  likelihood, in Laplace's approximation (Breslow & Clayton 1993).
+- The league's own results (`level_estimates`).
 - Measured results of many leagues with the same chart: `MEASURED`.
 - The chart itself: the strengths that make its races as even as possible (`audit_levels`). That is
   an assumption, not a measurement.
@@ -19,9 +15,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import sparse
-from scipy.sparse.linalg import splu
-from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.handicaps.charts.chart_of import level_chart_of
@@ -39,14 +32,6 @@ FEWEST = 100
 
 MOST = 10_000
 """The matches that are used at most, the last ones: more say nothing that would matter."""
-
-PRIOR_SD = 50.0
-"""How far a league's levels may be from those of other leagues (standard deviation), in points."""
-
-WIDEST, NARROWEST = 300.0, 3.0
-"""The spreads of the players of a level that are considered, in points."""
-
-_MOST_STEPS, _TINY = 50, 1e-6
 
 MEASURED = {
     "apa_8ball": (
@@ -211,7 +196,14 @@ def level_skills(chart: LevelChart | str, results: Results | None = None) -> Lev
         return usual
     used = np.flatnonzero(rows)[-MOST:]
     places = usual.places(level_a[used]), usual.places(level_b[used])
-    return _estimated(usual, results.select(used), places)
+    from evenbreak.handicaps.charts.level_estimates import estimated_levels
+
+    points, covariance, spread = estimated_levels(usual.points, results.select(used), places)
+    own = np.diag(covariance)
+    errors = np.sqrt(np.maximum(own[:, None] + own - 2.0 * covariance, 0.0))
+    each = np.sqrt((errors**2).mean(axis=1) / 2.0)
+    gaps = points[:, None] - points
+    return LevelSkills(chart, gaps, errors, points - points[0], each, spread, "results", len(used))
 
 
 def _measured(chart: LevelChart) -> LevelSkills | None:
@@ -241,86 +233,3 @@ def _assumed(chart: LevelChart) -> LevelSkills:
     points = np.array(audit_levels(chart, scale=FARGO).ratings)
     gaps, own = points[:, None] - points, np.full(len(points), np.nan)
     return LevelSkills(chart, gaps, np.full(gaps.shape, np.nan), points, own, 0.0, "chart")
-
-
-def _estimated(usual: LevelSkills, results: Results, places: tuple[Ints, Ints]) -> LevelSkills:
-    """Return the strengths of the levels, and the spread inside them, by a league's results."""
-    from scipy.optimize import minimize_scalar
-
-    season = _Season(usual, results, places)
-    low, high = np.log([NARROWEST, WIDEST])
-    best: Any = minimize_scalar(
-        lambda log_spread: -season.at(np.exp(log_spread))[0],
-        bounds=(low, high),
-        method="bounded",
-        options={"xatol": 0.05},
-    )
-    spread = float(np.exp(best.x)) if best.x > low + 0.1 else 0.0
-    _, points, covariance = season.at(max(spread, NARROWEST))
-    gaps = points[:, None] - points
-    own = np.diag(covariance)
-    errors = np.sqrt(np.maximum(own[:, None] + own - 2.0 * covariance, 0.0))
-    return LevelSkills(
-        usual.chart,
-        gaps,
-        errors,
-        points - points[0],
-        np.sqrt((errors**2).mean(axis=1) / 2.0),
-        spread,
-        "results",
-        len(results),
-    )
-
-
-class _Season:
-    """A league's games between players of some levels, and the likelihood of a spread."""
-
-    def __init__(self, usual: LevelSkills, results: Results, places: tuple[Ints, Ints]) -> None:
-        sides = results.player_a, results.player_b
-        who, code = np.unique(np.concatenate(sides), return_inverse=True)
-        a, b = np.split(code.ravel(), 2)
-        rows, self._levels = np.arange(len(results)), len(usual.levels)
-        columns = np.concatenate([*places, self._levels + a, self._levels + b])
-        signs = np.repeat([1.0, -1.0, 1.0, -1.0], len(rows))
-        shape = len(rows), self._levels + len(who)
-        self._contrast = sparse.csr_matrix((signs, (np.tile(rows, 4), columns)), shape=shape)
-        self._won = results.score_a.astype(float)
-        self._played = self._won + results.score_b
-        self._mean = np.concatenate([usual.points, np.zeros(len(who))]) / FARGO.points_per_log_odds
-        self._at = self._mean
-
-    def at(self, spread: float) -> tuple[float, Floats, Floats]:
-        """Return the log-likelihood of a spread, the levels' points and their covariance."""
-        unit = FARGO.points_per_log_odds
-        weight = np.full(len(self._mean), (unit / spread) ** 2)
-        weight[: self._levels] = (unit / PRIOR_SD) ** 2
-        for _ in range(_MOST_STEPS):
-            step = splu(self._curvature(weight)).solve(self._slope(weight))
-            while self._value(self._at + step, weight) < self._value(self._at, weight) - _TINY:
-                step /= 2.0
-            self._at = self._at + step
-            if np.abs(step).max() < _TINY:
-                break
-        curvature = splu(self._curvature(weight))
-        log_determinant = np.log(np.abs(curvature.U.diagonal())).sum()
-        value = self._value(self._at, weight) + (np.log(weight).sum() - log_determinant) / 2.0
-        inverse = curvature.solve(np.eye(len(weight), self._levels))
-        return (
-            float(value),
-            self._at[: self._levels] * unit,
-            inverse[: self._levels] * unit**2,
-        )
-
-    def _value(self, at: Floats, weight: Floats) -> float:
-        odds = self._contrast @ at
-        value = self._won @ odds - self._played @ np.logaddexp(0.0, odds)
-        return float(value - weight @ (at - self._mean) ** 2 / 2.0)
-
-    def _slope(self, weight: Floats) -> Floats:
-        left = self._won - self._played * expit(self._contrast @ self._at)
-        return np.asarray(self._contrast.T @ left - weight * (self._at - self._mean))
-
-    def _curvature(self, weight: Floats) -> sparse.csc_matrix:
-        p = expit(self._contrast @ self._at)
-        of_games = self._contrast.multiply((self._played * p * (1.0 - p))[:, None])
-        return sparse.csc_matrix(self._contrast.T @ of_games + sparse.diags(weight))

@@ -1,4 +1,4 @@
-"""The fairest race for two players: by their names tonight, or by two ratings."""
+"""The fairest race for two players: by names tonight, two ratings, or two skill levels."""
 
 from __future__ import annotations
 
@@ -10,10 +10,19 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.match.odds import TwoPlayers, races_for
+from evenbreak.answers.match.odds import TwoPlayers, odds_answer, races_for
+from evenbreak.answers.match.points import points_answer
 from evenbreak.errors import InputError
 from evenbreak.fields.question import declaration
+from evenbreak.games.race import Race
 from evenbreak.handicaps.charts.fair import FairRace
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    level_chart,
+    points_chart,
+)
+from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.questions.match import FairTonight
 from evenbreak.ratings.scale import NAMES, SCALES, Scale, scale_of, unstated_scale
 from evenbreak.tournaments.evening.events import Entrant
@@ -23,7 +32,9 @@ from evenbreak.web.forms import CHOOSE_IT, Form, value_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import page, site_of
+from evenbreak.words import say
 
+CHARTS_OF_LEVELS = {**LEVEL_CHARTS, **POINTS_CHARTS}
 LENGTHS = (3, 4, 5, 7, 9, 11, 13, 15, 21)
 
 
@@ -34,23 +45,58 @@ async def fair(request: Request) -> Response:
     state = await asyncio.to_thread(night.state) if night.exists else None
     league = site_of(request).league
     in_league = league.sheet.ratings.players if league.sheet else ()
-    stated = _scale(request, state, league)
+    chart = request.query_params.get("scale", "")
+    by_level = chart in CHARTS_OF_LEVELS
+    stated = None if by_level else _scale(request, state, league)
     race_to = declaration(FairTonight, "race_to")
     length: int = value_of(race_to, Form(request.query_params), "race")
     shown: dict[str, Any] = {
         "asked": asked,
         "length": length,
         "lengths": LENGTHS,
-        "scale": stated.text if stated else "",
+        "scale": chart if by_level else stated.text if stated else "",
         "scales": NAMES,
+        "charts": CHARTS_OF_LEVELS,
+        "needs": None,
+        "texts": [],
         "names": list(dict.fromkeys([*(state.entrants if state else ()), *in_league])),
         "races": [],
         "sides": None,
     }
-    if asked["a"] and asked["b"]:
+    if asked["a"] and asked["b"] and by_level:
+        shown |= await asyncio.to_thread(_by_level, chart, asked, length)
+    elif asked["a"] and asked["b"]:
         sides = [_side(asked[name], state, league) for name in ("a", "b")]
         shown |= {"sides": sides, "races": await asyncio.to_thread(_races, sides, stated, length)}
     return page(request, "fair.html", **shown)
+
+
+def _by_level(chart: str, typed: dict[str, str], length: int) -> dict[str, Any]:
+    """Return the race of two skill levels by a chart, and the fairest ones."""
+    a, b = (_level(typed[name], chart) for name in ("a", "b"))
+    names = say("Level {level}", level=a), say("Level {level}", level=b)
+    sides = [Entrant(name, 0.0, 0.0) for name in names]
+    if chart in POINTS_CHARTS:
+        answer = points_answer(points_chart(chart), (a, b), names)
+        return {"sides": sides, "needs": points_chart(chart).race(a, b), "texts": answer.sentences}
+    players = TwoPlayers.of_levels((a, b), level_skills(chart), names)
+    asked = FairTonight(ratings=(str(a), str(b)), chart=chart, race_to=length)
+    races = races_for(players, asked)
+    needs = level_chart(chart).race(a, b)
+    answer = odds_answer(players, Race(*needs, players.rack))
+    return {"sides": sides, "needs": needs, "races": races, "texts": answer.sentences}
+
+
+def _level(text: str, chart: str) -> int:
+    levels = (points_chart(chart) if chart in POINTS_CHARTS else level_chart(chart)).levels
+    if text not in map(str, levels):
+        raise RefusalError(
+            "{value!r} is not a skill level of {chart}. Enter one of {levels}.",
+            value=text[:20],
+            chart=CHARTS_OF_LEVELS[chart],
+            levels=", ".join(map(str, levels)),
+        )
+    return int(text)
 
 
 def _scale(request: Request, state: Evening | None, league: League) -> Scale | None:

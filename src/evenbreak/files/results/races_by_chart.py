@@ -1,0 +1,110 @@
+"""The races of results that state levels, or ratings, but no races: those of the league's chart."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.errors import InputError
+from evenbreak.files.charts import find_chart
+from evenbreak.files.tables.problems import warning
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_chart import PointsChart
+from evenbreak.handicaps.charts.played_chart import level_numbers_of
+from evenbreak.ratings.results import Results
+from evenbreak.words import Parameter, say_count
+
+
+def races_by_chart(
+    results: Results, chart: str | Path, lines: NDArray[np.int64], source: str
+) -> tuple[Results, list[str]]:
+    """Return results with the races that a chart sets for the levels or ratings stated in them.
+
+    Where both players reached their games, or neither did, the race is left open.
+
+    Parameters
+    ----------
+    results
+        the matches.
+    chart
+        the name or the file of the chart.
+    lines, source
+        the line of each match, and what the file is called in warnings.
+
+    Raises
+    ------
+    InputError
+        if the chart is one of points, or the results state no levels.
+    """
+    of_league = find_chart(chart)
+    if isinstance(of_league, PointsChart):
+        raise InputError(
+            "{chart} {name} is a chart of points, and results are rated by games; leave it out, or "
+            "state the races and the winners",
+            chart=Parameter("chart"),
+            name=of_league.name,
+        )
+    if results.level_a is None or results.level_b is None:
+        raise InputError(
+            "{chart} needs the levels or ratings of both players, and {source} has none; add the "
+            "columns {level_a} and {level_b}, or leave it out",
+            chart=Parameter("chart"),
+            source=source,
+            level_a="level_a",
+            level_b="level_b",
+        )
+    stated = tuple(level_numbers_of(results))
+    race_a, race_b = (race.copy() for race in results.races)
+    score_a, score_b = results.score_a, results.score_b
+    unset = results.counted & (race_a == 0) & (race_b == 0) & (score_a + score_b > 0)
+    missing = np.isnan(stated[0]) | np.isnan(stated[1])
+    if isinstance(of_league, Chart):
+        known = ~missing
+        a, b = (np.floor(level[known] + 0.5) for level in stated)
+        needs: Any = of_league.races(a - b)
+    else:
+        known = np.isin(stated[0], of_league.levels) & np.isin(stated[1], of_league.levels)
+        needs = of_league.races(stated[0][known], stated[1][known])
+    m, n = np.zeros_like(race_a), np.zeros_like(race_b)
+    m[known], n[known] = needs
+    ends = ((score_a == m) & (score_b < n)) | ((score_b == n) & (score_a < m))
+    filled = unset & known & ends
+    race_a[filled], race_b[filled] = m[filled], n[filled]
+    told: list[str] = []
+    if filled.any():
+        text = say_count(
+            "the race of {n} match is that of {chart} for the levels stated",
+            "the races of {n:,} matches are those of {chart} for the levels stated",
+            int(filled.sum()),
+            chart=of_league.name,
+        )
+        told.append(warning(source, None, text))
+    if (unknown := unset & ~known).any():
+        text = say_count(
+            "{n} match without a race states no levels of {chart}; it counts game by game, without "
+            "a winner unless one is stated",
+            "{n:,} matches without a race state no levels of {chart}, this one first; they count "
+            "game by game, without a winner unless one is stated",
+            int(unknown.sum()),
+            chart=of_league.name,
+        )
+        told.append(warning(source, lines[unknown.argmax()], text))
+    if (unfit := unset & known & ~ends).any():
+        row = int(unfit.argmax())
+        text = say_count(
+            "the score {a}-{b} does not end the race {m}-{n} of the levels stated; check it",
+            "the score {a}-{b} does not end the race {m}-{n} of the levels stated, nor do those of "
+            "{more:,} more matches theirs; check them",
+            int(unfit.sum()),
+            a=int(score_a[row]),
+            b=int(score_b[row]),
+            m=int(m[row]),
+            n=int(n[row]),
+            more=int(unfit.sum()) - 1,
+        )
+        told.append(warning(source, lines[row], text))
+    return replace(results, race_a=race_a, race_b=race_b), told

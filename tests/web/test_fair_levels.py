@@ -1,0 +1,28 @@
+"""The fair race of two skill levels on the page: the same numbers and words as the command's."""
+
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from evenbreak.cli.program import program
+from web.phones import Phone, running
+
+
+def test_the_page_says_of_levels_what_the_command_says(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        phone = Phone(site)
+        for chart, needs in (("apa_8ball", "4:2"), ("apa_9ball", "38:25")):
+            page = phone.open("/fair", a="5", b="3", scale=chart, race="5").words
+            command = ["odds", "5", "3", "--chart", chart, "--text"]
+            said = CliRunner().invoke(program, command).output
+            assert needs in page
+            first = next(line for line in said.splitlines() if "wins the match" in line)
+            assert first.partition(" wins ")[2] in page
+        for words, refusal in (
+            ({"a": "5", "b": "9"}, "'9' is not a skill level of APA 8-ball"),
+            ({"a": "Ann", "b": "3"}, "'Ann' is not a skill level"),
+        ):
+            refused = phone.open("/fair", scale="apa_8ball", race="5", **words)
+            assert refused.status == 400
+            assert refusal in refused.words
+        assert 'value="apa_9ball"' in phone.open("/fair").text
