@@ -42,12 +42,11 @@ GROUPS = 40
 _AT_ONCE = 1 << 13
 """About how many players are played at a time: replicas times players."""
 
-_INNINGS = 0.22
-"""Games that a player in the middle of the skills wins an inning.
+_INNINGS = 0.1
+"""Games that a player of middling skill wins an inning; twice as many a doubling above that.
 
-Two such players then need 2.3 innings a game, and 4.5 for each game that one of them wins: the
-middle of the published table of skill levels by innings. The rate doubles with the odds, so that
-the first to finish wins with the chance that the skills say.
+Then the first to finish wins with the chance that the skills say. No league publishes its innings:
+at this rate the levels of the innings rule as told (`apa-like`) stay where they are, on average.
 """
 
 Captains = Callable[[Floats, Floats, Floats], list[tuple[int, int]]]
@@ -93,16 +92,24 @@ class Doublings:
     def entries(self, play: Play) -> Entries:
         """Return the players as their league would state them to the system."""
         world, shape = self.world, play.entry.shape
+        played, games = world.players.played, np.full(len(world.players), -1)
         rating = np.rint(self.zero + self.doubling * play.entry)
+        if not self.fixed:  # nothing says which number a skill has: everybody starts afresh
+            rating[:] = np.nan
+            played = np.zeros_like(played)
+        elif world.games is not None:
+            games = np.asarray(world.games)
         level = np.full(shape, np.nan)
         if world.level is not None:
             level[: len(world.level)] = np.asarray(world.level)[:, None]
         if self.levels is not None:
-            apart = np.abs(np.nan_to_num(play.entry)[..., None] - self.points)
-            guess = self.levels[apart.argmin(axis=-1)]
-            level = np.where(np.isnan(level) & ~np.isnan(play.entry), guess, level)
-        played = np.broadcast_to(world.extended(world.players.played, 0), shape)
-        return Entries.of(rating, level, played.astype(np.int64))
+            guess = self.levels[np.abs(play.entry[..., None] - self.points).argmin(axis=-1)]
+            level = np.where(np.isnan(level), guess, level)
+        counts = (
+            np.broadcast_to(world.extended(column, 0), shape).astype(np.int64)
+            for column in (played, games)
+        )
+        return Entries.of(rating, level, *counts)
 
 
 @dataclass(frozen=True, eq=False)

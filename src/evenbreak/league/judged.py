@@ -48,8 +48,8 @@ class Estimate(NamedTuple):
     @property
     def clear(self) -> Floats:
         """The sign of the difference from the first system; 0 where it is within its error."""
-        beyond = np.abs(self.change) > self.quantile * self.change_error
-        return np.where(beyond & (self.change_error > 0), np.sign(self.change), 0.0)
+        beyond = np.abs(self.change) > self.quantile * self.change_error + 1e-12
+        return np.where(beyond, np.sign(self.change), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +134,9 @@ def _pays(total: _Total) -> Floats:
 def _drift(total: _Total) -> Floats:
     offset = _ratio(total["weeks"][..., 4], total["weeks"][..., 5])
     moved = (offset[..., -1] - offset[..., 0]) / total.world.seasons
-    return np.asarray(moved * _slope(total))
+    # Numbers of no fixed scale have no level either that could rise against the skills.
+    free = total.calibrated.reshape(-1, *(1,) * (moved.ndim - 1))
+    return np.where(free, np.nan, moved)
 
 
 def _titles(total: _Total) -> Floats:

@@ -75,8 +75,8 @@ class World:
         of these ratings.
     level
         their skill levels; NaN where not stated. None: nobody has one.
-    unrated
-        who has no rating: every system starts them as it starts strangers. None: nobody.
+    games
+        the games behind each rating, -1 where not stated. None: not stated for anyone.
     schedule
         who meets whom; None: a round robin of the players, or of the teams.
     weeks, seasons
@@ -109,7 +109,7 @@ class World:
     players: LeaguePlayers
     scale: Scale
     level: Floats | None = None
-    unrated: Bools | None = None
+    games: Ints | None = None
     schedule: Any = None
     weeks: int = 30
     seasons: int = 1
@@ -205,8 +205,6 @@ class World:
     def new(self) -> Bools:
         """Who is a newcomer when they start."""
         listed = np.array(self.players.played == 0)
-        if self.unrated is not None:
-            listed = listed | self.unrated
         return np.concatenate([listed, np.full(self.many - len(listed), True)])
 
     @cached_property
@@ -278,8 +276,6 @@ class Play:
         width = world.extended(players.skill_sd / ppd, sd)
         self.skill: Floats = begun + width * people.standard_normal(shape)
         rated = (players.rating - world.origin) / ppd
-        if world.unrated is not None:
-            rated = np.where(world.unrated, np.nan, rated)
         guess = people.standard_normal((world.many - len(players), replicas))
         self.entry = np.concatenate([
             np.tile(rated[:, None], (1, replicas)),

@@ -143,6 +143,73 @@ def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     return axes
 
 
+@in_our_look
+def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
+    """Draw the share of even matches by skill, a line for each system with 90% bars.
+
+    Parameters
+    ----------
+    deciles
+        as `deciles_frame` returns it.
+    ax
+        the axes to draw on; None: those of a new figure.
+
+    >>> rows = [("npl", part, 0.5, 0.01) for part in (1, 2)]
+    >>> frame = pd.DataFrame(rows, columns=["system", "part", "p_even", "p_even_se"])
+    >>> draw_even(frame).get_ylabel()
+    'share of their matches that are even'
+    """
+    axes = new_axes(
+        "players by true skill, the weakest first",
+        "share of their matches that are even",
+        title="How even matches are, by skill",
+        ax=ax,
+    )
+    _lines(axes, deciles, "part", "p_even")
+    axes.locator_params(axis="x", integer=True)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="lower left", frameon=False)
+    return axes
+
+
+@in_our_look
+def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
+    """Draw how far off ratings are night by night, a line for each system.
+
+    Parameters
+    ----------
+    nights
+        as `nights_frame` returns it.
+    ax
+        the axes to draw on; None: those of a new figure.
+    """
+    axes = new_axes(
+        "night",
+        "ratings off by (doublings of the odds)",
+        title="How far off ratings are",
+        ax=ax,
+    )
+    _lines(axes, nights, "night", "error", markers=False)
+    axes.locator_params(axis="x", integer=True)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlim(left=0.0)
+    axes.legend(loc="lower left", frameon=False)
+    return axes
+
+
+def _lines(axes: Axes, frame: pd.DataFrame, x: str, y: str, *, markers: bool = True) -> None:
+    """Draw a line for each system; the bars are 90% intervals."""
+    for place, (name, rows) in enumerate(frame.groupby("system", sort=False)):
+        line = LINES[place % len(LINES)]._asdict()
+        bars = 1.645 * rows[f"{y}_se"].to_numpy(float)
+        values = rows[x].to_numpy(float), rows[y].to_numpy(float)
+        if markers and not np.isnan(bars).any():
+            axes.errorbar(*values, yerr=bars, capsize=2.5, marker="o", markersize=4, **line,
+                          label=str(name))  # fmt: skip
+        else:
+            axes.plot(*values, **line, label=str(name))
+
+
 MOST_NAMED = 6
 """How many players of a league are named; the others are thin lines."""
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-from evenbreak.fields.kinds import File, Flag, Number, Whole
+from evenbreak.fields.kinds import File, Flag, Named, Number, Whole
 from evenbreak.fields.question import Field, Says
+from evenbreak.files.league.values import SYSTEM
 from evenbreak.questions.common import (
     RACE_TO,
     ChartName,
@@ -27,12 +28,27 @@ from evenbreak.questions.results import ON_STDIN, ROSTER
 from evenbreak.questions.systems import DAY_SD, BySystem
 from evenbreak.tournaments.evening.format import Discipline, Tables
 
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.system import System
+else:
+    System = Any
+
 MOST_WEEKS, MOST_REPLICAS, MOST_MATCHES = 10_000, 10_000_000, 100
 
 WEEKS = 30
 """The length of a season where neither an option nor a schedule says it."""
 
-_WHO, _WORK = "Who plays whom", "The work"
+_WHO, _LEAGUE, _WORK = "Who plays whom", "The league", "The work"
+
+SHARE_OF = Number(0.0, 1.0, " is no share; give a number from 0 to 1, such as 0.2", metavar="SHARE")
+
+
+def _systems(text: str) -> tuple[System, ...]:
+    return tuple(SYSTEM.read(name.strip()) for name in text.split(",") if name.strip())
+
+
+def _spelled(systems: tuple[System, ...]) -> str:
+    return ", ".join(SYSTEM.words(system) for system in systems)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,20 +127,36 @@ class Matchups(Lengths, Starters, Pace):
 class Simulate(BySystem):
     """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
 
-    ROSTER.csv has one player per row, with the columns player and rating and, optionally,
-    standard_error, matches, skill, day_sd, drift, joins, leaves and absence; - reads standard
-    input. A player without a skill gets one drawn for each season from rating and standard error.
-    {players_file} says who plays, if not everyone; those not on the list are new players.
-    matches.csv is one season in full, which `rate` and `validate` can read.
+    ROSTER.csv has one player per row, with the columns player and rating (or level) and,
+    optionally, standard_error, matches, skill, day_sd, drift, joins, leaves, absence and team; -
+    reads standard input. A player without a skill gets one drawn for each season from rating and
+    standard error. {players_file} says who plays, if not everyone; those not on the list are new
+    players. {compare} puts handicap systems side by side: the same players, nights and luck under
+    each of them. matches.csv is one season in full, which `rate` and `validate` can read.
     """
 
     examples = """\
+  evenbreak simulate roster.csv --compare npl --compare fargo-like
+  evenbreak simulate levels.csv --chart apa_8ball --compare "level review, none"
   evenbreak simulate roster.csv --chart npl_10 --weeks 30 --out season
-  evenbreak simulate roster.csv --schedule fixtures.csv --replicas 10000 --out season
   evenbreak simulate roster.csv --random --day-sd 5 --system "step 2" --out step2
 """
     roster: Annotated[str, ROSTER, Says(argument=True)]
-    out: Annotated[OutFolder, Says("The folder for the tables and pictures; created if needed.")]
+    out: Annotated[
+        OutFolder | None,
+        Says("The folder for the tables and pictures; created if needed.", usual="no files"),
+    ] = None
+    compare: Annotated[
+        tuple[tuple[System, ...], ...],
+        Field(
+            Named(_systems, "SYSTEM", offers="systems", spelled=_spelled),
+            "Compare handicap systems, as {system} names them; the first is the league's own.",
+            many=True,
+            more='Or several in one, with commas: `--compare "npl, step 2"`. With {system}, '
+            "that is the first. See [compare two systems]"
+            "(../../how-to/compare-handicap-systems.md).",
+        ),
+    ] = ()
     players_file: Annotated[
         EntrantsFile,
         Says(
@@ -184,9 +216,44 @@ class Simulate(BySystem):
         Says(
             "How much a player's form varies from day to day (standard deviation), where the "
             "roster does not say.",
+            section=_LEAGUE,
             kind=Number(0.0, 1000.0, "; give points from 0 to 1,000", metavar="POINTS"),
         ),
     ] = 0.0
+    seasons: Annotated[
+        int,
+        Field(
+            Whole(1, 50),
+            "How many seasons are played in a row, ratings going on.",
+            section=_LEAGUE,
+        ),
+    ] = 1
+    newcomers: Annotated[
+        float,
+        Field(SHARE_OF, "The share of players who are new in each season.", section=_LEAGUE),
+    ] = 0.2
+    sandbaggers: Annotated[
+        float,
+        Field(
+            SHARE_OF,
+            "The share of players who hold back in the third quarter of a season, to do better in "
+            "the last.",
+            section=_LEAGUE,
+        ),
+    ] = 0.05
+    sets: Annotated[
+        int,
+        Field(Whole(1, 15), "Matches of two teams on a night.", section=_LEAGUE),
+    ] = 5
+    cap: Annotated[
+        float | None,
+        Field(
+            Number(0.0, 1000.0, "; give a sum of levels, such as 23"),
+            "The most that the levels of a team's line-up may add up to.",
+            section=_LEAGUE,
+            metavar="LEVELS",
+        ),
+    ] = None
     rack_by_rack: Annotated[
         bool,
         Field(
@@ -210,6 +277,13 @@ class Simulate(BySystem):
     jobs: Annotated[Jobs, Says(section=_WORK)] = 1
     dask: Annotated[Dask, Says(section=_WORK)] = None
 
+    @property
+    def compared(self) -> tuple[System, ...]:
+        """The systems that are compared, each once; the league's own first if it is stated."""
+        every = [*([] if self.system is None else [self.system])]
+        every += [system for systems in self.compare for system in systems]
+        return tuple({system.name: system for system in every}.values())
+
     def check(self) -> None:
         """Refuse options that exclude each other or are empty."""
         ways = [
@@ -221,6 +295,8 @@ class Simulate(BySystem):
             self.refuse(
                 "{schedule} and {matches} cannot be combined; the schedule sets the matches"
             )
+        if self.compare and self.rack_by_rack:
+            self.refuse("{compare} and {rack_by_rack} cannot be combined; leave one out")
         refuse_workers(self)
         if [self.roster, self.schedule, self.chart].count("-") > 1:
             self.refuse(ON_STDIN)

@@ -58,7 +58,6 @@ NIGHT = "player_a,player_b,games_a,games_b\nAnn,Bob,7,3\n"
 @pytest.mark.parametrize(
     ("command", "has_scale"),
     [
-        (("simulate", "{roster}", "--replicas", "20", "--no-matches", "--out", "{out}"), True),
         (("ladder", "--league", "{roster}"), True),
         (("sandbag", "watch", "{night}", "--roster", "{roster}"), False),
         (("rate", "{night}", "--system", "npl", "--roster", "{roster}"), False),

@@ -10,8 +10,8 @@ import time
 
 import pytest
 
+from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.league import simulate as module
-from evenbreak.cli.league.simulate import cluster_at
 from evenbreak.errors import InputError, WorkerError
 from evenbreak.workers import in_order
 
@@ -52,7 +52,7 @@ def test_refusals_of_our_own_come_through(small):
 
 ASK = """
 import sys
-from evenbreak.cli.league import simulate as cluster
+from evenbreak.cli.kit import cluster
 cluster._PATIENCE = 1.0
 with cluster.cluster_at(sys.argv[1]):
     pass

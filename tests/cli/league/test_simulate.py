@@ -186,7 +186,7 @@ def test_what_may_be_wrong_is_a_warning(run, tmp_path, options, warnings):
         (("--scale", "big"), "'big'"),
         (("--system", "elo 16", "--scale", "npl"), "leave --scale out"),
         (("--system", "gut feeling"), "'gut feeling'"),
-        (("--chart", "apa_8ball"), "'apa_8ball'"),
+        (("--chart", "apa_9ball"), "counts points"),
     ],
 )
 def test_wrong_use_is_refused_and_nothing_is_written(run, tmp_path, options, words):

@@ -203,7 +203,7 @@ def _workers(asked: Validate) -> AbstractContextManager[Any]:
     """Connect to the cluster that is asked for, if there is one."""
     if asked.dask is None:
         return nullcontext()
-    from evenbreak.cli.league.simulate import cluster_at
+    from evenbreak.cli.kit.cluster import cluster_at
 
     return cluster_at(asked.dask)
 

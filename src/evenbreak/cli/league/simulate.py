@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator
-from concurrent.futures import Future
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from pathlib import PurePath
-from threading import Thread
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from evenbreak import files, handicaps, league, plots
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import SAY_WHICH
 from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.terminal import say, write_folder
-from evenbreak.errors import EvenbreakError, InputError, WorkerError
+from evenbreak.cli.league.compare import by_any_system, compared, schedule_of
 from evenbreak.files.csv_writer import to_csv
-from evenbreak.questions.league import WEEKS, Simulate
+from evenbreak.questions.league import Simulate
 from evenbreak.ratings.scale import SCALES
 
 if TYPE_CHECKING:
-    import distributed
-
     from evenbreak.answers.league.season_tables import SeasonTables
 
 LONG = 500_000_000
@@ -46,8 +41,11 @@ def command(asked: Simulate) -> Answer:
     file = read_season_players(asked.roster, day_sd=asked.day_sd)
     if asked.players_file is not None:
         file = _with_entrants(file, asked.players_file, asked)
+    if asked.out is not None:
+        check_folder(asked.out)
+    if by_any_system(asked, file):
+        return compared(asked, file)
     season, warnings = season_of(file, asked)
-    check_folder(asked.out)
     if (many := matches_to_play(season) * asked.replicas) >= LONG:
         remedy = "; --jobs shares the work" if asked.jobs == 1 and asked.dask is None else ""
         say(f"{many:,} matches are to be played{remedy}")
@@ -66,11 +64,12 @@ def command(asked: Simulate) -> Answer:
         exact=file.exact,
         warnings=warnings,
     )
-    content = _tables(tables) | {"summary.csv": "".join(to_csv(answer)).encode()}
-    if not asked.no_matches:
-        content |= _one_season(season, asked.seed)
-    content |= _pictures(tables)
-    write_folder(asked.out, content)
+    if asked.out is not None:
+        content = _tables(tables) | {"summary.csv": "".join(to_csv(answer)).encode()}
+        if not asked.no_matches:
+            content |= _one_season(season, asked.seed)
+        content |= _pictures(tables)
+        write_folder(asked.out, content)
     return answer
 
 
@@ -132,13 +131,13 @@ def _with_entrants(file: files.SeasonPlayers, path: str, asked: Simulate) -> fil
 
     New ones start in the middle of the scale, or of the league if the scale has none.
     """
-    scale = _system(asked).scale
+    scale = file.scale or asked.scale or (asked.system or handicaps.system_of("npl")).scale
     of_league = sorted(file.players.rating.tolist())[len(file.players) // 2]
     return files.league_of_entrants(
         file,
         files.read_entrants(path),
-        starter=scale.centre if scale.name in SCALES else of_league,
-        starter_sd=scale.points_per_doubling,
+        starter=scale.centre if scale is not None and scale.name in SCALES else of_league,
+        starter_sd=1.0 if scale is None or file.levels else scale.points_per_doubling,
     )
 
 
@@ -159,27 +158,11 @@ def season_of(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Season
         stated=asked.scale is not None,
     )
     chart, of_chart = chart_for(system, asked.chart)
-    schedule, weeks, of_schedule = _schedule(file, asked)
+    schedule, weeks, of_schedule = schedule_of(file, asked, len(file.players))
     play = "racks" if asked.rack_by_rack else "matches"
     doubts = league_doubts(system.scale, file.players.rating, SAY_WHICH)
     warnings = [*file.warnings, *of_chart, *of_schedule, *doubts]
     return league.Season(file.players, system, chart, schedule, weeks, play), warnings
-
-
-def _schedule(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Schedule, int, list[str]]:
-    """Return who plays whom, for how many weeks, and warnings."""
-    matches, weeks = asked.matches or 1, asked.weeks
-    if asked.schedule is None:
-        if asked.random:
-            return league.RandomPairing(matches), weeks or WEEKS, []
-        return league.RoundRobin(len(file.players), matches), weeks or WEEKS, []
-    fixtures = files.read_schedule(asked.schedule, file.roster)
-    last, warnings = fixtures.schedule.weeks, list(fixtures.warnings)
-    if weeks is not None and weeks < last:
-        warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
-    if weeks is not None and weeks > last:
-        warnings.append(f"{fixtures.source}: ends with week {last}; nobody plays after it")
-    return fixtures.schedule, weeks or last, warnings
 
 
 def matches_to_play(season: league.Season) -> int:
@@ -190,69 +173,3 @@ def matches_to_play(season: league.Season) -> int:
         case league.RandomPairing(matches_a_week=many) | league.RoundRobin(matches_a_week=many):
             return season.weeks * many * (len(season.players) // 2)
     return 0
-
-
-# The dask cluster.
-
-
-_PATIENCE = 8.0
-"""Seconds within which a scheduler must answer, and within which it must have a worker."""
-
-
-@contextmanager
-def cluster_at(address: str) -> Iterator[distributed.Client]:
-    """Connect to a dask cluster.
-
-    Raises
-    ------
-    InputError
-        if dask is not installed.
-    WorkerError
-        if no scheduler answers, or it has no worker; in the block, for whatever dask raises.
-    """
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError(
-            "a dask cluster needs distributed, which is not installed; install it with: "
-            "pip install distributed (the extra evenbreak[dask]), or use --jobs"
-        ) from None
-    # What goes wrong is raised; its log would only repeat it.
-    for name in ("distributed", "tornado.application"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)
-    answered: Future[distributed.Client] = Future()
-    start: Any = Client
-
-    def connect() -> None:
-        try:
-            answered.set_result(start(address, timeout=_PATIENCE, set_as_default=False))
-        except Exception as error:
-            answered.set_exception(error)
-
-    # The client's own timeout does not end its wait for a port that accepts and never answers.
-    Thread(target=connect, daemon=True).start()
-    try:
-        client = answered.result(_PATIENCE + 1.0)
-    except Exception:
-        raise WorkerError(
-            f"no dask scheduler answers at {address!r}; give the address that `dask scheduler` "
-            "prints, such as tcp://10.0.0.5:8786"
-        ) from None
-    with client:
-        try:
-            client.wait_for_workers(1, timeout=_PATIENCE)
-        except TimeoutError:
-            raise WorkerError(
-                f"the dask cluster at {address} has no worker; start one or more with "
-                "`dask worker ADDRESS`"
-            ) from None
-        try:
-            yield client
-        except EvenbreakError:
-            raise
-        except Exception as error:
-            raise WorkerError(
-                f"the dask cluster at {address} did not finish the work: {error} "
-                f"({type(error).__name__}); it needs the same versions of evenbreak and numpy as "
-                "this computer, and enough memory"
-            ) from error

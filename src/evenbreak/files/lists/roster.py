@@ -171,6 +171,11 @@ OF_SEASON = Schema(
         most=1,
         write=say("the chance to be absent, such as 0.1"),
     ),
+    team=Name(
+        "team name, club",
+        "the player's team, in a league of teams; then the fixtures are those of the teams",
+        write=say("the team of each player"),
+    ),
 )
 """The columns that a simulated season uses besides those of a roster; other readers skip them."""
 

@@ -58,6 +58,9 @@ class SeasonPlayers:
         the scale of the ratings; None if the file does not state it.
     levels
         whether the title of the ratings says that they are skill levels.
+    teams, team_names
+        the number of each player's team, from 0, and what the teams are called; None and nobody
+        in a league of single players.
     """
 
     players: LeaguePlayers
@@ -68,6 +71,8 @@ class SeasonPlayers:
     exact: int
     scale: Scale | None = None
     levels: bool = False
+    teams: NDArray[np.int64] | None = None
+    team_names: tuple[str, ...] = ()
 
 
 def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlayers:
@@ -110,6 +115,9 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
     )
     if len(table) == 1:
         table.problems.add(None, "has 1 player; a league needs two or more")
+    in_teams = "team" in table.found
+    if in_teams:
+        table.note(table["team"] == "", "team is empty; name the team of each player")
     file = roster_of(table)
     roster, newcomers = _with_newcomers(file)
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
@@ -148,7 +156,14 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
         exact=int(np.isnan(sd).sum()),
         scale=file.scale,
         levels=file.levels,
+        **(_teams(table["team"].tolist()) if in_teams else {}),
     )
+
+
+def _teams(names: list[str]) -> dict[str, Any]:
+    """Return the number of each player's team, and the names of the teams in their order."""
+    every = tuple(dict.fromkeys(names))
+    return {"teams": np.array([every.index(name) for name in names]), "team_names": every}
 
 
 def _with_newcomers(file: RosterFile) -> tuple[Roster, list[str]]:

@@ -1,0 +1,454 @@
+"""Handicap systems side by side for one league: which is fairer, by how much, and what it costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from evenbreak import __version__
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import columns_of, frame_table
+from evenbreak.answers.kit.parts import Table
+from evenbreak.answers.kit.wording import count_of
+from evenbreak.handicaps.systems.system import System
+from evenbreak.league.contest import EVEN, Contest, Doublings
+from evenbreak.league.judged import MEASURES, PARTS, RIGHT, Estimate, estimate
+from evenbreak.league.world import World
+from evenbreak.words import Sentence, joined, listed, say
+
+CONFIDENCE = 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """A contest with its measures.
+
+    Parameters
+    ----------
+    contest, world, systems
+        what was played; differences are taken from the first system.
+    """
+
+    contest: Contest
+    world: World
+    systems: Sequence[System]
+
+    def estimate(self, measure: Any, confidence: float = CONFIDENCE) -> Estimate:
+        """Return a measure of all systems, with intervals of a confidence."""
+        cycle = math.lcm(*(getattr(system, "cycle", 1) for system in self.systems))
+        free = np.array([not Doublings(system, self.world).fixed for system in self.systems])
+        return estimate(
+            self.contest,
+            measure,
+            self.world,
+            cycle=cycle,
+            calibrated=free,
+            confidence=confidence,
+        )
+
+    @cached_property
+    def measures(self) -> Mapping[str, Estimate]:
+        """Every measure of one number."""
+        return {name: self.estimate(measure) for name, measure in MEASURES.items()}
+
+    @property
+    def names(self) -> list[str]:
+        """What the systems are called."""
+        return [system.name for system in self.systems]
+
+    @property
+    def best(self) -> int:
+        """The system with the most even matches, apart from the first."""
+        return 1 + int(np.argmax(self.measures["p_even"].value[1:]))
+
+
+def comparison_answer(
+    comparison: Comparison,
+    settings: Mapping[str, Any],
+    *,
+    assumed: Sequence[str] = (),
+    warnings: Sequence[str] = (),
+) -> Answer:
+    """Return systems side by side; in files, a row for each system and measure.
+
+    Parameters
+    ----------
+    comparison
+        what was played.
+    settings
+        what a reader must know besides, such as the seed and the name of the roster's file.
+    assumed
+        what is assumed of the players, in sentences.
+    warnings
+        what may be wrong with what was given.
+    """
+    world, contest = comparison.world, comparison.contest
+    replicas = int(contest.replicas.sum())
+    matches = contest.matches[0, :, 0].sum() / replicas / world.seasons
+    heading = say(
+        "{players}, {weeks}, {matches:,.0f} matches a season\n{seasons} simulated with each system",
+        players=count_of(len(world.players), "player"),
+        weeks=count_of(world.weeks, "week"),
+        matches=matches,
+        seasons=count_of(replicas * world.seasons, "season"),
+    )
+    frame = measures_frame(comparison)
+    data = {
+        **settings,
+        "systems": comparison.names,
+        "player_count": len(world.players),
+        "weeks": world.weeks,
+        "seasons": world.seasons,
+        "replicas": replicas,
+        "newcomers": world.newcomers,
+        "sandbaggers": world.sandbaggers,
+        "matches_a_season": float(matches),
+        "evenbreak_version": __version__,
+        "measures": frame_table("", frame).to_dicts(),
+        "deciles": frame_table("", deciles_frame(comparison)).to_dicts(),
+    }
+    if not matches:
+        nobody = say("No match was played: no two players of a match were there together.")
+        return Answer(heading, [nobody], warnings=warnings, data=data)
+    several = len(comparison.systems) > 1
+    return Answer(
+        heading,
+        [
+            joined(_verdict(comparison) if several else _alone(comparison), " "),
+            _FAIRER,
+            _table(comparison, _SHOWN),
+            *([_SAME] if several else []),
+            _READ,
+            *assumed,
+        ],
+        details=[_table(comparison, _DETAILS), _READ_DETAILS],
+        warnings=warnings,
+        data=data,
+        csv=frame_table("measures", frame),
+    )
+
+
+_FAIRER = say(
+    "A system is fairer if it makes more matches even. A match is even if neither player's chance "
+    "of winning it is above {even:.0%}, given how good the two really are.",
+    even=EVEN,
+)
+
+_SAME = say(
+    "\N{PLUS-MINUS SIGN} is a 90% interval of the difference: all systems had the same players, "
+    "nights and luck."
+)
+
+_READ = say(
+    "'Ratings off by': typically (root mean square), in doublings of the odds of "
+    "a game, over the last quarter of the nights. 'Newcomers right': the nights until they are off "
+    "by less than {right:g} doublings. 'Dumping pays': how much more of the matches that count a "
+    "player wins who held back in the weeks before. 'Titles': those of the weakest and of the "
+    "strongest fifth; 1 is an equal share.",
+    right=RIGHT,
+)
+
+
+_READ_DETAILS = say(
+    "'Better wins': the mean chance of the better player. 'Games of the last': the games of the "
+    "player (or team) with the most games on a night. 'Changes a season': how often a player's "
+    "number changes. 'Drift': by how much all numbers rise against the skills, in doublings."
+)
+
+
+def _verdict(comparison: Comparison) -> Iterator[Sentence]:
+    """Yield which system is fairer, by how much, and what it costs."""
+    names, best = comparison.names, comparison.best
+    even = comparison.measures["p_even"]
+    # The best of several others is looked at: it has to be clear by a stricter interval.
+    others = len(names) - 1
+    strict = comparison.estimate(MEASURES["p_even"], 1.0 - (1.0 - CONFIDENCE) / others)
+    change, half = even.change[best], even.quantile * even.change_error[best]
+    values = {
+        "best": names[best],
+        "own": names[0],
+        "more": 100.0 * abs(change),
+        "low": 100.0 * (abs(change) - half),
+        "high": 100.0 * (abs(change) + half),
+        "share": float(even.value[best]),
+        "of_own": float(even.value[0]),
+    }
+    if math.isnan(half):
+        yield say("One season cannot show which is fairer; simulate more.")
+    elif strict.clear[best] > 0:
+        yield say(
+            "{best} is fairer than {own}: {more:.1f} more matches in 100 are even ({low:.1f} to "
+            "{high:.1f}), {share:.1%} in place of {of_own:.1%}.",
+            **values,
+        )
+        yield _costs(comparison, best)
+    elif (strict.clear[1:] < 0).all():
+        if others == 1:
+            yield say(
+                "{own} is fairer than {best}: {more:.1f} more matches in 100 are even ({low:.1f} "
+                "to {high:.1f}), {of_own:.1%} in place of {share:.1%}.",
+                **values,
+            )
+        else:
+            yield say(
+                "{own} is the fairest: {of_own:.1%} of its matches are even, {more:.1f} in 100 "
+                "more than with {best} ({low:.1f} to {high:.1f}), the next.",
+                **values,
+            )
+        yield _gains(comparison, best)
+    else:
+        signed_low = 100.0 * (change - half)
+        signed_high = 100.0 * (change + half)
+        yield say(
+            "No difference in fairness was shown: {best} makes {change:+.1f} matches in 100 even "
+            "against {own} ({low:+.1f} to {high:+.1f}).",
+            best=names[best],
+            own=names[0],
+            change=100.0 * change,
+            low=signed_low,
+            high=signed_high,
+        )
+        yield _costs(comparison, best)
+
+
+def _alone(comparison: Comparison) -> Iterator[Sentence]:
+    even, name = comparison.measures["p_even"], comparison.names[0]
+    half = even.quantile * even.error[0]
+    if math.isnan(half):
+        yield say("{share:.1%} of the matches are even under {name}.",
+                  share=float(even.value[0]), name=name)  # fmt: skip
+        return
+    yield say(
+        "{share:.1%} of the matches are even under {name} (90% interval {low:.1%} to {high:.1%}).",
+        share=float(even.value[0]),
+        name=name,
+        low=float(even.value[0] - half),
+        high=float(even.value[0] + half),
+    )
+
+
+_LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
+    "mean_games": (
+        0.1,
+        say("matches are {by:.2g} games longer"),
+        say("matches are {by:.2g} games shorter"),
+    ),
+    "games_a_night": (
+        0.2,
+        say("whoever is done last plays {by:.2g} games more a night"),
+        say("whoever is done last plays {by:.2g} games fewer a night"),
+    ),
+    "changes_a_season": (
+        0.5,
+        say("a player's number changes {by:.2g} times more a season"),
+        say("a player's number changes {by:.2g} times less a season"),
+    ),
+    "sandbagging_pays": (
+        0.01,
+        say("sandbaggers win {by:.1%} more of the matches that count"),
+        say("sandbaggers win {by:.1%} fewer of the matches that count"),
+    ),
+    "nights_until_right": (
+        0.5,
+        say("newcomers are right {by:.2g} nights later"),
+        say("newcomers are right {by:.2g} nights sooner"),
+    ),
+}
+"""What a system costs or saves: the least that matters, and the words for more and for less."""
+
+
+def _changes(comparison: Comparison, system: int) -> tuple[list[Sentence], list[Sentence]]:
+    """Return what is clearly more, and what is clearly less, with a system than with the first."""
+    ways: tuple[list[Sentence], list[Sentence]] = [], []
+    for name, (least, more, less) in _LONGER.items():
+        of = comparison.measures[name]
+        change, sign = float(of.change[system]), int(of.clear[system])
+        if sign and abs(change) >= least:
+            ways[0 if sign > 0 else 1].append(say(more if sign > 0 else less, by=abs(change)))
+    return ways
+
+
+def _costs(comparison: Comparison, best: int) -> Sentence:
+    more, less = _changes(comparison, best)
+    if more and less:
+        return say("What it costs: {more}. What it saves: {less}.",
+                   more=listed(more), less=listed(less))  # fmt: skip
+    if more:
+        return say("What it costs: {more}.", more=listed(more))
+    if less:
+        return say("It costs nothing that these seasons show, and {less}.", less=listed(less))
+    return say("It costs nothing that these seasons show.")
+
+
+def _gains(comparison: Comparison, other: int) -> Sentence:
+    more, less = _changes(comparison, other)
+    changes = [*less, *more]
+    name = comparison.names[other]
+    if not changes:
+        return say("{name} has nothing to offer for that.", name=name)
+    return say("With {name}, {changes}.", name=name, changes=listed(changes))
+
+
+Show = Callable[[float], str]
+
+
+def _percent(value: float) -> str:
+    return f"{100.0 * value:.1f}%"
+
+
+def _decimals(places: int) -> Show:
+    return lambda value: f"{value:.{places}f}"
+
+
+_SHOWN: Mapping[str, Show] = {
+    "p_even": _percent,
+    "rating_error": _decimals(2),
+    "nights_until_right": _decimals(1),
+    "sandbagging_pays": _percent,
+    "mean_games": _decimals(2),
+    "titles_weakest": _decimals(2),
+    "titles_strongest": _decimals(2),
+}
+"""The measures in the order of the table, and how each is shown."""
+
+_DETAILS: Mapping[str, Show] = {
+    "p_better_wins": _percent,
+    "games_a_night": _decimals(1),
+    "changes_a_season": _decimals(1),
+    "drift": _decimals(3),
+}
+"""The measures of a further table, for those who ask for details."""
+
+
+def _table(comparison: Comparison, shown: Mapping[str, Show]) -> Table:
+    """Return the systems in rows, and below them the differences from the first."""
+    measures, names = comparison.measures, comparison.names
+    rows: list[tuple[Any, ...]] = []
+    for place, name in enumerate(names):
+        rows.append((name, *(
+            None if math.isnan(value) else show(value)
+            for key, show in shown.items()
+            for value in [float(measures[key].value[place])]
+        )))  # fmt: skip
+    if len(names) == 1:
+        rows.append(("\N{PLUS-MINUS SIGN} (90%)", *(
+            None if math.isnan(half) else show(half)
+            for key, show in shown.items()
+            for half in [float(measures[key].quantile * measures[key].error[0])]
+        )))  # fmt: skip
+    for place, name in enumerate(names[1:], 1):
+        rows.append((
+            say("{name} less {own}", name=name, own=names[0]),
+            *(_difference(measures[key], place, show) for key, show in shown.items()),
+        ))  # fmt: skip
+    columns = columns_of("system_compared " + " ".join(f"compared_{key}" for key in shown))
+    return Table("", columns, rows)
+
+
+def _difference(of: Estimate, place: int, show: Show) -> str | None:
+    change, half = float(of.change[place]), float(of.quantile * of.change_error[place])
+    if math.isnan(change) or math.isnan(half):
+        return None
+    sign = "+" if change >= 0.0 else ""
+    if half > 0.0 and not float(show(half).removesuffix("%")):
+        return f"{sign}{change:.2g} \N{PLUS-MINUS SIGN} {half:.1g}"
+    return f"{sign}{show(change).removesuffix('%')} \N{PLUS-MINUS SIGN} {show(half)}"
+
+
+# The tables.
+
+
+def measures_frame(comparison: Comparison) -> pd.DataFrame:
+    """Return every measure of every system, with its difference from the first.
+
+    Returns
+    -------
+    pandas.DataFrame
+        system, measure (the keys of `MEASURES`), value and standard_error; difference,
+        difference_low and difference_high: from the first system, with a 90 % interval.
+    """
+    rows = []
+    for place, name in enumerate(comparison.names):
+        for measure, of in comparison.measures.items():
+            row: dict[str, Any] = {
+                "system": name,
+                "measure": measure,
+                "value": float(of.value[place]),
+                "standard_error": float(of.error[place]),
+                "difference": None,
+                "difference_low": None,
+                "difference_high": None,
+            }
+            if place:
+                change, half = float(of.change[place]), of.quantile * float(of.change_error[place])
+                row |= {"difference": change, "difference_low": change - half,
+                        "difference_high": change + half}  # fmt: skip
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def deciles_frame(comparison: Comparison) -> pd.DataFrame:
+    """Return how the parts of a league fare under each system, the weakest players first.
+
+    Returns
+    -------
+    pandas.DataFrame
+        system; part, from 1; p_even and p_win, the share of their matches that are even and their
+        mean chance to win one; titles, as a multiple of an equal share; each with its standard
+        error. In a league of teams titles are by the strength of the team.
+    """
+    estimates = {name: comparison.estimate(PARTS[name]) for name in ("p_even", "p_win", "titles")}
+    rows = []
+    for place, name in enumerate(comparison.names):
+        for part in range(estimates["p_even"].value.shape[1]):
+            row: dict[str, Any] = {"system": name, "part": part + 1}
+            for key, of in estimates.items():
+                there = part < of.value.shape[1]
+                row[key] = float(of.value[place, part]) if there else None
+                row[f"{key}_se"] = float(of.error[place, part]) if there else None
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def nights_frame(comparison: Comparison) -> pd.DataFrame:
+    """Return how far off ratings are by night, and newcomers' by the nights since they came.
+
+    Returns
+    -------
+    pandas.DataFrame
+        system; night, 0 before the first; error, root mean square in doublings of the odds, over
+        the cycle of nights that ends with this one; newcomer_error, the same of newcomers this
+        many nights after they came; each with its standard error.
+    """
+    estimates = {name: comparison.estimate(PARTS[name]) for name in ("error", "newcomer_error")}
+    rows = []
+    for place, name in enumerate(comparison.names):
+        for night in range(estimates["error"].value.shape[1]):
+            row: dict[str, Any] = {"system": name, "night": night}
+            for key, of in estimates.items():
+                there = night < of.value.shape[1]
+                row[key] = float(of.value[place, night]) if there else None
+                row[f"{key}_se"] = float(of.error[place, night]) if there else None
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def players_frame(comparison: Comparison) -> pd.DataFrame:
+    """Return what share of their matches each player wins under each system."""
+    of = comparison.estimate(PARTS["player"])
+    players, many = comparison.world.players, len(comparison.world.players)
+    names = players.names or [f"player {k}" for k in range(1, many + 1)]
+    return pd.DataFrame(
+        [
+            {"system": system, "player": names[k], "p_win": float(of.value[place, k]),
+             "p_win_se": float(of.error[place, k])}
+            for place, system in enumerate(comparison.names)
+            for k in range(many)
+        ]
+    )  # fmt: skip
