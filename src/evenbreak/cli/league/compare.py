@@ -45,7 +45,7 @@ def _usual(asked: Simulate, file: files.SeasonPlayers) -> handicaps.System:
 
 
 def _is_by_levels(chart: Any) -> bool:
-    return isinstance(chart, handicaps.LevelChart)
+    return isinstance(chart, handicaps.LevelChart | handicaps.PointsChart)
 
 
 def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
