@@ -117,3 +117,12 @@ def test_thousands_of_names_take_no_time():
     started = time.perf_counter()
     similar_names(names)
     assert time.perf_counter() - started < 10
+
+
+def test_names_with_a_second_surname_may_be_one_players():
+    names = ["Lisa Müller", "Lisa Mueller-Stone", "Lisa Stone", "Bo Lee", "Al B Lee", "Al Lee"]
+    assert similar_names(names) == [
+        ("Lisa Mueller-Stone", "Lisa Müller"),
+        ("Lisa Mueller-Stone", "Lisa Stone"),
+    ]
+    assert similar_names(names[:2], met=[("Lisa Müller", "Lisa Mueller-Stone")]) == []

@@ -9,6 +9,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Mapping
+from typing import Any
 
 from evenbreak.errors import DataError
 from evenbreak.files.foreign import brackets_manager, challonge, cuescore
@@ -26,6 +27,8 @@ from evenbreak.words import joined, say, say_count
 
 PROGRAMS = "CueScore, Challonge or brackets-manager"
 
+_FEWEST_TITLES = 3
+_PROGRAMS = (cuescore, challonge, brackets_manager)
 _JSON = re.compile(rb'(?:\xef\xbb\xbf)?\s*(?:\{\s*["}]|\[\s*[\[{\]])')
 
 
@@ -37,24 +40,60 @@ def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] |
     DataError
         if a file is JSON, but damaged or of no known program.
     """
-    if not _JSON.match(content) and not _is_utf16_json(content):
+    parsed = _json_in(content, source)
+    if parsed is None:
         return None
-    text = text_of(content, source)
-    try:
-        data = json.loads(text.read())
-    except (ValueError, RecursionError) as error:
-        damage = say("is damaged JSON from here on; save it again in the other program")
-        raise refusal(source, damage, getattr(error, "lineno", 1)) from None
-    for program in (cuescore, challonge, brackets_manager):
+    data, warnings = parsed
+    for program in _PROGRAMS:
         if not program.is_one(data):
             continue
         try:
-            return program.tournament(data), text.warnings
+            return program.tournament(data), warnings
         except ExportError as error:
             raise refusal(source, error.sentence) from None
         except MISSHAPEN:
             raise refusal(source, misshapen()) from None
     raise refusal(source, "is JSON, but not a tournament saved from {programs}", programs=PROGRAMS)
+
+
+def _json_in(content: bytes, source: str) -> tuple[Any, list[str]] | None:
+    """Return what a JSON file holds, with warnings; None if it is none."""
+    if not _JSON.match(content) and not _is_utf16_json(content):
+        return None
+    text = text_of(content, source)
+    try:
+        return json.loads(text.read()), text.warnings
+    except (ValueError, RecursionError) as error:
+        damage = say("is damaged JSON from here on; save it again in the other program")
+        raise refusal(source, damage, getattr(error, "lineno", 1)) from None
+
+
+def _records(data: Any) -> list[list[str]]:
+    """Return a list of records as titles and rows; nothing where it is no such list.
+
+    A record is a JSON object of texts and numbers; of an object in it the name counts.
+
+    >>> _records({"matches": [{"home": {"id": 7, "name": "Ann"}, "homeScore": 7}, {"away": "Bo"}]})
+    [['home', 'homeScore', 'away'], ['Ann', '7', ''], ['', '', 'Bo']]
+    """
+    lists = [data] if isinstance(data, list) else []
+    if isinstance(data, Mapping):
+        lists = [one for one in data.values() if isinstance(one, list) and one]
+    if len(lists) != 1 or not all(isinstance(one, Mapping) for one in lists[0]):
+        return []
+    records = [{str(key): _cell(value) for key, value in one.items()} for one in lists[0]]
+    titles = list(dict.fromkeys(title for record in records for title in record))
+    if len(titles) < _FEWEST_TITLES:
+        return []
+    return [titles, *([record.get(title, "") for title in titles] for record in records)]
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, Mapping):
+        return _cell(value.get("name"))
+    return "" if value is None or isinstance(value, list) else str(value)
 
 
 def export_of(content: bytes, source: str) -> Export | None:
@@ -66,10 +105,14 @@ def export_of(content: bytes, source: str) -> Export | None:
         as `saved_in` does, or if the file has no match that was played, or matches that
         contradict themselves.
     """
-    parsed = saved_in(content, source)
-    if parsed is None:
+    json_data = _json_in(content, source)
+    if json_data is None:
         return None
-    saved, warnings = parsed
+    if not any(program.is_one(json_data[0]) for program in _PROGRAMS):
+        rows = _records(json_data[0])
+        if rows:
+            return Export(Sheet(source, list(range(len(rows))), rows), json_data[1])
+    saved, warnings = saved_in(content, source) or (SavedTournament(()), [])
     problems = [
         warning(source, number, match_problem(number, match.problem))
         for number, match in enumerate(saved.matches, 1)

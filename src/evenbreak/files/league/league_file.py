@@ -418,7 +418,7 @@ class _Reader:
                     meant=quoted(meant),
                     other=quoted(means[meant]),
                 )
-        return {name: meant for name, meant in means.items() if name != meant}
+        return means
 
     def unknown(self, key: str, known: Sequence[str], keys: Keys) -> None:
         """Note a key that there is not, with where it may belong or the nearest one."""

@@ -69,6 +69,8 @@ class ResultsFile:
         how many rows were left out because of `skip_bad`.
     left_out
         these rows, and those of byes and matches not played, each with why.
+    renamed
+        names as they are written that are read as another, each with that.
     read
         the name and the fingerprint of each file that was read, where there are several.
     """
@@ -84,13 +86,14 @@ class ResultsFile:
     ties: tuple[str, ...] = ()
     skipped: int = 0
     left_out: tuple[LeftOut, ...] = ()
+    renamed: tuple[tuple[str, str], ...] = ()
     read: tuple[tuple[str, str], ...] = ()
 
 
 def read_results(
     path: str | Path,
     *,
-    aliases: str | Path | None = None,
+    aliases: str | Path | AliasesFile | None = None,
     columns: Mapping[str, str] | None = None,
     dates: DateOrder | None = None,
     skip_bad: bool = False,
@@ -111,7 +114,7 @@ def read_results(
     path
         the file.
     aliases
-        a file that says which names mean the same player (see `read_aliases`).
+        a file that says which names mean the same player, or what `read_aliases` reads from it.
     columns
         for columns such as player_a the titles that they have in the file, if not known ones.
     dates
@@ -139,7 +142,9 @@ def read_results(
     >>> season.results.players, season.results.score_b
     (('Ann', 'Bo'), array([7]))
     """
-    by_alias = AliasesFile({}, "", ()) if aliases is None else read_aliases(aliases)
+    by_alias = AliasesFile({}, "", ()) if aliases is None else aliases
+    if not isinstance(by_alias, AliasesFile):
+        by_alias = read_aliases(by_alias)
     table, left_out = played_matches(
         RESULTS_FILE.text(
             path, called=_checked(columns or {}), hint=columns_hint, exported=export_of
@@ -188,6 +193,7 @@ def read_results(
         _tied(results, table),
         skipped=len(bad),
         left_out=(*left_out, *bad),
+        renamed=tuple({**names.merged(), **names.renamed()}.items()),
     )
 
 
@@ -302,8 +308,11 @@ def met_pairs(results: Results) -> Iterator[tuple[str, str]]:
         yield results.players[a], results.players[b]
 
 
-def in_a_row(files: Sequence[ResultsFile]) -> ResultsFile:
-    """Return several files of results as one; see `evenbreak.files.results.seasons`."""
+def in_a_row(files: Sequence[ResultsFile], *, doubles: bool = False) -> ResultsFile:
+    """Return several files of results as one; see `evenbreak.files.results.seasons`.
+
+    With `doubles` nothing is said of matches that two files have.
+    """
     if len(files) == 1:
         return files[0]
     prints = [file.sha256 for file in files]
@@ -325,7 +334,7 @@ def in_a_row(files: Sequence[ResultsFile]) -> ResultsFile:
         (
             *(text for file in files for text in file.warnings),
             *similar_name_warnings(across, source, _SAME_NAME),
-            *_in_two_files(files, results),
+            *(() if doubles else _in_two_files(files, results)),
         ),
         groups,
         hashlib.sha256("".join(prints).encode()).hexdigest(),
@@ -443,7 +452,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
     """
     if is_league(path):
         league = read_league(path, quickly=True)
-        return AliasesFile(dict(league.aliases), str(league.path), ())
+        return AliasesFile(_others(league.aliases), str(league.path), ())
     table = ALIASES.read(path)
     means: dict[str, str] = {}
     line_of: dict[str, int] = {}
@@ -472,6 +481,9 @@ def read_aliases(path: str | Path) -> AliasesFile:
                 line=line_of[meant],
             )
     table.problems.raise_any()
-    means = {name: meant for name, meant in means.items() if name != meant}
     hidden = hidden_letter_warnings(table, ["means"])
-    return AliasesFile(means, table.source, (*table.warnings, *hidden))
+    return AliasesFile(_others(means), table.source, (*table.warnings, *hidden))
+
+
+def _others(means: Mapping[str, str]) -> dict[str, str]:
+    return {name: meant for name, meant in means.items() if name != meant}

@@ -7,9 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.files.league.league_file import is_league, read_league
-from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_results
+from evenbreak.files.league.sources import league_results
+from evenbreak.files.results.results_file import (
+    ResultsFile,
+    in_a_row,
+    read_aliases,
+    read_results,
+)
 from evenbreak.files.tables.dates import DateOrder
-from evenbreak.files.tables.problems import refusal
 
 
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
@@ -65,20 +70,11 @@ def _of_league(
     DataError
         as `read_league` and `read_results` do, and if the league names no results.
     """
-    league = read_league(path, quickly=True)
-    if not league.results:
-        raise refusal(
-            str(league.path), 'names no results; add a line [[results]], and below it file = "..."'
-        )
-    return in_a_row(
-        [
-            read_results(
-                league.place(one.file),
-                aliases=aliases or (league.path if league.aliases else None),
-                columns=columns or one.columns,
-                dates=dates or one.dates,  # type: ignore[arg-type]
-                skip_bad=skip_bad,
-            )
-            for one in league.results
-        ]
+    found = league_results(
+        read_league(path, quickly=True),
+        aliases=None if aliases is None else read_aliases(aliases),
+        columns=columns,
+        dates=dates,
+        skip_bad=skip_bad,
     )
+    return found.file

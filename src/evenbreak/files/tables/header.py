@@ -14,6 +14,9 @@ from evenbreak.words import Parameter, Sentence, listed, say, say_count
 MOST_ABOVE = 30
 """The header is looked for in this many rows."""
 
+UNREAD = "-"
+"""The title by which a column is not read."""
+
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
 """What stands in a row of values, but hardly in a header."""
 
@@ -61,7 +64,8 @@ class Header:
     instead
         for a required column the sets of columns that can take its place.
     called
-        for some columns the title that they have in this file, whatever other titles mean.
+        for some columns the title that they have in this file, whatever other titles mean; - is
+        that of a column that is not to be read.
     hint
         what to do about missing columns.
     maybe
@@ -81,11 +85,12 @@ class Header:
         self.required = required
         self.columns = (*required, *optional)
         self._instead = instead
-        self._called = called or {}
+        self._called = {name: t for name, t in (called or {}).items() if t != UNREAD}
+        unread = (called or {}).keys() - self._called.keys()
         self._maybe = maybe
         self._hint = hint
         self._means: dict[str, tuple[str, ...]] = {}
-        every = {**required, **optional}
+        every = {name: t for name, t in {**required, **optional}.items() if name not in unread}
         own = {key_of(title): name for name, others in every.items() for title in (*others, name)}
         for name in every:
             for key in dict.fromkeys((*(k for k in own if own[k] == name), *keys_of(name))):

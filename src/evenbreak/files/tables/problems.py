@@ -160,6 +160,10 @@ class Problems:
         """
         self._found += [(int(lines[row]), message(int(row))) for row in rows]
 
+    def include(self, others: Problems) -> None:
+        """Add the problems of another list of the same file."""
+        self._found += others._found
+
     @property
     def lines(self) -> set[int]:
         """The lines that have problems; 0 stands for the whole file."""

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from evenbreak.files.tables.given_names import with_given_names_first
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import quoted
-from evenbreak.files.tables.table import TextTable, Values, read_table
+from evenbreak.files.tables.table import ENOUGH_ROWS, TextTable, Values, read_table
 from evenbreak.ratings.results_frame import LARGEST_WHOLE, letters
 from evenbreak.words import say
 
@@ -140,7 +140,17 @@ class Column:
         good = np.array([value is not None for value in meant], dtype=bool)
         if not self.filled or name not in table.found:
             good |= ~stated
-        for row in np.flatnonzero(~good[codes]):
+        bad = np.flatnonzero(~good[codes])
+        if len(bad) >= ENOUGH_ROWS and len(bad) == int(stated[codes].sum()):
+            table.problems.add(
+                table.header or None,
+                "none of the {n:,} cells of {column} can be read; {column} {fault}",
+                n=len(bad),
+                column=name,
+                fault=self.fault(distinct[codes[bad[0]]]),
+            )
+            bad = bad[:0]
+        for row in bad:
             fault = self.fault(distinct[codes[row]])
             table.note(row, "{column} {fault}", column=name, fault=fault)
         return Values(values[codes], good[codes], stated[codes])

@@ -50,7 +50,8 @@ def similar_names(
     First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the
     same) or the order of words; then names whose given names have the same first three
     letters; then names that are one slip of the hand apart, in a word of four letters or
-    more. Each kind is in the order of the names, and no group is part of another.
+    more. Each kind is in the order of the names, and no group is part of another. Names alike but
+    for a word more, such as a second surname, are of the second kind.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ def similar_names(
     bare = {name: tuple(map(_without_umlauts, split)) for name, split in words.items()}
     kinds: tuple[Collection[tuple[str, ...]], ...] = (
         {*_alike(bare, _run_together), *_alike(bare, _in_order)},
-        set(_alike(bare, _given_name)),
+        {*_alike(bare, _given_name), *_with_one_more_name(bare)},
         set(_a_slip_apart(words)),
     )
     doubted = {name for groups in kinds[1:] for group in groups for name in group}
@@ -140,6 +141,19 @@ def _given_name(words: Words) -> Hashable:
     if len(given) < ALIKE or not given.isalpha() or not rest or len(rest[-1]) == 1:
         return None
     return given[:ALIKE], *rest
+
+
+def _with_one_more_name(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
+    """Yield pairs of names of which one has a word more: a second surname, or Big before Al."""
+    names = defaultdict(list)
+    for name, split in words.items():
+        names[split].append(name)
+    for split, longer in names.items():
+        if len(split) > 2:
+            for k in range(len(split)):
+                shorter = split[:k] + split[k + 1 :]
+                if len(split[k]) > 1 and shorter in names:
+                    yield from ((min(a, b), max(a, b)) for a in longer for b in names[shorter])
 
 
 def _alike(

@@ -27,7 +27,10 @@ from evenbreak.files.tables.rows import (
     table_content,
     table_rows,
 )
-from evenbreak.words import say_count
+from evenbreak.words import say, say_count
+
+ENOUGH_ROWS = 10
+"""Where so many rows or cells are wrong, and all of them, that is one problem."""
 
 
 class Texts(NamedTuple):
@@ -231,7 +234,18 @@ def read_table(
     if unused:
         names = quoted_list(unused)
         warnings.append(warning(source, None, "columns not used: {titles}", titles=names))
-    row_lines, columns = _columns(body, len(titles), places, problems)
+    misfits = Problems(source)
+    row_lines, columns = _columns(body, len(titles), places, misfits)
+    if len(misfits) >= ENOUGH_ROWS and not len(row_lines):
+        problem = say(
+            "none of the {n:,} rows below has the {width} cells of this header; correct it, or "
+            "quote cells that hold the separator",
+            n=len(misfits),
+            width=len(titles),
+        )
+        problems.add(line, problem)
+    else:
+        problems.include(misfits)
     _add_unreadable(unreadable, problems)
     if rows and not len(row_lines) and not len(problems):
         problems.add(None, "has no {rows} below its header; write one line for each", rows=rows)

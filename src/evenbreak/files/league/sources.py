@@ -1,0 +1,385 @@
+"""The results of a league out of all its files: one list of matches, and what was done to make it.
+
+Each file is read by its own titles. Names that aliases join are one player's; those that only look
+alike are doubts, for a person to settle. A match that two files have, whichever side comes first,
+counts once. What is no match, or cannot be read, is left out and listed with file, line and reason.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evenbreak.files.league.league_file import LeagueFile
+from evenbreak.files.results.results_file import (
+    AliasesFile,
+    ResultsFile,
+    in_a_row,
+    read_results,
+)
+from evenbreak.files.tables.dates import DateOrder
+from evenbreak.files.tables.problems import quoted, refusal, warning
+from evenbreak.ratings.results import Results
+from evenbreak.words import Sentence, say, say_count
+
+Kind = Literal["renamed", "double", "left out", "doubt"]
+
+_TURNED = {
+    f"{what}_{side}": f"{what}_{other}"
+    for what in ("player", "score", "race", "team", "level")
+    for side, other in ("ab", "ba")
+}
+_MORE = (
+    *("race_a", "race_b", "winner", "first_break", "break_format", "racks"),
+    *("event", "team_a", "team_b", "division", "level_a", "level_b"),
+)
+"""What one file may state of a match and another not."""
+
+_NEARLY_ALL = 0.9
+
+
+@dataclass(frozen=True)
+class Change:
+    """Something that was changed or left out, or that a person should look at.
+
+    Parameters
+    ----------
+    kind
+        renamed, double, left out or doubt.
+    source, line
+        the file, as the league calls it, and the line; 0 where it is the whole file.
+    text
+        what was done, or what is in doubt.
+    """
+
+    kind: Kind
+    source: str
+    line: int
+    text: str
+
+
+@dataclass(frozen=True)
+class NameDoubt:
+    """Names that may be one player's.
+
+    Parameters
+    ----------
+    names
+        the names, that with the most matches first.
+    matches
+        how many matches each has.
+    """
+
+    names: tuple[str, ...]
+    matches: tuple[int, ...]
+
+    def alias_lines(self) -> list[str]:
+        r"""Return the lines of `[aliases]` that make them one player.
+
+        >>> print(*NameDoubt(("Al Lee", '"Big" Al'), (9, 2)).alias_lines())
+        "\"Big\" Al" = "Al Lee"
+        """
+        return alias_lines(dict.fromkeys(self.names[1:], self.names[0]))
+
+
+def alias_lines(means: Mapping[str, str]) -> list[str]:
+    """Return lines for `[aliases]` of `league.toml`."""
+    return [f"{_in_toml(name)} = {_in_toml(meant)}" for name, meant in means.items()]
+
+
+def _in_toml(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+@dataclass(frozen=True, eq=False)
+class LeagueResults:
+    """The results of a league.
+
+    Parameters
+    ----------
+    file
+        all matches as one file of results, with the warnings of all files.
+    changes
+        what was changed and left out, and what is in doubt, in the order of the files.
+    name_doubts
+        names that may be one player's; they are kept apart.
+    sources
+        each file with the matches that it gave.
+    """
+
+    file: ResultsFile
+    changes: tuple[Change, ...]
+    name_doubts: tuple[NameDoubt, ...]
+    sources: tuple[tuple[str, int], ...]
+
+    @property
+    def results(self) -> Results:
+        """The matches, in the order of the files."""
+        return self.file.results
+
+
+def league_results(
+    league: LeagueFile,
+    *,
+    aliases: AliasesFile | None = None,
+    columns: Mapping[str, str] | None = None,
+    dates: DateOrder | None = None,
+    skip_bad: bool = True,
+) -> LeagueResults:
+    r"""Return the results of a league from all the files that it names.
+
+    Parameters
+    ----------
+    league
+        the league, as `read_league` reads it.
+    aliases, columns, dates
+        as for `read_results`, in place of what the league says.
+    skip_bad
+        whether rows that cannot be read are left out and listed; otherwise they are an error.
+
+    Raises
+    ------
+    DataError
+        if the league names no results, or one of the files cannot be read.
+
+    >>> import tempfile, pathlib
+    >>> from evenbreak.files.league.league_file import read_league
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     place = pathlib.Path(folder)
+    ...     _ = (place / "a.csv").write_text("date,home,away,score\n2024-09-03,Ann,Bo,7-5\n")
+    ...     _ = (place / "b.csv").write_text("Datum;Heim;Gast;Ergebnis\n3.9.2024;Bo;Ann;5:7\n")
+    ...     _ = (place / "league.toml").write_text(
+    ...         '[[results]]\nfile = "a.csv"\n[[results]]\nfile = "b.csv"\n')
+    ...     found = league_results(read_league(place))
+    >>> len(found.results), [(one.kind, one.source, one.line) for one in found.changes]
+    (1, [('double', 'b.csv', 2)])
+    """
+    if not league.results:
+        raise refusal(
+            str(league.path), 'names no results; add a line [[results]], and below it file = "..."'
+        )
+    if aliases is None:
+        aliases = AliasesFile(dict(league.aliases), str(league.path), ())
+    known = replace(aliases, means={k: v for k, v in aliases.means.items() if k != v})
+    files = [
+        read_results(
+            league.place(one.file),
+            aliases=known,
+            columns=columns or one.columns,
+            dates=dates or one.dates,  # type: ignore[arg-type]  # one of the two, as its field says
+            skip_bad=skip_bad,
+        )
+        for one in league.results
+    ]
+    names = [one.file for one in league.results]
+    every = in_a_row(files, doubles=True)
+    rows = _Rows.of(every.results, files, names)
+    doubles = rows.doubles()
+    kept = np.ones(len(every.results), dtype=bool)
+    kept[list(doubles)] = False
+    played = _filled(every.results, doubles).select(kept)
+    counted = [
+        warning(
+            league.place(names[k]),
+            None,
+            say_count(
+                "{n} match that is there already, with the same players, score and day, counts "
+                "once",
+                "{n:,} matches that are there already, with the same players, score and day, "
+                "count once",
+                n,
+            ),
+        )
+        for k, n in sorted(Counter(rows.source[list(doubles)].tolist()).items())
+    ]
+    gave = Counter(rows.source[kept].tolist())
+    return LeagueResults(
+        replace(
+            every,
+            results=played,
+            warnings=(*every.warnings, *counted),
+            lines=every.lines[kept] if len(every.lines) else every.lines,
+        ),
+        tuple(_changes(files, rows, doubles)),
+        _name_doubts(every.similar_names, played, aliases.means),
+        tuple((name, gave[k]) for k, name in enumerate(names)),
+    )
+
+
+def _changes(
+    files: Sequence[ResultsFile], rows: _Rows, doubles: Mapping[int, int]
+) -> Iterator[Change]:
+    """Yield what was done, file by file, by line."""
+    doubts = rows.doubts(doubles)
+    for k, (name, file) in enumerate(zip(rows.names, files, strict=True)):
+        for written, meant in file.renamed:
+            text = say("{written} is read as {meant}", written=quoted(written), meant=quoted(meant))
+            yield Change("renamed", name, 0, text)
+        own = [Change("left out", name, line, why) for line, why in file.left_out]
+        own += [
+            Change("double", name, int(rows.line[row]), _again(rows, first))
+            for row, first in doubles.items()
+            if rows.source[row] == k
+        ]
+        own += [doubt for doubt in doubts if doubt.source == name]
+        yield from sorted(own, key=lambda change: change.line)
+
+
+def _again(rows: _Rows, first: int) -> Sentence:
+    return say(
+        "the same match is in {source}, line {line}",
+        source=rows.names[rows.source[first]],
+        line=int(rows.line[first]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """The matches of all files, each with its place and with what makes it the same as another."""
+
+    results: Results
+    names: Sequence[str]
+    source: NDArray[np.int64]
+    line: NDArray[np.int64]
+    turned: NDArray[np.bool_]
+    keys: list[tuple[Any, ...]]
+
+    @classmethod
+    def of(cls, results: Results, files: Sequence[ResultsFile], names: Sequence[str]) -> _Rows:
+        many = [len(file.results) for file in files]
+        turned = results.player_a > results.player_b
+        pairs = [
+            np.where(turned, *(getattr(results, f"{what}_{side}") for side in order))
+            for what in ("player", "score")
+            for order in ("ba", "ab")
+        ]
+        days = (
+            np.full(len(results), "NaT", dtype="datetime64[D]")
+            if results.date is None
+            else results.date
+        )
+        winner = np.zeros(len(results), np.int8) if results.winner is None else results.winner
+        won = np.where(turned & (winner > 0), 3 - winner, winner)
+        # Who won is part of a match only where its score does not say it.
+        won = np.where(results.score_a == results.score_b, won, 0)
+        columns = [days.astype(str), *pairs, won, results.given_away]
+        return cls(
+            results,
+            names,
+            np.repeat(np.arange(len(files)), many),
+            np.concatenate([file.lines for file in files]),
+            turned,
+            list(zip(*(column.tolist() for column in columns), strict=True)),
+        )
+
+    def doubles(self) -> dict[int, int]:
+        """Return each dated match that is there again, with the row where it was first.
+
+        In one file a match may be there twice only as a mirror image, and only where all are.
+        """
+        first: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+        doubles: dict[int, int] = {}
+        for k in range(len(self.names)):
+            own: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+            mirrored = self._mirrored(k)
+            for row in np.flatnonzero(self.source == k).tolist():
+                if row not in mirrored and self.keys[row][0] != "NaT":
+                    own[self.keys[row]].append(row)
+            for key, rows in own.items():
+                doubles |= dict(zip(rows, first[key], strict=False))
+                first[key] += rows[len(first[key]) :]
+            doubles |= {row: doubles.get(other, other) for row, other in mirrored.items()}
+        return doubles
+
+    def _mirrored(self, source: int) -> dict[int, int]:
+        """Return the second of each match that a file has from both sides, with the first."""
+        waiting: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+        pairs: dict[int, int] = {}
+        every = np.flatnonzero(self.source == source).tolist()
+        for row in every:
+            key, side = self.keys[row], bool(self.turned[row])
+            if waiting[(*key, not side)]:
+                pairs[row] = waiting[(*key, not side)].pop(0)
+            else:
+                waiting[(*key, side)].append(row)
+        return pairs if len(pairs) > 1 and 2 * len(pairs) >= _NEARLY_ALL * len(every) else {}
+
+    def doubts(self, doubles: Mapping[int, int]) -> list[Change]:
+        """Return the matches of two files that may be one: with another score, or without a day."""
+        met: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+        alike: dict[tuple[Any, ...], list[int]] = defaultdict(list)
+        for row, key in enumerate(self.keys):
+            if row in doubles:
+                continue
+            if key[0] != "NaT":
+                met[key[:3]].append(row)
+            alike[key[1:]].append(row)
+        doubts: list[Change] = []
+        for rows in met.values():
+            if len(rows) == 2 and self.keys[rows[0]] != self.keys[rows[1]]:
+                doubts += self._between(
+                    rows, say("another score than in {source}, line {line}; both count")
+                )
+        for rows in alike.values():
+            undated = [row for row in rows if self.keys[row][0] == "NaT"]
+            others = [row for row in rows if row not in undated]
+            if len(undated) == 1 == len(others):
+                text = say("without a date the same as {source}, line {line}; both count")
+                doubts += self._between([others[0], undated[0]], text)
+        return doubts
+
+    def _between(self, rows: Sequence[int], text: Sentence) -> Iterator[Change]:
+        one, other = rows
+        if self.source[one] != self.source[other]:
+            place = {"source": self.names[self.source[one]], "line": int(self.line[one])}
+            said = say(text.template, **place)
+            yield Change("doubt", self.names[self.source[other]], int(self.line[other]), said)
+
+
+def _filled(results: Results, doubles: Mapping[int, int]) -> Results:
+    """Return the results with what the first of the same matches lacks and another states."""
+    columns = {
+        name: values.copy() for name in _MORE if (values := getattr(results, name)) is not None
+    }
+    for name in list(columns):  # a team of player a may be that of player b in another file
+        empty = np.full_like(columns[name], "" if columns[name].dtype == object else 0)
+        columns.setdefault(_TURNED.get(name, name), empty)
+    stated = {name: values.copy() for name, values in columns.items()}
+    for row, first in doubles.items():
+        other_way = results.player_a[row] != results.player_a[first]
+        for name, values in columns.items():
+            value = stated[_TURNED.get(name, name) if other_way else name][row]
+            if not values[first] and value:
+                values[first] = _seen(name, value) if other_way else value
+    return replace(results, **columns)
+
+
+def _seen(name: str, value: Any) -> Any:
+    """Return a value as it is from the other side of the match."""
+    if name in ("winner", "first_break"):
+        return 3 - value
+    if name == "break_format":
+        return {4: 5, 5: 4}.get(int(value), value)
+    return value.translate(str.maketrans("ab", "ba")) if name == "racks" else value
+
+
+def _name_doubts(
+    groups: Sequence[tuple[str, ...]], played: Results, means: Mapping[str, str]
+) -> tuple[NameDoubt, ...]:
+    """Return the names that may be one player's; an alias that means itself is nobody else."""
+    many = len(played.players)
+    counts = np.bincount(np.concatenate([played.player_a, played.player_b]), minlength=many)
+    matches = dict(zip(played.players, counts.tolist(), strict=True))
+    apart = {name for name, meant in means.items() if name == meant}
+    doubts = []
+    for group in groups:
+        names = sorted({*group} - apart, key=lambda name: (-matches[name], name))
+        if len(names) > 1:
+            doubts.append(NameDoubt(tuple(names), tuple(matches[name] for name in names)))
+    return tuple(doubts)
