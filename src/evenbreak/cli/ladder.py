@@ -10,6 +10,7 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import SAY_WHICH
 from evenbreak.cli.kit.systems import (
     chart_for,
+    level_system,
     on_scale,
     refuse_other_scale,
     refuse_too_varying,
@@ -40,6 +41,9 @@ def command(asked: LadderErrors) -> Answer:
 
     if asked.compare:
         return _comparison(asked)
+    levels = level_system(asked.system, asked.chart if asked.step is None else None)
+    if levels is not None:
+        return _of_levels(asked, levels)
     ladder, opponents, warnings = _ladder(asked)
     findings = LadderFindings(ladder, _question(ladder, asked, opponents))
     if asked.plot is not None:
@@ -67,6 +71,29 @@ def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
     say_if_long(ladder)
     ladder.law()
     return ladder, name, [*warnings, *doubts]
+
+
+def _of_levels(asked: LadderErrors, system: handicaps.MarkovSystem) -> Answer:
+    """Return the long run of a system of skill levels, against equals or the players of a list."""
+    import numpy as np
+
+    from evenbreak.answers.ladder.levels import level_ladder_answer
+
+    for name in asked.given:
+        if name not in ("system", "chart", "league", "equal_skill"):
+            asked.refuse("{" + name + "} is for ratings in points; leave it out with skill levels")
+    weights, warnings = None, []
+    if asked.league is not None:
+        file = files.read_roster(asked.league)
+        warnings = list(file.warnings)
+        levels = file.roster.level[~np.isnan(file.roster.level)]
+        chart: Any = system.chart
+        places = chart.places(levels, "the level")
+        if not len(levels):
+            raise DataError([f"{file.source}: no player has a skill level; add a column level"])
+        weights = np.bincount(places, minlength=len(chart.levels)).tolist()
+    newcomer = int(getattr(system, "newcomer", 3))
+    return level_ladder_answer(system, weights, newcomer, warnings)
 
 
 def say_if_long(ladder: handicaps.Ladder) -> None:

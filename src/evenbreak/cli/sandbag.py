@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any, cast
+
 import click
 
 from evenbreak import files, handicaps, league
@@ -11,6 +13,7 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.kit.systems import (
     chart_for,
+    level_system,
     on_scale,
     refuse_levels,
     refuse_other_scale,
@@ -20,6 +23,9 @@ from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale
+
+if TYPE_CHECKING:
+    from evenbreak.answers.sandbag.pay import PayQuestion
 
 COMMANDS = {
     "pay": Entry("sandbag:pay", "Show what it pays to lose matches on purpose."),
@@ -59,6 +65,9 @@ def pay(asked: SandbagPay) -> Answer:
         in_a_row=asked.in_a_row,
         prize=asked.prize,
     )
+    levels = level_system(asked.system, asked.chart)
+    if levels is not None or not isinstance(asked.system, handicaps.StepSystem | None):
+        return _pay_by_play(asked, levels or cast("handicaps.System", asked.system), question)
     system = handicaps.steps_of(asked.system or "npl")
     if asked.compare:
         ladders = [_wide(system, chart) for chart in system.known_charts()]
@@ -72,6 +81,34 @@ def pay(asked: SandbagPay) -> Answer:
 
         write_plot(draw_pay(findings.pays), asked.plot)
     return sandbag_pay_answer(findings, question, warnings)
+
+
+PLAYED = 1000
+"""Leagues that are played for each number of matches dumped, where there is no chain to solve."""
+
+
+def _pay_by_play(asked: SandbagPay, system: handicaps.System, question: PayQuestion) -> Answer:
+    """Return what dumping pays in a system without points by match: solved or played."""
+    from evenbreak.answers.sandbag.played import dumping_answer, numbers_dumped
+
+    for name in ("start_error", "compare", "plot"):
+        if name in asked.given:
+            asked.refuse("{" + name + "} is for systems that move points by match; leave it out")
+    if isinstance(system, handicaps.MarkovSystem):
+        chart: Any = system.chart
+        many, middle = len(chart.levels), len(chart.levels) // 2
+        skills = handicaps.level_skills(chart)
+        equals = tuple(float(place == middle) for place in range(many))
+        ladder = handicaps.LevelLadder(system, float(skills.points[middle]), equals, skills)
+        rows = ladder.dumping(asked.dumped, asked.earnest, asked.in_a_row)
+        return dumping_answer(system, rows, question, 0)
+    if asked.chart is not None:
+        system = system.on_chart(files.find_chart(asked.chart))
+    numbers = numbers_dumped(asked.dumped)
+    rows = league.dumping_played(
+        system, numbers, earnest=asked.earnest, in_a_row=asked.in_a_row, replicas=PLAYED
+    )
+    return dumping_answer(system, rows, question, PLAYED)
 
 
 def _wide(system: handicaps.StepSystem, chart: handicaps.Chart) -> handicaps.Ladder:

@@ -56,6 +56,8 @@ from .ladders.comparison import mean_games as mean_games
 from .ladders.comparison import newcomer_inflation as newcomer_inflation
 from .ladders.error_walk import RatingLadder as RatingLadder
 from .ladders.ladder import Ladder as Ladder
+from .ladders.level_ladder import Dumping as Dumping
+from .ladders.level_ladder import LevelLadder as LevelLadder
 from .ladders.opponents import AUTOCORRELATED as AUTOCORRELATED
 from .ladders.opponents import EQUAL_SKILL as EQUAL_SKILL
 from .ladders.opponents import NATURAL as NATURAL
@@ -88,6 +90,7 @@ from .systems.level_review import apa_like as apa_like
 from .systems.level_review import tap_like as tap_like
 from .systems.level_steps import LevelSteps as LevelSteps
 from .systems.margin import margin_system as margin_system
+from .systems.markov import MarkovSystem as MarkovSystem
 from .systems.match_table import MatchTable as MatchTable
 from .systems.match_table import match_table as match_table
 from .systems.napa_like import NapaLike as NapaLike

@@ -159,7 +159,9 @@ def test_the_help_names_all_systems(run):
 @each_of(
     "words, code, named",
     [
-        (("--chart", "apa_8ball"), 2, "'apa_8ball'"),
+        (("--chart", "apa_8ball", "--system", "npl"), 2, "--system level-steps"),
+        (("--chart", "apa_8ball", "--day-sd", "3"), 2, "leave it out with skill levels"),
+        (("--system", "tap-like"), 2, "evenbreak simulate"),
         (("--chart", "npl_9"), 3, "npl_9"),
         (("--system", "chess"), 2, "'chess'"),
         (("--step", "0"), 2, "'0'"),
@@ -222,3 +224,14 @@ def test_a_part_that_takes_forever_is_left_out_with_a_warning(ladder):
     assert answer["settling"] is None
     (warning,) = answer["warnings"]
     assert "e+" not in warning
+
+
+def test_a_chart_of_skill_levels_has_a_long_run_of_levels(run):
+    answer = json.loads(run("ladder", "--chart", "apa_8ball", "--json").stdout)
+    assert answer["system"] == "level-steps"
+    for row in answer["levels"]:
+        assert sum(row["shares"].values()) == pytest.approx(1.0)
+        assert max(row["shares"], key=row["shares"].get) == str(row["level"])
+    assert "level 3, on average" in " ".join(
+        run("ladder", "--system", "level-steps").stderr.split()
+    )

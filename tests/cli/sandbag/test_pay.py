@@ -80,7 +80,7 @@ def test_steps_that_leave_the_ladder(run, pay):
         (("--stake", "much"), "'much'"),
         (("--dumped", "0"), "'0'"),
         (("--system", "foo"), "'foo'"),
-        (("--chart", "apa_8ball"), "'apa_8ball'"),
+        (("--chart", "apa_9ball"), "'apa_9ball'"),
         (("--compare", "--chart", "npl_8"), "--chart"),
     ],
 )

@@ -161,11 +161,12 @@ def _heading(found: PayFindings, question: PayQuestion) -> str:
     rule = f"{system.in_words[:1].upper()}{system.in_words[1:]}"
     return (
         f"What losing on purpose pays: chart {chart}, system {system.name}\n{rule}. Opponents are "
-        f"as good as the player and correctly rated.{start}\n{_stakes(question)}"
+        f"as good as the player and correctly rated.{start}\n{stakes_in_words(question)}"
     )
 
 
-def _stakes(question: PayQuestion) -> str:
+def stakes_in_words(question: PayQuestion) -> str:
+    """Return what is at stake, as a sentence."""
     prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
     return (
         f"Stakes: winning is worth {question.stake:g} in a match played in earnest, "
@@ -240,7 +241,7 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
     least, most = (pick(found, key=lambda one: one.all_pays.best.profit) for pick in (min, max))
     return Answer(
         f"What losing on purpose pays by chart: system {found[0].ladder.system.name}\n"
-        f"{_stakes(question)}",
+        f"{stakes_in_words(question)}",
         [
             f"Sandbagging pays least on {least.ladder.chart.name}: at most "
             f"{least.all_pays.best.profit:.2f} at these stakes. It pays most on "

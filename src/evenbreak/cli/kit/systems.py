@@ -6,7 +6,7 @@ how fast matches are played.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.scales import chart_doubts
@@ -122,6 +122,21 @@ def chart_by_difference(option: str, name: str) -> handicaps.Chart:
     return found
 
 
+def level_system(
+    system: handicaps.System | None, chart: str | None
+) -> handicaps.MarkovSystem | None:
+    """Return the system of levels in finitely many states that is meant; None for other kinds.
+
+    A chart of skill levels alone means `level-steps` by it.
+    """
+    named = None if chart in (None, "-") else files.find_chart(str(chart))
+    if system is None and isinstance(named, handicaps.LevelChart):
+        return handicaps.LevelSteps(own_chart=named)
+    if not isinstance(system, handicaps.MarkovSystem) or named is None:
+        return system if isinstance(system, handicaps.MarkovSystem) else None
+    return cast("handicaps.MarkovSystem", system.on_chart(named))
+
+
 def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps.Chart, list[str]]:
     """Return the chart of --chart (None: the system's own), and warnings about it."""
     from evenbreak.files.charts import find_chart_file
@@ -134,9 +149,8 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            f"--chart {name!r} is a chart of skill levels, which a league reviews now and then "
-            "and no single match moves by points, so there is nothing to follow here; give a chart "
-            "of rating differences, such as npl_10"
+            f"--chart {name!r} is a chart of skill levels, which no single match moves by points; "
+            "give a chart of rating differences, such as npl_10, or --system level-steps"
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]
 

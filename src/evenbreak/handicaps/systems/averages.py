@@ -30,6 +30,9 @@ from evenbreak.handicaps.systems.system import System
 WIN = 10.0
 """The points of a game won."""
 
+USUAL_GAMES = 50
+"""The games that a number on the list stands for, if it states none."""
+
 
 @dataclass(frozen=True)
 class Averages(System):
@@ -90,10 +93,13 @@ class Averages(System):
         return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
 
     def update(self, history: History) -> Floats:
-        """Return all points by all games; games before the first night count where stated."""
+        """Return all points by all games, those behind the list's averages included.
+
+        An average without games beside it stands for 50; a newcomer has none.
+        """
         points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
         games = history.counts("games", _games)
-        before = np.maximum(column_of(history.entries.games, history.initial.shape), 0)
+        before = _games_behind(history, WIN)
         played = games + before
         total = points + before * history.initial
         return np.where(played > 0, total / np.maximum(played, 1), history.initial)
@@ -143,8 +149,19 @@ class WinPercent(System):
         counted = np.minimum(played, left)
         share = np.divide(counted, played, out=np.zeros_like(played), where=played > 0)
         games = counted.sum(axis=0)
-        percent = 100.0 * (won * share).sum(axis=0) / np.maximum(games, 1.0)
-        return np.where(games > 0, percent, history.initial)
+        past = np.minimum(self.window - games, _games_behind(history, 100.0))
+        percent = 100.0 * (won * share).sum(axis=0) + past * history.initial
+        return np.where(games + past > 0, percent / np.maximum(games + past, 1.0), history.initial)
+
+
+def _games_behind(history: History, highest: float) -> Floats:
+    """Return the games behind each number of the list: those stated, or else `USUAL_GAMES`."""
+    shape = history.initial.shape
+    rating, games = (
+        column_of(values, shape) for values in (history.entries.rating, history.entries.games)
+    )
+    stated = np.where(games < 0, USUAL_GAMES, games)
+    return np.where((rating >= 0.0) & (rating <= highest), stated, 0).astype(float)
 
 
 def _games(matches: Matches) -> Any:

@@ -112,11 +112,12 @@ class LevelReview(System):
     @property
     def in_words(self) -> str:  # type: ignore[override]
         """The rule in words."""
-        part = "all" if self.kept == 1.0 else f"the best {self.kept:.0%}"
-        trimmed = f" without the best and the worst {self.trim}" if self.trim else ""
+        part = "" if self.kept == 1.0 else f"the best {self.kept:.0%} of "
+        trimmed = " but the best and the worst" if self.trim else ""
+        trimmed += f" {self.trim}" if self.trim > 1 else ""
         return (
-            f"levels by {part} of the last {self.window} scores{trimmed}, at most "
-            f"{self.most_change} a night; the real rules are not published"
+            f"levels by {part}the last {self.window} scores{trimmed}, moving at most "
+            f"{self.most_change} a night; the rules of real leagues are not published"
         )
 
     @property

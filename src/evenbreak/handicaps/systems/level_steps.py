@@ -20,13 +20,13 @@ import numpy as np
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import whole
 from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
-from evenbreak.handicaps.systems.history import Entries, History, Matches, positions
+from evenbreak.handicaps.systems.history import Entries
 from evenbreak.handicaps.systems.level_review import nearest_level
-from evenbreak.handicaps.systems.system import System
+from evenbreak.handicaps.systems.markov import MarkovSystem
 
 
 @dataclass(frozen=True)
-class LevelSteps(System):
+class LevelSteps(MarkovSystem):
     """Levels in steps, moved by matches won and lost.
 
     Parameters
@@ -91,19 +91,3 @@ class LevelSteps(System):
         """Return the stated levels, and the newcomers' for the others."""
         stated = np.where(np.isnan(entries.level), self.newcomer, entries.level)
         return nearest_level(self.chart, stated)
-
-    def update(self, history: History) -> Floats:
-        """Return the levels after the matches of the night, one after the other."""
-
-        def add(state: Ints, matches: Matches) -> Ints:
-            flat = state.reshape(-1)
-            won = matches.won_a
-            for row in range(len(matches)):
-                there = np.atleast_1d(matches.played[row])
-                for who, has_won in ((matches.a, won), (matches.b, ~won)):
-                    place = np.atleast_1d(positions(who, state.shape)[row])[there]
-                    flat[place] = self.move(flat[place], won=np.atleast_1d(has_won[row])[there])
-            return flat.reshape(state.shape)
-
-        states = history.fold("states", lambda: self.first_state(history.initial), add)
-        return np.asarray(self.states[states], dtype=float)

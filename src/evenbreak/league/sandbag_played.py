@@ -1,0 +1,171 @@
+"""What losing on purpose brings under any system, by playing it: many small leagues at once.
+
+For a system without a chain to solve, a player and some opponents, all of one skill, play a match a
+night; the opponents stay rightly rated. In one league the player is honest; in the others, which
+share all its draws, the player loses the first D matches without a game. Given the two published
+numbers, the chance of a match is exact, so only how the numbers move is drawn; what remains is
+stated as an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.checks import seed_of, whole
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.ladders.level_ladder import Dumping
+from evenbreak.handicaps.systems.history import Entries, History, Matches
+from evenbreak.handicaps.systems.system import System, checked_races, updated
+from evenbreak.matches.win import race_win_probability
+
+PLAYERS = 8
+"""Players of each league: the one who may dump, and the opponents."""
+
+_GAMES_BEFORE = 200
+"""Games behind each rating at the start: everyone is established."""
+
+_INNINGS = 2.25
+"""Innings a game; so that a level-4 player's score is in the middle of that level."""
+
+
+def dumping_played(
+    system: System,
+    dumped: Sequence[int],
+    *,
+    earnest: int = 20,
+    in_a_row: int = 3,
+    replicas: int = 400,
+    seed: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Dumping]:
+    """Return what matches lost on purpose bring, by their number, with Monte Carlo errors.
+
+    Parameters
+    ----------
+    system
+        any system.
+    dumped
+        the numbers of matches lost on purpose.
+    earnest
+        the matches played in earnest afterwards.
+    in_a_row
+        the matches won in a row that win a tournament.
+    replicas
+        how many leagues are played for each number.
+    seed
+        of all draws.
+    progress
+        called with the leagues done and their number.
+
+    Raises
+    ------
+    InputError
+        if a number is out of range, or the system returns what it must not.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> honest, five = dumping_played(system_of("step 3"), [0, 5], earnest=10, replicas=50)
+    >>> honest.extra_wins, round(five.published), five.extra_wins > 3 * five.error
+    (0.0, -14, True)
+    """
+    nights = max(dumped) + whole(earnest, "earnest", at_least=1)
+    replicas = whole(replicas, "replicas", at_least=2)
+    honest, ratings = _play(system, 0, nights, replicas, seed_of(seed))
+    rows = []
+    for done, many in enumerate(dumped):
+        if progress is not None:
+            progress(done, len(dumped))
+        wins, now = _play(system, many, many + earnest, replicas, seed_of(seed))
+        extra = wins[many:].sum(axis=0) - honest[many : many + earnest].sum(axis=0)
+        rows.append(
+            Dumping(
+                many,
+                float((now[many] - ratings[many]).mean()),
+                float(honest[:many].sum(axis=0).mean()),
+                float(wins[many].mean()),
+                float((wins[many] ** in_a_row).mean()),
+                float(extra.mean()),
+                float(extra.std(ddof=1) / np.sqrt(replicas)),
+            )
+        )
+    return rows
+
+
+def _entries(system: System, replicas: int) -> Entries:
+    """Return players who are all alike: of the middle level, or as the system takes newcomers."""
+    shape = PLAYERS, replicas
+    levels = system.chart.levels if isinstance(system.chart, LevelChart) else (4,)
+    centre = np.nan if system.scale is None else system.scale.centre
+    rating = system.initial(
+        Entries.of(np.full(shape, centre), np.full(shape, float(levels[len(levels) // 2])))
+    )
+    ratings = rating if system.publishes == "ratings" else np.full(shape, np.nan)
+    return Entries.of(
+        ratings,
+        np.full(shape, float(levels[len(levels) // 2])),
+        np.full(shape, _GAMES_BEFORE // 5),
+        np.full(shape, _GAMES_BEFORE),
+    )
+
+
+def _play(
+    system: System, dumped: int, nights: int, replicas: int, seed: int
+) -> tuple[Floats, list[Floats]]:
+    """Return the first player's chance of each match, and their numbers before each."""
+    rng = np.random.default_rng(seed)
+    entries = _entries(system, replicas)
+    initial = ratings = system.initial(entries)
+    chances, numbers = np.empty((nights, replicas)), []
+    parts: list[list[Any]] = [[] for _ in range(11)]
+    kept: dict[str, Any] = {}
+    for night in range(1, nights + 1):
+        a, b = _pairs(night)
+        of_a, of_b = ratings[a], ratings[b]
+        race_a, race_b = checked_races(system, of_a, of_b)
+        chances[night - 1] = race_win_probability(0.5, race_a[0], race_b[0])
+        numbers.append(ratings[0])
+        longest = int((race_a + race_b).max()) - 1
+        drawn = rng.integers(0, 2, (len(a), replicas, _room(longest)), dtype=np.int8)
+        won = drawn[..., :longest].astype(bool)
+        if night <= dumped:
+            won[0] = False
+        score_a, score_b = _scores(won, race_a, race_b)
+        innings = np.rint(_INNINGS * (score_a + score_b)).astype(np.int64)
+        shape = score_a.shape
+        columns = (
+            np.full(len(a), night),
+            *(np.broadcast_to(who[:, None], shape) for who in (a, b)),
+            *(score_a, score_b, race_a, race_b, of_a, of_b, innings, innings),
+        )
+        for part, column in zip(parts, columns, strict=True):
+            part.append(column)
+        matches = Matches(*(np.concatenate(part) for part in parts))
+        ratings = updated(system, History(entries, initial, ratings, night, matches, kept=kept))
+        ratings = np.concatenate([ratings[:1], initial[1:]])
+    return chances, numbers
+
+
+def _room(longest: int) -> int:
+    """Return for how many games to draw: a round number, so that leagues share their draws."""
+    return -(-longest // 64) * 64
+
+
+def _pairs(night: int) -> tuple[Ints, Ints]:
+    """Return who meets: everyone another one each night, the first player always first."""
+    others = 1 + (np.arange(PLAYERS - 1) + night) % (PLAYERS - 1)
+    half = PLAYERS // 2
+    return np.array([0, *others[1:half]]), np.array([others[0], *others[half:][::-1]])
+
+
+def _scores(won: Bools, race_a: Ints, race_b: Ints) -> tuple[Ints, Ints]:
+    """Return the score at which each race ends, from the winners of its games."""
+    of_a = np.cumsum(won, axis=2, dtype=np.int64)
+    of_b = np.arange(1, won.shape[2] + 1) - of_a
+    over = (of_a >= race_a[..., None]) | (of_b >= race_b[..., None])
+    last = over.argmax(axis=2)[..., None]
+    score_a = np.take_along_axis(of_a, last, axis=2)[..., 0]
+    score_b = np.take_along_axis(of_b, last, axis=2)[..., 0]
+    return score_a, score_b
