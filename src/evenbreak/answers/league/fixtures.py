@@ -17,6 +17,7 @@ def fixtures_answer(
     *,
     who: str = "player",
     played: int | None = None,
+    only: str = "",
     warnings: Sequence[str] = (),
 ) -> Answer:
     """Return fixtures.
@@ -29,6 +30,8 @@ def fixtures_answer(
         'player' or 'team'.
     played
         how many have been played; None where that is not asked.
+    only
+        the one whose fixtures they are; '' where they are everyone's.
     warnings
         about the files.
 
@@ -42,7 +45,7 @@ def fixtures_answer(
     heading = f"{count_of(len(listed), 'match', 'matches')} in {count_of(len(rounds), 'round')}"
     if days:
         heading += f", {days[0]:%a} {days[0]} to {days[-1]:%a} {days[-1]}"
-    parts: list[Part] = [_in_words(listed, who, played), table]
+    parts: list[Part] = [_in_words(listed, who, played, only), table]
     return Answer(
         heading,
         parts,
@@ -78,11 +81,11 @@ def fixtures_table(listed: Sequence[Fixture]) -> Table:
     return Table("fixtures", columns, rows)
 
 
-def _in_words(listed: Sequence[Fixture], who: str, played: int | None) -> str:
+def _in_words(listed: Sequence[Fixture], who: str, played: int | None, only: str) -> str:
     names = {name for one in listed for name in (one.home, one.away)}
     if played is not None:
         if not listed:
-            return f"All {played} matches have been played."
+            return f"{count_of(played, 'match', 'matches')} played, none left."
         left = Counter(name for one in listed for name in (one.home, one.away))
         most = max(left.values())
         last = [name for name, many in left.items() if many == most]
@@ -92,6 +95,9 @@ def _in_words(listed: Sequence[Fixture], who: str, played: int | None) -> str:
             + f" the most to play: {most}."
         )
     home = Counter(one.home for one in listed)
+    if only:
+        matches = count_of(len(listed), "match", "matches")
+        return f"{only} plays {matches}, {home[only]} of them at home."
     all_of = Counter(name for one in listed for name in (one.home, one.away))
     return (
         f"Each of the {len(names)} {who}s plays {_range(all_of, names)} matches, "

@@ -104,24 +104,27 @@ def fixtures(asked: Fixtures) -> Answer:
     if asked.left:
         listed, played, more = _without_played(asked, listed)
         warnings += more
+    only = ""
     if asked.only is not None:
-        listed = [one for one in listed if _is_of(one, asked.only)]
-        if not listed:
-            asked.refuse(
-                "{only} {name} has no match; write the name as the list does", name=asked.only
-            )
+        wanted = same_name(asked.only)
+        names = (name for one in listed for name in (one.home, one.away))
+        only = next((name for name in names if same_name(name) == wanted), "")
+        if not only:
+            template = "{only} {name} has no match; write the name as the list does"
+            asked.refuse(template, name=asked.only)
+        listed = [one for one in listed if only in (one.home, one.away)]
     if asked.ics is not None:
         from evenbreak.files.calendar import calendar_bytes
 
         calendar = calendar_bytes(
             listed,
-            name=asked.only or "League matches",
+            name=only or "League matches",
             venue=asked.venue or "",
             start=asked.time,
             minutes=asked.minutes,
         )
         write_file(asked.ics, calendar)
-    return fixtures_answer(listed, who=who, played=played, warnings=warnings)
+    return fixtures_answer(listed, who=who, played=played, only=only, warnings=warnings)
 
 
 def _made(asked: Fixtures) -> tuple[list[Fixture], str, list[str]]:
@@ -194,7 +197,3 @@ def _without_played(asked: Fixtures, listed: list[Fixture]) -> tuple[list[Fixtur
 
 def _first(unknown: set[str]) -> str:
     return f"such as those of {min(unknown)!r}" if unknown else "the two had met before"
-
-
-def _is_of(one: Fixture, name: str) -> bool:
-    return same_name(name) in {same_name(one.home), same_name(one.away)}

@@ -7,21 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
-from evenbreak.files.lists.teams import PAIR
+from evenbreak.files.lists.teams import PAIR, TEAM
 from evenbreak.files.lists.typed_list import read_players
 from evenbreak.files.tables.dates import Day
-from evenbreak.files.tables.names import Name, same_name
+from evenbreak.files.tables.names import same_name
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.schema import Schema, Text, Whole
 from evenbreak.league.tables.fixtures import Fixture
 
-SIDES = Schema(
-    "names",
-    player=Name("name, player name", "a player", needed=True, instead=("team",)),
-    team=Text("team name", "a team; each is taken once"),
+SIDES = TEAM.but(player={"instead": ("team",)}, team={"also": "team name"}) | Schema(
     venue=Text("home venue, location, place", "where the team is at home"),
     tables=Whole("tables there", "the number of tables at that venue", most=1000),
-    rating=Text("rating now"),
 )
 """Who takes part: players, or teams with their venues."""
 
@@ -83,7 +79,7 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
     >>> sides.names, sides.venues, sides.tables
     (('Acers', 'Bankers', 'Caroms'), ('Corner', 'Corner', ''), {'Corner': 2})
     """
-    table = SIDES.of(read_players(path, SIDES))
+    table = SIDES.only("player", "team", "venue", "tables").of(read_players(path, SIDES))
     teams = "team" in table if of is None else of == "teams"
     column = "team" if teams else "player"
     if column not in table:
