@@ -26,8 +26,10 @@ from evenbreak.questions.common import (
     Target,
 )
 from evenbreak.tournaments.evening.format import LONGEST_RACE
+from evenbreak.words import Parameter
 
 _BY_CHANCE = "Chances instead of ratings"
+_MORE = ("via", "exact", "racks", "set_score", "comebacks", "plot")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,13 +104,7 @@ class Players(Question):
             self.refuse(f"the players are given twice; {remedy}")
         if self.from_file is not None and not self.ratings:
             self.refuse("{from_file} is for two players by name, but none are named; leave it out")
-        if self.chart is not None and not self.ratings:
-            self.refuse("{chart} is for ratings or skill levels, but none are given; leave it out")
-        if self.results is not None and self.chart is None:
-            self.refuse(
-                "{results} is for chances by skill levels; give {chart} apa_8ball or such, or "
-                "leave it out"
-            )
+        self._check_chart()
         if self.scale is not None and not self.ratings:
             self.refuse("{scale} is for ratings, but none are given; leave it out")
         if by_break and None in (self.p1, self.p2, self.breaks):
@@ -130,6 +126,50 @@ class Players(Question):
                 n=len(self.ratings),
                 ratings=" ".join(self.ratings),
             )
+
+    def _check_chart(self) -> None:
+        """Refuse a chart that does not go with the players, and what does not go with it."""
+        if self.chart is None or not self.ratings:
+            if self.chart is not None:
+                self.refuse("{chart} is for ratings or skill levels; there are none, so leave it out")
+            if self.results is not None:
+                self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+            return
+        from evenbreak.files.charts import find_chart
+        from evenbreak.handicaps.charts.chart import Chart
+        from evenbreak.handicaps.charts.level_chart import PointsChart
+
+        found = find_chart(self.chart)
+        values = {"name": found.name}
+        if isinstance(found, Chart):
+            if not isinstance(self, Played):
+                self.refuse("{chart} must be one of games by skill level here; leave it out")
+            if self.results is not None:
+                self.refuse("{results} is for chances by skill levels; leave it out")
+            return
+        if isinstance(found, PointsChart):
+            if not isinstance(self, Played):
+                self.refuse("{chart} {name} is one of points; give one of games, or none", **values)
+            for name in (*("race", "ahead", "set_", "win_by", "scale", "results", "form"), *_MORE):
+                if name in self.given:
+                    self.refuse(
+                        "{part} is not for a chart of points such as {name}; leave it out",
+                        part=Parameter(name),
+                        **values,
+                    )
+        if self.from_file is not None:
+            return
+        for word in self.ratings:
+            if not NUMBER.fullmatch(word) or float(word) not in found.levels:
+                self.refuse(
+                    "{word} is not a skill level of {name}, whose levels are {levels}; for ratings "
+                    "leave {chart} out, or give one of rating differences",
+                    word=word,
+                    levels=", ".join(map(str, found.levels)),
+                    **values,
+                )
+        if self.scale is not None:
+            self.refuse("{scale} is for ratings, and with {chart} A and B are levels; leave it out")
 
     def _check_ratings(self) -> None:
         """Refuse words that are no ratings."""

@@ -9,7 +9,6 @@ import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import RosterFile
-from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
 from evenbreak.words import FilePath, Parameter, say
@@ -56,13 +55,6 @@ def by_level(
             )
         file = replace(file, roster=replace(roster, level=roster.rating), levels=True)
     if not file.levels or isinstance(chart, PointsChart):
-        if results is not None:
-            raise InputError(
-                "{results} is for chances by skill levels, and those of {list} come from ratings; "
-                "leave it out",
-                results=Parameter("results"),
-                list=FilePath(file.source),
-            )
         return file, None
     return file, skills_of(chart, results)
 

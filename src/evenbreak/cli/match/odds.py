@@ -18,7 +18,6 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.questions.match import Fair, Live, Odds, Players
 from evenbreak.ratings.scale import SCALES, Scale, refuse_contradicted, unstated_scale
-from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from evenbreak.files.lists.roster import RosterFile
@@ -133,36 +132,17 @@ def _points(asked: Odds | Live) -> Answer | None:
     chart = _chart_of(asked)
     if not isinstance(chart, PointsChart):
         return None
-    needless = ("race", "ahead", "set_", "win_by", "scale", "results", "form", "via", "exact")
-    for name in (*needless, "racks", "set_score", "comebacks", "plot"):
-        if name in asked.given:
-            asked.refuse(
-                "{part} is not for a chart of points such as {name}; leave it out",
-                part=Parameter(name),
-                name=chart.name,
-            )
     names = ("A", "B")
     if asked.from_file is None:
-        levels = _levels(asked, chart)
+        levels = _levels(asked)
     else:
         file, names, places = _listed(asked, asked.from_file, chart)
         levels = _levels_of(file, places, chart)
     return points_answer(chart, levels, names, asked.score or (0, 0))
 
 
-def _levels(asked: Players, chart: LevelChart | PointsChart) -> tuple[int, int]:
-    """Return the levels that are typed, or refuse numbers that are none of the chart."""
-    from evenbreak.answers.league.by_level import SCALE_OF_LEVELS
-
-    if asked.scale is not None:
-        raise InputError(SCALE_OF_LEVELS)
-    for text in asked.ratings:
-        if number_of(text) not in chart.levels:
-            refuse(
-                f"{text} is not a skill level of {chart.name}, whose levels are "
-                f"{', '.join(map(str, chart.levels))}; for ratings give a chart of rating "
-                "differences"
-            )
+def _levels(asked: Players) -> tuple[int, int]:
+    """Return the levels that are typed."""
     a, b = (int(number_of(text)) for text in asked.ratings)
     return a, b
 
@@ -224,10 +204,6 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
 
         if isinstance(chart, LevelChart):
             return _by_level(asked, chart, form)
-    if asked.results is not None:
-        asked.refuse("{results} is for chances by skill levels, which {chart} has none of")
-    if not isinstance(asked, Odds | Live) and chart is not None:
-        asked.refuse("{chart} must be a chart of games by skill level here, such as apa_8ball")
     if asked.from_file is not None:
         return _named(asked, asked.from_file, form)
     a, b = map(number_of, asked.ratings)
@@ -251,7 +227,7 @@ def _by_level(asked: Players, chart: LevelChart, form: float | None) -> TwoPlaye
     from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, skills_of
 
     if asked.from_file is None:
-        levels, skills = _levels(asked, chart), skills_of(chart, asked.results)
+        levels, skills = _levels(asked), skills_of(chart, asked.results)
         return replace(TwoPlayers.of_levels(levels, skills), form=form or 0.0)
     file, names, places = _listed(asked, asked.from_file, chart)
     levels = _levels_of(file, places, chart)
