@@ -113,6 +113,16 @@ Dask: TypeAlias = Annotated[
 ]
 
 
+def has_levels(chart: str | None) -> bool:
+    """Return whether a chart, by its name or in a file, is one of games by skill level."""
+    if chart is None:
+        return False
+    from evenbreak.files.charts import find_chart
+    from evenbreak.handicaps.charts.level_chart import LevelChart
+
+    return chart == "-" or isinstance(find_chart(chart), LevelChart)
+
+
 def refuse_workers(asked: Any) -> None:
     """Refuse two kinds of workers at once, and a cluster without an address."""
     if asked.dask is not None and asked.jobs > 1:

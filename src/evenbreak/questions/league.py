@@ -21,6 +21,7 @@ from evenbreak.questions.common import (
     ScaleOf,
     Seed,
     Starters,
+    has_levels,
     refuse_workers,
 )
 from evenbreak.questions.pace import MINUTES, Pace, Turnover
@@ -109,6 +110,8 @@ class Matchups(Lengths, Starters, Pace):
         """Refuse what lacks something else."""
         if self.chart is None and self.games is None and self.race_to is None:
             self.refuse("say which races; give {chart} NAME, {games} LO..HI or {race_to} N")
+        if self.results is not None and not has_levels(self.chart):
+            self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
         paced = self.discipline is not None or self.minutes_per_game is not None
         if self.tables is not None and not paced:
             self.refuse(

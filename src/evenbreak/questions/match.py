@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -24,6 +25,7 @@ from evenbreak.questions.common import (
     PlotFile,
     ScaleOf,
     Target,
+    has_levels,
 )
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.words import Parameter
@@ -129,44 +131,44 @@ class Players(Question):
 
     def _check_chart(self) -> None:
         """Refuse a chart that does not go with the players, and what does not go with it."""
-        if self.chart is None or not self.ratings:
-            if self.chart is not None:
-                self.refuse("{chart} is for ratings or skill levels; there are none, so leave it out")
-            if self.results is not None:
-                self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+        if self.results is not None and not has_levels(self.chart):
+            self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+        if self.chart is None:
             return
+        if not self.ratings:
+            self.refuse("{chart} is for ratings or skill levels, and there are none; leave it out")
         from evenbreak.files.charts import find_chart
         from evenbreak.handicaps.charts.chart import Chart
         from evenbreak.handicaps.charts.level_chart import PointsChart
 
         found = find_chart(self.chart)
-        values = {"name": found.name}
-        if isinstance(found, Chart):
-            if not isinstance(self, Played):
-                self.refuse("{chart} must be one of games by skill level here; leave it out")
-            if self.results is not None:
-                self.refuse("{results} is for chances by skill levels; leave it out")
-            return
+        if isinstance(found, Chart | PointsChart) and not isinstance(self, Played):
+            self.refuse("{chart} must be one of games by skill level here; leave it out")
         if isinstance(found, PointsChart):
-            if not isinstance(self, Played):
-                self.refuse("{chart} {name} is one of points; give one of games, or none", **values)
-            for name in (*("race", "ahead", "set_", "win_by", "scale", "results", "form"), *_MORE):
-                if name in self.given:
-                    self.refuse(
-                        "{part} is not for a chart of points such as {name}; leave it out",
-                        part=Parameter(name),
-                        **values,
-                    )
-        if self.from_file is not None:
-            return
+            self._refuse_with_points(found.name)
+        if not isinstance(found, Chart) and self.from_file is None:
+            self._check_levels(found.name, found.levels)
+
+    def _refuse_with_points(self, name: str) -> None:
+        """Refuse what is about games where a match is played to points."""
+        for part in (*("race", "ahead", "set_", "win_by", "scale", "form"), *_MORE):
+            if part in self.given:
+                self.refuse(
+                    "{part} is not for a chart of points such as {name}; leave it out",
+                    part=Parameter(part),
+                    name=name,
+                )
+
+    def _check_levels(self, name: str, levels: Sequence[int]) -> None:
+        """Refuse typed numbers that are no levels of a chart, and a scale for those that are."""
         for word in self.ratings:
-            if not NUMBER.fullmatch(word) or float(word) not in found.levels:
+            if not NUMBER.fullmatch(word) or float(word) not in levels:
                 self.refuse(
                     "{word} is not a skill level of {name}, whose levels are {levels}; for ratings "
                     "leave {chart} out, or give one of rating differences",
                     word=word,
-                    levels=", ".join(map(str, found.levels)),
-                    **values,
+                    levels=", ".join(map(str, levels)),
+                    name=name,
                 )
         if self.scale is not None:
             self.refuse("{scale} is for ratings, and with {chart} A and B are levels; leave it out")

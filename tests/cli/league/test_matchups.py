@@ -171,7 +171,6 @@ def test_ratings_beside_levels_give_the_chances(run, roster):
         ("player,level\nAnn,7\nBo,8\n", (), "roster.csv:3: 'Bo' has skill level 8; the levels"),
         ("player,level\nAnn,7\nBo,\n", (), "roster.csv:3: 'Bo' has no skill level"),
         ("player,rating\nAnn,92\nBo,71\n", (), "needs skill levels"),
-        ("player,rating,level\nAnn,92,5\nBo,71,4\n", ("--results", "x"), "come from ratings"),
     ],
 )
 def test_what_is_no_list_of_levels_is_refused(run, roster, text, more, words):
@@ -181,8 +180,10 @@ def test_what_is_no_list_of_levels_is_refused(run, roster, text, more, words):
 
 
 def test_own_results_are_for_levels(run, roster):
-    result = run("matchups", roster(LEVELS), "--race-to", "5", "--results", "season.csv")
-    assert "give --chart apa_8ball" in result.stderr
+    for words in (("--race-to", "5"), ("--chart", "npl_10")):
+        result = run("matchups", roster(LEVELS), *words, "--results", "season.csv")
+        assert result.exit_code == 2
+        assert "give --chart apa_8ball" in result.stderr
 
 
 def test_the_evening_is_in_every_face(run, roster):

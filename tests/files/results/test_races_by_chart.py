@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from evenbreak.errors import InputError
 from evenbreak.files.results.results_file import read_results
 
 HEADER = "player_a,player_b,score_a,score_b,level_a,level_b"
@@ -56,8 +55,10 @@ def test_ratings_set_the_race_by_a_chart_of_differences(read):
     assert np.transpose(file.results.races).tolist() == [[5, 4], [5, 4]]
 
 
-def test_what_cannot_set_races_is_refused(read):
-    with pytest.raises(InputError, match="chart of points"):
-        read("Ann,Bo,4,1,5,3", chart="apa_9ball")
-    with pytest.raises(InputError, match="add the columns level_a and level_b"):
-        read("Ann,Bo,4,1", header="player_a,player_b,score_a,score_b")
+def test_a_chart_that_can_set_no_race_says_so(read):
+    points = read("Ann,Bo,4,1,5,3", chart="apa_9ball")
+    assert "is a chart of points" in points.warnings[0]
+    without = read("Ann,Bo,4,1", header="player_a,player_b,score_a,score_b")
+    assert "level_a and level_b are missing" in without.warnings[0]
+    for file in (points, without):
+        assert not np.any(file.results.races)

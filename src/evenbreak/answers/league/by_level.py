@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import RosterFile
+from evenbreak.files.results.seasons import read_seasons
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
 from evenbreak.words import FilePath, Parameter, say
@@ -61,8 +61,9 @@ def by_level(
 
 def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
     """Return how strong the levels of a chart are, by the league's own results if they say it."""
-    played: Any = None if results is None else read_results(results).results
-    return level_skills(chart, played)
+    if results is None:
+        return level_skills(chart)
+    return level_skills(chart, read_seasons([results]).results)
 
 
 def with_level(file: RosterFile, starter: float | None) -> RosterFile:

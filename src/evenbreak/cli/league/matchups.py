@@ -49,8 +49,6 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
     levels = None
     if isinstance(of_league, handicaps.LevelChart):
         file, levels = by_level(file, of_league, asked.results)
-    elif asked.results is not None:
-        asked.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
     if levels is not None:
         if asked.scale is not None:
             raise InputError(SCALE_OF_LEVELS)

@@ -131,6 +131,7 @@ def league_results(
     columns: Mapping[str, str] | None = None,
     dates: DateOrder | None = None,
     skip_bad: bool = True,
+    **reading: Any,
 ) -> LeagueResults:
     r"""Return the results of a league from all the files that it names.
 
@@ -142,6 +143,8 @@ def league_results(
         as for `read_results`, in place of what the league says.
     skip_bad
         whether rows that cannot be read are left out and listed; otherwise they are an error.
+    reading
+        what else there is for `read_results`.
 
     Raises
     ------
@@ -174,6 +177,7 @@ def league_results(
             columns=columns or one.columns,
             dates=dates or one.dates,  # type: ignore[arg-type]  # one of the two, as its field says
             skip_bad=skip_bad,
+            **reading,
         )
         for one in league.results
     ]

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.errors import InputError
 from evenbreak.files.charts import find_chart
 from evenbreak.files.tables.problems import warning
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.handicaps.charts.played_chart import level_numbers_of
 from evenbreak.ratings.results import Results
-from evenbreak.words import Parameter, say_count
+from evenbreak.words import say, say_count
 
 
 def races_by_chart(
@@ -24,7 +23,8 @@ def races_by_chart(
 ) -> tuple[Results, list[str]]:
     """Return results with the races that a chart sets for the levels or ratings stated in them.
 
-    Where both players reached their games, or neither did, the race is left open.
+    Where both players reached their games, or neither did, the race is left open; so it is where
+    the chart is one of points, or no levels are stated.
 
     Parameters
     ----------
@@ -34,33 +34,29 @@ def races_by_chart(
         the name or the file of the chart.
     lines, source
         the line of each match, and what the file is called in warnings.
-
-    Raises
-    ------
-    InputError
-        if the chart is one of points, or the results state no levels.
     """
     of_league = find_chart(chart)
-    if isinstance(of_league, PointsChart):
-        raise InputError(
-            "{chart} {name} is a chart of points, and results are rated by games; leave it out, or "
-            "state the races and the winners",
-            chart=Parameter("chart"),
-            name=of_league.name,
-        )
-    if results.level_a is None or results.level_b is None:
-        raise InputError(
-            "{chart} needs the levels or ratings of both players, and {source} has none; add the "
-            "columns {level_a} and {level_b}, or leave it out",
-            chart=Parameter("chart"),
-            source=source,
-            level_a="level_a",
-            level_b="level_b",
-        )
-    stated = tuple(level_numbers_of(results))
     race_a, race_b = (race.copy() for race in results.races)
     score_a, score_b = results.score_a, results.score_b
     unset = results.counted & (race_a == 0) & (race_b == 0) & (score_a + score_b > 0)
+    if not unset.any():
+        return results, []
+    if isinstance(of_league, PointsChart):
+        text = say(
+            "{chart} is a chart of points, so it sets no race in games here, and scores count as "
+            "games",
+            chart=of_league.name,
+        )
+        return results, [warning(source, None, text)]
+    if results.level_a is None or results.level_b is None:
+        text = say(
+            "{chart} sets no race here, because the columns {level_a} and {level_b} are missing",
+            chart=of_league.name,
+            level_a="level_a",
+            level_b="level_b",
+        )
+        return results, [warning(source, None, text)]
+    stated = tuple(level_numbers_of(results))
     missing = np.isnan(stated[0]) | np.isnan(stated[1])
     if isinstance(of_league, Chart):
         known = ~missing

@@ -62,6 +62,7 @@ def _of_league(
     columns: Mapping[str, str] | None = None,
     dates: DateOrder | None = None,
     skip_bad: bool = False,
+    **reading: Any,
 ) -> ResultsFile:
     """Return the results of a league as one file; what is given here replaces what it says.
 
@@ -76,5 +77,6 @@ def _of_league(
         columns=columns,
         dates=dates,
         skip_bad=skip_bad,
+        **reading,
     )
     return found.file
