@@ -49,8 +49,9 @@ Then the first to finish wins with the chance that the skills say. No league pub
 at this rate the levels of the innings rule as told (`apa-like`) stay where they are, on average.
 """
 
-Captains = Callable[[Floats, Floats, Floats], list[tuple[int, int]]]
-"""A pairing for a team match, from the chances of each pair and the numbers of both teams."""
+Captains = Callable[["Doublings", Floats, Floats, Floats], tuple[Ints, Ints]]
+"""Line-ups of two teams: from the system, the published numbers of the players there of each team,
+and two uniform numbers to the places of those who play, as many of each team."""
 
 
 class Doublings:
@@ -181,7 +182,7 @@ class _Side:
     def play_night(self, night: Night, tables: RaceTables) -> None:
         """Play the matches of a night and publish what follows from them."""
         sums, many = self.sums, self.play.replicas
-        a, b = self._pairs(night, tables)
+        a, b = self._pairs(night)
         columns = np.arange(many)
         a, b = np.broadcast_to(a, (len(a), many)), np.broadcast_to(b, (len(b), many))
         at_a, at_b = np.maximum(a, 0) * many + columns, np.maximum(b, 0) * many + columns
@@ -239,22 +240,24 @@ class _Side:
                                kept=self.kept)  # fmt: skip
         self.before, self.ratings = self.ratings, updated(self.system, self.history)
 
-    def _pairs(self, night: Night, tables: RaceTables) -> tuple[Ints, Ints]:
+    def _pairs(self, night: Night) -> tuple[Ints, Ints]:
         """Return which players meet; in a league of teams, by the captains' line-ups."""
         if self.world.team is None:
             return night.a, night.b
         ups = [self._line_up(team, night) for team in range(self.world.sides)]
         pairs = [
-            self._paired(ups[a], ups[b], tables)
+            self._best(night, (a, b), (ups[a], ups[b]))
             for a, b in zip(night.a[:, 0].tolist(), night.b[:, 0].tolist(), strict=True)
         ]
         return np.concatenate([a for a, _ in pairs]), np.concatenate([b for _, b in pairs])
 
+    def _members(self, team: int, night: Night) -> Ints:
+        holder = self.world.holders(night.night)
+        return np.asarray(holder[(holder >= 0) & (np.asarray(self.world.teams) == team)])
+
     def _line_up(self, team: int, night: Night) -> Ints:
         """Return whom a captain with a habit puts up: anybody there, as long as the cap allows."""
-        world, sets = self.world, self.world.sets
-        holder = world.holders(night.night)
-        rows = holder[(holder >= 0) & (np.asarray(world.teams) == team)]
+        world, sets, rows = self.world, self.world.sets, self._members(team, night)
         groups = np.array(list(combinations(range(len(rows)), sets)))
         pick = night.pick[rows] - 10.0 * ~night.here[rows]
         wish = pick[groups].sum(axis=1)
@@ -264,20 +267,25 @@ class _Side:
         order = np.take_along_axis(night.pick, chosen, axis=0).argsort(axis=0)
         return np.take_along_axis(chosen, order, axis=0)
 
-    def _paired(self, ours: Ints, theirs: Ints, tables: RaceTables) -> tuple[Ints, Ints]:
+    def _best(
+        self, night: Night, teams: tuple[int, int], usual: tuple[Ints, Ints]
+    ) -> tuple[Ints, Ints]:
+        """Return the captains' best line-ups; the usual ones where too few are there for those."""
         if self.captains is None:
-            return ours, theirs
-        pairs = np.empty((2, *ours.shape), dtype=np.int64)
-        for replica in range(ours.shape[1]):
-            us, them = ours[:, replica], theirs[:, replica]
-            rated = self.ratings[us, replica], self.ratings[them, replica]
-            m, n = checked_races(self.system, *np.meshgrid(*rated, indexing="ij"))
-            true = self.play.skill[us, replica][:, None] - self.play.skill[them, replica]
-            place = tables.places(m, n, true)
-            chances = tables.chances.take(place)
-            matched: Ints = np.asarray(self.captains(chances, *rated), dtype=np.int64)
-            pairs[:, :, replica] = us[matched[:, 0]], them[matched[:, 1]]
-        return pairs[0], pairs[1]
+            return usual
+        ours, theirs = (side.copy() for side in usual)
+        rows = [self._members(team, night) for team in teams]
+        for replica in range(self.play.replicas):
+            there = [side[night.here[side, replica]] for side in rows]
+            if min(map(len, there)) < self.world.sets:
+                continue
+            mine, others = (self.ratings[side, replica] for side in there)
+            luck = np.array([night.pick[side[0], replica] for side in there])
+            places = self.captains(self.doublings, mine, others, luck)
+            for up, side, place in zip((ours, theirs), there, places, strict=True):
+                chosen = side[place]
+                up[:, replica] = chosen[night.pick[chosen, replica].argsort()]
+        return ours, theirs
 
 
 _COLUMNS: dict[str, Any] = {
@@ -432,7 +440,7 @@ def play_systems(
     seed
         a whole number from 0, which gives the same sums to the last bit, or a generator.
     captains
-        how two line-ups are paired in a league of teams; None: at random.
+        who plays in a league of teams; None: anybody there, as long as the cap allows.
     executor, jobs, progress
         as of `simulate`; the result is the same for any number of workers.
 

@@ -257,6 +257,15 @@ class Simulate(BySystem):
             metavar="LEVELS",
         ),
     ] = None
+    best_line_ups: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Captains hand in the best line-up by the published numbers, not anybody who is there.",
+            section=_LEAGUE,
+            more="Much slower: some tenths of a second a season.",
+        ),
+    ] = False
     rack_by_rack: Annotated[
         bool,
         Field(

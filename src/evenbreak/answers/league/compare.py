@@ -236,18 +236,18 @@ def _alone(comparison: Comparison) -> Iterator[Sentence]:
 _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
     "mean_games": (
         0.1,
-        say("matches are {by:.2g} games longer"),
-        say("matches are {by:.2g} games shorter"),
+        say("matches are {by:.1f} games longer"),
+        say("matches are {by:.1f} games shorter"),
     ),
     "games_a_night": (
         0.2,
-        say("whoever is done last plays {by:.2g} games more a night"),
-        say("whoever is done last plays {by:.2g} games fewer a night"),
+        say("whoever is done last plays {by:.1f} games more a night"),
+        say("whoever is done last plays {by:.1f} games fewer a night"),
     ),
     "changes_a_season": (
         0.5,
-        say("a player's number changes {by:.2g} times more a season"),
-        say("a player's number changes {by:.2g} times less a season"),
+        say("a player's number changes {by:.1f} times more a season"),
+        say("a player's number changes {by:.1f} times less a season"),
     ),
     "sandbagging_pays": (
         0.01,
@@ -256,8 +256,8 @@ _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
     ),
     "nights_until_right": (
         0.5,
-        say("newcomers are right {by:.2g} nights later"),
-        say("newcomers are right {by:.2g} nights sooner"),
+        say("newcomers are right {by:.1f} nights later"),
+        say("newcomers are right {by:.1f} nights sooner"),
     ),
 }
 """What a system costs or saves: the least that matters, and the words for more and for less."""

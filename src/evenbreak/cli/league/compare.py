@@ -51,6 +51,7 @@ def _is_by_levels(chart: Any) -> bool:
 def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
     """Return the comparison that is asked for, and write its files."""
     from evenbreak.answers.league import compare
+    from evenbreak.answers.league.captains import SealedCaptains
 
     systems, warnings = _systems(asked, file)
     world, assumed = _world(asked, file, systems[0])
@@ -63,6 +64,7 @@ def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
             systems,
             replicas=asked.replicas,
             seed=asked.seed,
+            captains=SealedCaptains(asked.sets, asked.cap) if asked.best_line_ups else None,
             executor=client,
             jobs=asked.jobs,
             progress=progress,
@@ -117,7 +119,10 @@ def _systems(
         every = list({system.name: system for system in (usual, *every)}.values())
     if chart is None:
         return every, []
-    fitting = [type(system.chart) is type(chart) for system in every]
+    # A chart of differences holds for ratings of one scale.
+    fitting = [
+        type(system.chart) is type(chart) and (system.scale == every[0].scale) for system in every
+    ]
     if not fitting[0]:
         refuse(
             f"the system {every[0].name} cannot be played by the chart {chart.name}; give the "
