@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
 import click
@@ -15,6 +16,7 @@ from evenbreak.cli.kit.systems import (
     chart_for,
     level_system,
     on_scale,
+    refuse_for_system,
     refuse_levels,
     refuse_other_scale,
     refuse_too_varying,
@@ -22,7 +24,7 @@ from evenbreak.cli.kit.systems import (
 from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
-from evenbreak.ratings.scale import DEFAULT_SCALE, Scale
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 
 if TYPE_CHECKING:
     from evenbreak.answers.sandbag.pay import PayQuestion
@@ -132,23 +134,33 @@ def watch(asked: SandbagWatch) -> Answer:
 
     first = files.read_roster(asked.roster)
     season = files.read_seasons([asked.results], **asked.reading)
-    system = handicaps.steps_of(asked.system or "npl")
-    system, doubts = _moved(system, asked.scale, first, season)
-    ladder, warnings = watched_ladder(asked, system)
-    warnings += [*first.warnings, *season.warnings, *doubts]
+    meant = level_system(asked.system, asked.chart) or asked.system or "npl"
+    system: handicaps.System = handicaps.system_of(meant)
+    warnings: list[str] = []
+    races: handicaps.Chart | handicaps.System | None = system
+    if isinstance(system, handicaps.StepSystem):
+        system, doubts = _moved(system, asked.scale, first, season)
+        ladder, warnings = watched_ladder(asked, system)
+        error, scale = ladder.law(), system.scale
+        warnings += doubts
+        races = ladder.chart if asked.chart else None
+    else:
+        system, first = _reviewed(asked, system, first)
+        error, scale = league.errors_played(system), SCALES["fargo"]
+    warnings += [*first.warnings, *season.warnings]
     if asked.honest == "established":
         warnings += unrated_doubts(first.roster, season.results)
     if not asked.day_sd:
-        warnings += day_sd_doubts(season.results, system.scale)
-    if asked.chart is None:
+        warnings += day_sd_doubts(season.results, scale)
+    if races is None:
         season, assumed = with_even_races(season)
         warnings += assumed
     marked = events_marked(season.results, asked.dumps_in) if asked.dumps_in else None
-    nights = nights_of_files(system, first, season, chart=ladder.chart if asked.chart else None)
+    nights = nights_of_files(system, first, season, chart=races)
     watched = league.watch(
         nights,
         system,
-        ladder.law(),
+        error,
         alpha=asked.alpha,
         honest=asked.honest,
         marked=marked,
@@ -169,6 +181,20 @@ def watch(asked: SandbagWatch) -> Answer:
     if asked.player is not None:
         return sandbag_player_answer(watched[0], nights, season.results, warnings=warnings)
     return sandbag_watch_answer(watched, season.results, season.source, warnings=warnings)
+
+
+def _reviewed(
+    asked: SandbagWatch, system: handicaps.System, first: files.RosterFile
+) -> tuple[handicaps.System, files.RosterFile]:
+    """Return a system that looks at all results, and the list as it publishes it at the start."""
+    from evenbreak.handicaps.systems.night_table import listed
+
+    if asked.scale is not None and "scale" in asked.given:
+        asked.refuse("{scale} is for systems that move points by match; leave it out")
+    refuse_for_system(first, system)
+    if asked.chart is not None and not isinstance(system, handicaps.MarkovSystem):
+        system = system.on_chart(files.find_chart(asked.chart))
+    return system, replace(first, roster=listed(system, first.roster))
 
 
 def watched_ladder(

@@ -19,6 +19,7 @@ from .sandbag_pay import Sandbagging as Sandbagging
 from .sandbag_pay import entering_low as entering_low
 from .sandbag_pay import sandbagging as sandbagging
 from .sandbag_played import dumping_played as dumping_played
+from .sandbag_played import errors_played as errors_played
 from .sandbag_watch import PlayedNight as PlayedNight
 from .sandbag_watch import Watched as Watched
 from .sandbag_watch import played_nights as played_nights

@@ -21,6 +21,7 @@ from evenbreak.handicaps.ladders.level_ladder import Dumping
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.system import System, checked_races, updated
 from evenbreak.matches.win import race_win_probability
+from evenbreak.stats.summary import Distribution
 
 PLAYERS = 8
 """Players of each league: the one who may dump, and the opponents."""
@@ -92,6 +93,26 @@ def dumping_played(
             )
         )
     return rows
+
+
+def errors_played(
+    system: System, *, nights: int = 40, replicas: int = 200, seed: int = 1
+) -> Distribution:
+    """Return how far an established player's number is from their skill, in Fargo points, by play.
+
+    The player starts rightly rated, meets players of the same skill who stay so, and is looked at
+    in the second half of the nights.
+
+    >>> from evenbreak.handicaps import system_of
+    >>> round(errors_played(system_of("npl")).sd / 100 * 30, 1)  # a ladder has 4.6 in the long run
+    4.1
+    """
+    _, numbers = _play(system, 0, nights, replicas, seed_of(seed))
+    strengths = system.strength(np.array(numbers))
+    errors = np.rint(strengths[nights // 2 :] - strengths[0]).astype(np.int64)
+    values, counts = np.unique(errors, return_counts=True)
+    chances = counts / counts.sum()
+    return Distribution(tuple(values.tolist()), tuple(chances.tolist()))
 
 
 def _entries(system: System, replicas: int) -> Entries:

@@ -14,7 +14,7 @@ from evenbreak.checks import number, one_of
 from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
-from evenbreak.handicaps.systems.night_table import SeasonSoFar
+from evenbreak.handicaps.systems.night_table import SeasonSoFar, published
 from evenbreak.handicaps.systems.rating_changes import RatingChanges, apply_results, night_problems
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.sandbag_evidence import (
@@ -32,6 +32,7 @@ from evenbreak.league.sandbag_evidence import (
 )
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import SCALES
 from evenbreak.stats.summary import Distribution
 
 
@@ -106,7 +107,7 @@ class Watched:
 
 def watch(
     nights: Iterable[PlayedNight],
-    system: StepSystem,
+    system: System,
     error: Distribution,
     *,
     alpha: float = 0.01,
@@ -124,7 +125,8 @@ def watch(
     system
         the league's system.
     error
-        the distribution of rating errors (rating less skill), such as `Ladder(...).law()`.
+        the distribution of rating errors (rating less skill), such as `Ladder(...).law()`; on the
+        Fargo scale for a system that does not move points match by match (`errors_played`).
     alpha
         the largest chance that an honest player is ever flagged.
     honest
@@ -173,7 +175,9 @@ def watch(
     """
     number(alpha, "alpha", above=0.0, below=1.0)
     one_of(honest, "honest", HONEST)
-    number(day_sd, "day_sd", low=0.0, high=4.0 * system.scale.points_per_doubling)
+    by_match = isinstance(system, StepSystem)
+    scale = system.scale if isinstance(system, StepSystem) else SCALES["fargo"]
+    number(day_sd, "day_sd", low=0.0, high=4.0 * scale.points_per_doubling)
     tries: list[tuple[str | None, Bools | None]] = [(None, marked), *(tried or {}).items()]
     results: dict[int, list[Result]] = {}
     rows: dict[int, list[int]] = {}
@@ -181,22 +185,23 @@ def watch(
     names: tuple[str, ...] = ()
     for night in nights:
         names = night.changes.before.players
-        rating = night.changes.before.rating
+        before = night.changes.before
+        rating = before.rating if by_match else system.strength(published(system, before))
         for match in night.changes.matches:
             row = int(night.rows[match.row])
             sides = ((match.winner, match.loser, 1), (match.loser, match.winner, -1))
             for player, opponent, turn in sides:
-                start.setdefault(player, units(float(rating[player]), system.scale))
+                start.setdefault(player, units(float(rating[player]), scale))
                 rows.setdefault(player, []).append(row)
                 results.setdefault(player, []).append(
                     Result(
-                        units(float(rating[opponent]), system.scale),
+                        units(float(rating[opponent]), scale),
                         _turned(match.games, turn),
                         _turned(match.race, turn),
                         turn == 1,
                     )
                 )
-    likelihood = Likelihood(system.scale, error, day_sd)
+    likelihood = Likelihood(scale, error, day_sd)
     watched = []
     for player in sorted(results, key=lambda place: names[place]):
         try:

@@ -26,6 +26,7 @@ from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.history import Entries, History, Matches, column_of
 from evenbreak.handicaps.systems.system import System
+from evenbreak.ratings.scale import SCALES
 
 WIN = 10.0
 """The points of a game won."""
@@ -73,6 +74,10 @@ class Averages(System):
         number(self.correction, "correction", low=0.0, high=4.0)
         number(self.balls, "balls", low=0.0, high=7.0)
         number(self.newcomer, "newcomer", low=0.0, high=WIN)
+
+    def strength(self, numbers: Any) -> Floats:
+        """Return the strengths by the share of games won that averages stand for."""
+        return _strength((np.asarray(numbers, dtype=float) - self.balls) / (WIN - self.balls))
 
     def head_start(self, average_1: Any, average_2: Any) -> Any:
         """Return the points that the second player (or team of sums) gets each game (round)."""
@@ -131,6 +136,10 @@ class WinPercent(System):
         whole(self.window, "window", at_least=1, at_most=1000)
         whole(self.players, "players", at_least=1, at_most=100)
 
+    def strength(self, numbers: Any) -> Floats:
+        """Return the strengths by the share of games won."""
+        return _strength(np.asarray(numbers, dtype=float) / 100.0)
+
     def initial(self, entries: Entries) -> Floats:
         """Return 50 % for everyone whose rating is no percentage."""
         stated = (entries.rating >= 0.0) & (entries.rating <= 100.0)
@@ -152,6 +161,11 @@ class WinPercent(System):
         past = np.minimum(self.window - games, _games_behind(history, 100.0))
         percent = 100.0 * (won * share).sum(axis=0) + past * history.initial
         return np.where(games + past > 0, percent / np.maximum(games + past, 1.0), history.initial)
+
+
+def _strength(share: Floats) -> Floats:
+    """Return the Fargo points above the mean opponent at a share of games won."""
+    return np.asarray(SCALES["fargo"].difference(np.clip(share, 0.02, 0.98)), dtype=float)
 
 
 def _games_behind(history: History, highest: float) -> Floats:

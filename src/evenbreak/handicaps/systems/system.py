@@ -80,6 +80,32 @@ class System(ABC):
         a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
 
+    def strength(self, numbers: Any) -> Floats:
+        """Return what published numbers stand for, on the Fargo scale; differences matter only.
+
+        Raises
+        ------
+        InputError
+            if that is not known.
+
+        >>> from evenbreak.handicaps import system_of
+        >>> system_of("npl").strength([60.0, 90.0]).round().tolist()
+        [200.0, 300.0]
+        >>> system_of("tap-like").strength([3, 4]).round().tolist()
+        [94.0, 177.0]
+        """
+        from evenbreak.handicaps.charts.level_skills import level_skills
+
+        if self.publishes == "levels" and isinstance(self.chart, LevelChart):
+            return level_skills(self.chart).strength(numbers)
+        if self.scale is None:
+            raise InputError(
+                "the numbers of the system {name} have no scale, so it is not known how strong "
+                "anyone is by them; give a system with a scale or levels",
+                name=self.name,
+            )
+        return np.asarray(numbers, dtype=float) * (100.0 / self.scale.points_per_doubling)
+
     def on_chart(self, chart: Any) -> System:
         """Return the same system with races by another chart.
 
