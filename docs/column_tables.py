@@ -37,6 +37,7 @@ SCHEMAS = {
     "states": chain_files.STATES,
     "drill log": practice.DRILL_LOG,
     "scores": practice.SCORES,
+    "shots": practice.SHOTS,
     "roster": roster.ROSTER,
     "saved ratings": saved_ratings.OF_PRIOR,
     "season": roster.OF_SEASON,

@@ -79,6 +79,7 @@ ASKED = {
     "drill_log": "drill --log data/drill_log.csv",
     "practice": "practice data/practice_scores.csv",
     "practice_new": "practice data/practice_scores.csv --new 53",
+    "practice_shots": "practice data/practice_shots.csv",
     "practice_versus": "practice data/practice_scores.csv --versus data/practice_scores_after.csv",
     "runs": "runs --mean 24 --at-least 100 --over 20",
     "runs_innings": "runs --p 0.96 --safety 0.8 --innings 5 --between 50..100",

@@ -1,10 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.patches import Rectangle
 from scipy.stats import linregress, t
 
 from evenbreak.answers.practice.practice import getting_better_answer, trend_line_of
-from evenbreak.files.practice import ScoresFile
+from evenbreak.files.practice import ScoresFile, read_practice
 from evenbreak.games import Drill
 from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
 from evenbreak.plots.practice import (
@@ -12,11 +14,13 @@ from evenbreak.plots.practice import (
     draw_log,
     draw_score,
     draw_scores,
+    draw_shots,
     draw_spot,
     draw_two_lists,
 )
-from evenbreak.practice import DrillLog, analyse_log, drill_statistics
+from evenbreak.practice import DrillLog, analyse_log, analyse_shots, drill_statistics
 from evenbreak.stats import InningsScore, RunLength, mean_interval
+from places import DATA
 
 SCORES = np.array([50.0, 44.0, 46.0, 52.0])
 DAYS = np.array(["2024-09-03", "2024-09-10", "2024-09-17", "2024-09-24"], "M8[D]")
@@ -162,3 +166,16 @@ def test_a_pair_of_bars_for_each_level_told_apart_without_colour():
 def test_many_levels_have_no_crowd_of_ticks():
     axes = draw_drill(drill_statistics(Drill.progressive(0.9, 60)))
     assert len(axes.get_xticks()) < 20
+
+
+def test_a_log_of_shots_is_drawn_with_the_halves_that_its_text_states():
+    file = read_practice(DATA / "practice_shots.csv")
+    found = analyse_shots(file.log)
+    axes = draw_shots(file, found)
+    texts = [text.get_text() for text in axes.figure.legends[0].get_texts()]
+    assert texts[-2:] == ["before 2024-10-01: 50%", "since 2024-10-01: 62%"]
+    halves = {float(line.get_ydata()[0]) for line in axes.lines if len(line.get_ydata()) == 2}
+    assert halves == {found.change.before, found.change.after}
+    undated = file._replace(log=replace(file.log, day=None))
+    axes = draw_shots(undated, analyse_shots(undated.log))
+    assert len(axes.get_xticklabels()) == 5

@@ -11,9 +11,10 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.errors import DataError
 from evenbreak.questions.practice import EIGHT_BALL_LEVELS, DrillPlayed, Runs, Scores
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
-    from evenbreak.files.practice import ScoresFile
+    from evenbreak.files.practice import ScoresFile, ShotsFile
 
 NINE_BALL_LEVELS = 9
 
@@ -69,12 +70,32 @@ def _drill_log(asked: DrillPlayed, path: str) -> Answer:
 @command_of(Scores, "practice")
 def scores(asked: Scores) -> Answer:
     """Find out whether you are getting better."""
-    from evenbreak.files.practice import read_scores
+    from evenbreak.files.practice import ShotsFile, read_practice, read_scores
 
-    file = read_scores(asked.scores, drill=asked.drill, dates=asked.dates)
+    file = read_practice(asked.scores, drill=asked.drill, dates=asked.dates)
+    if isinstance(file, ShotsFile):
+        return _shots(asked, file)
     if asked.versus is None:
         return _one_list(asked, file)
     return _versus(asked, file, read_scores(asked.versus, drill=asked.drill, dates=asked.dates))
+
+
+def _shots(asked: Scores, file: ShotsFile) -> Answer:
+    from evenbreak.answers.practice.shots import shots_answer
+
+    for name in ("new", "versus"):
+        if getattr(asked, name) is not None:
+            asked.refuse(
+                "{part} is for scores, and {source} is a log of single shots; leave it out",
+                part=Parameter(name),
+                source=file.source,
+            )
+    found = practice.analyse_shots(file.log, confidence=asked.confidence)
+    if asked.plot is not None:
+        from evenbreak.plots.practice import draw_shots
+
+        write_plot(draw_shots(file, found, confidence=asked.confidence), asked.plot)
+    return shots_answer(file, found, confidence=asked.confidence)
 
 
 def _one_list(asked: Scores, file: ScoresFile) -> Answer:

@@ -23,6 +23,7 @@ DEMO: Mapping[str, str] = {
     "drill_log.csv": "a player's attempts at a progressive drill",
     "practice_scores.csv": "practice scores before a change",
     "practice_scores_after.csv": "practice scores after it",
+    "practice_shots.csv": "practice of single shots",
 }
 """The files of the demo: what each holds."""
 

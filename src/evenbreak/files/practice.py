@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.tables.dates import DateOrder, Day
+from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.problems import quoted, warning
 from evenbreak.files.tables.schema import Number, Schema, Text, Whole, YesNo
 from evenbreak.files.tables.table import TextTable
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
+from evenbreak.practice.single_shots import ShotLog
 from evenbreak.ratings.results_frame import letters
 from evenbreak.stats.confidence import LARGEST
 from evenbreak.words import Parameter, joined, say, say_count
@@ -67,6 +69,21 @@ SCORES = Schema(
     date=Day(_DAY, "the day of the score"),
     drill=_DRILL,
 )
+
+SHOTS = Schema(
+    "shots",
+    made=Whole("makes, potted, in", "how often it was made", needed=True, filled=True),
+    tried=Whole(
+        "tries, attempts, attempted, of",
+        "how often it was tried",
+        needed=True,
+        filled=True,
+        least=1,
+    ),
+    shot=Text("name, exercise, shot name", "which shot; without it all rows are of one"),
+    date=Day(_DAY, "the day"),
+)
+"""A log of single shots: a row for each shot of each day."""
 
 NAMED = 6
 """How many drills a message names."""
@@ -244,6 +261,80 @@ class ScoresFile(NamedTuple):
     warnings: tuple[str, ...]
 
 
+class ShotsFile(NamedTuple):
+    """The log of single shots in a file, what the file is called, and what to check in it."""
+
+    log: ShotLog
+    source: str
+    warnings: tuple[str, ...]
+
+
+def read_practice(
+    path: str | Path, *, drill: str | None = None, dates: DateOrder | None = None
+) -> ScoresFile | ShotsFile:
+    r"""Read practice scores, or a log of single shots with the columns made and tried.
+
+    Parameters
+    ----------
+        path, drill, dates
+            as for `read_scores`; a log of shots has no drills.
+
+    Raises
+    ------
+        DataError
+            with all problems of the file.
+
+        >>> import tempfile, pathlib
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder) / "shots.csv"
+        ...     _ = path.write_text("date,shot,made,tried
+    2025-01-03,cut,6,10
+    2025-01-03,bank,2,10
+    ")
+        ...     file = read_practice(path)
+        >>> file.log.names, file.log.made
+        (('cut', 'bank'), array([6, 2]))
+    """
+    columns = [
+        schema.but(
+            **{name: {"needed": False} for name, one in schema.columns.items() if one.needed}
+        )
+        for schema in (SHOTS.but(date={"order": dates}), SCORES.but(date={"order": dates}))
+    ]
+    table = (columns[1] | columns[0]).text(path)
+    if "score" in table or not {"made", "tried"} <= table.found:
+        if "score" not in table:
+            table.problems.add(None, missing_column("score", SCORES["score"].aliases))
+        return _scores(columns[1].of(table), drill)
+    return _shots(columns[0].of(table), drill)
+
+
+def _shots(table: TextTable, drill: str | None) -> ShotsFile:
+    if drill is not None:
+        table.problems.add(
+            None,
+            "is a log of single shots, which has no drills; leave {drill} out",
+            drill=Parameter("drill"),
+        )
+    made, tried = table["made"], table["tried"]
+    good = table.read["made"].good & table.read["tried"].good
+    table.note(
+        good & (made > tried), "made {made} of {tried}; correct one of them", made=made, tried=tried
+    )
+    cells = table.cells("shot")
+    names: dict[str, str] = {}
+    for text in cells:
+        names.setdefault(letters(text) or text, text)
+    table.problems.raise_any()
+    places = {key: place for place, key in enumerate(names)}
+    shot = np.array([places[letters(text) or text] for text in cells], dtype=np.int64)
+    days = table["date"]
+    undated = np.flatnonzero(np.isnat(days))
+    log = ShotLog(tuple(names.values()), shot, made, tried, None if undated.size else days)
+    more = _undated(table, undated, len(cells)) if undated.size else []
+    return ShotsFile(log, table.source, (*table.warnings, *more))
+
+
 def read_scores(
     path: str | Path, *, drill: str | None = None, dates: DateOrder | None = None
 ) -> ScoresFile:
@@ -272,7 +363,11 @@ def read_scores(
     >>> file.scores, str(file.dates[0])
     (array([50. , 44.5]), '2024-09-03')
     """
-    table = SCORES.but(date={"order": dates}).read(path)
+    return _scores(SCORES.but(date={"order": dates}).read(path), drill)
+
+
+def _scores(table: TextTable, drill: str | None) -> ScoresFile:
+    """Return the scores in a table, or raise all the problems found in it."""
     scores, days = table["score"], table["date"]
     rows = rows_of_drill(table, drill)
     table.problems.raise_any()

@@ -10,12 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
+from scipy.stats import beta
 
-from evenbreak.files.practice import ScoresFile
+from evenbreak.files.practice import ScoresFile, ShotsFile
 from evenbreak.matches.straight_pool import StraightPool, even_spot, straight_pool_odds
 from evenbreak.plots.picture import LINES, figure_of, in_our_look, legend_below, new_axes
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.log_analysis import LogAnalysis
+from evenbreak.practice.single_shots import ShotAnalysis
 from evenbreak.stats.confidence import MeanInterval
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
@@ -54,7 +56,7 @@ def draw_scores(
         the axes to draw on; None: those of a new figure.
 
     >>> import numpy as np
-    >>> from evenbreak.files.practice import ScoresFile
+    >>> from evenbreak.files.practice import ScoresFile, ShotsFile
     >>> axes = draw_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
     >>> [text.get_text() for text in axes.figure.legends[0].get_texts()]
     ['scores', 'mean 47.00']
@@ -87,6 +89,58 @@ def draw_scores(
     if new is not None:
         label = f"new score {new:g}"
         axes.plot(np.array([later]), [new], "D", color=LINES[2].color, markersize=8, label=label)
+    legend_below(axes, ax)
+    return axes
+
+
+@in_our_look
+def draw_shots(
+    file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.95, ax: Axes | None = None
+) -> Axes:
+    """Draw the share of single shots made on each day, and in the earlier and the later half.
+
+    Parameters
+    ----------
+    file
+        the log; without dates each shot is drawn in place of each day.
+    found
+        what it says.
+    confidence
+        of the intervals of the days.
+    ax
+        the axes to draw on; None: those of a new figure.
+    """
+    log, title = file.log, f"Practice shots of {Path(file.source).name}"
+    axes = new_axes("shot" if log.day is None else "date", "share made", title=title, ax=ax)
+    share = f"{100 * confidence:g}% interval"
+    if log.day is None:
+        at = np.arange(len(found.shots))
+        lows, shares, highs = (
+            np.array([getattr(one, name) for one in found.shots])
+            for name in ("low", "chance", "high")
+        )
+        axes.vlines(at, lows, highs, color="0.6", label=share)
+        axes.plot(at, shares, "o", color=LINES[0].color, label="chance")
+        axes.set_xticks(at, [one.name for one in found.shots], rotation=30, ha="right")
+    else:
+        days, place = np.unique(log.day, return_inverse=True)
+        made, tried = (np.bincount(place, each) for each in (log.made, log.tried))
+        tail = (1.0 - confidence) / 2.0
+        lows = np.where(made > 0, beta.ppf(tail, np.maximum(made, 1), tried - made + 1), 0.0)
+        highs = np.where(made < tried, beta.isf(tail, made + 1, np.maximum(tried - made, 1)), 1.0)
+        axes.vlines(days, lows, highs, color="0.7", label=f"{share} of a day")
+        axes.plot(days, made / tried, "o", color=LINES[0].color, label="made on a day")
+        if found.change is not None:
+            last = np.array([days[days < found.since].max(), days.max()])
+            ends = zip((days.min(), found.since), last, strict=True)
+            halves = (found.change.before, found.change.after)
+            for (begin, end), level, line in zip(ends, halves, LINES[1:], strict=False):
+                name = "since" if begin == found.since else "before"
+                label = f"{name} {found.since}: {100 * level:.0f}%"
+                axes.plot([begin, end], [level, level], **line._asdict(), label=label)
+        if ax is None:
+            figure_of(axes).autofmt_xdate()
+    axes.set_ylim(-0.02, 1.02)
     legend_below(axes, ax)
     return axes
 

@@ -19,3 +19,9 @@ from .shots import compare_shots as compare_shots
 from .shots import critical_p2 as critical_p2
 from .shots import look_ahead_win as look_ahead_win
 from .shots import one_ball_win as one_ball_win
+from .single_shots import Change as Change
+from .single_shots import ShotAnalysis as ShotAnalysis
+from .single_shots import ShotLog as ShotLog
+from .single_shots import ShotReport as ShotReport
+from .single_shots import analyse_shots as analyse_shots
+from .single_shots import change_of as change_of

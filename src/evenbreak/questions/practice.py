@@ -124,14 +124,16 @@ class DrillPlayed(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Scores(Question):
-    """Find out from the scores of a drill whether you are getting better.
+    """Find out from your practice whether you are getting better, and what to practice next.
 
-    With {new}: was one more score luck? With {versus}: did something help? SCORES.csv has a column
-    score and, if known, the columns date and drill; - reads standard input.
+    SCORES.csv has a column score, a row for each score of a drill, or the columns shot, made and
+    tried, a row for each shot of a day; and the date, if known. With {new}: was one more score
+    luck? With {versus}: did something help? - reads standard input.
     """
 
     examples = """\
   evenbreak practice scores.csv
+  evenbreak practice shots.csv --plot shots.png
   evenbreak practice scores.csv --new 53 --confidence 0.8
   evenbreak practice before.csv --versus after.csv --plot scores.png
 """

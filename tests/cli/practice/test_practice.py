@@ -220,3 +220,53 @@ def test_a_drill_that_the_file_does_not_settle_is_refused(run, text, named):
 
 def test_one_drill_needs_no_option(practice):
     assert practice("-", stdin="drill,score\nLine,4\nLine,6\n")["mean"] == 5
+
+
+SHOTS = str(DATA / "practice_shots.csv")
+
+
+def test_a_log_of_shots_says_what_to_practice_and_whether_it_got_better(practice):
+    told = practice(SHOTS)
+    assert [row["shot"] for row in told["shots"]][:2] == ["jump", "bank"]
+    assert told["since"] == "2024-10-01"
+    assert 1.0 < told["odds_ratio_low"] < told["odds_ratio"] < told["odds_ratio_high"]
+    assert f"made {told['made_before']:.0%}, since then {told['made_after']:.0%}" in " ".join(
+        told["sentences"]
+    )
+    jump = told["shots"][0]
+    assert 1 / 8 < jump["chance"] < 0.5  # drawn towards the others
+    assert jump["share_before"] is None
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ("shot,made,tried\ncut,6,10\nbank,2,10", "Give every row a date"),
+        ("made,tried\n6,10", "Give every row a date"),
+        ("date,made,tried\n2025-01-01,6,10\n2025-01-02,6,10", "No sign of a change"),
+        ("date,shot,made,tried\n2025-01-01,a,6,10\n2025-01-02,b,6,10", "both halves"),
+        ("shot,made,tried\na,50,100\nb,50,100\nc,52,100", "too close to tell"),
+        ("date,made,tried\n2025-01-01,9,20\n2025-02-02,1,20", "You got worse"),
+        ("date,made,tried\n2025-01-01,9,20\n2025-02-02,20,20", "by more than 4.17"),
+        ("date,made,tried\n2025-01-01,20,20\n2025-02-02,9,20", "by less than 0.2"),
+        ("date,made,tried\n2025-01-01,20,20\n2025-02-02,20,20", "No sign of a change"),
+    ],
+)
+def test_what_a_log_of_shots_cannot_show(practice, rows, words):
+    assert words in " ".join(practice("-", stdin=rows)["sentences"])
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "words"),
+    [
+        ("shot,made,tried\ncut,11,10", (), "stdin:2: made 11 of 10"),
+        ("shot,made,tried\ncut,1,0", (), "tried"),
+        ("shot,made\ncut,1", (), "score"),
+        ("shot,made,tried\ncut,1,2", ("--new", "5"), "--new is for scores"),
+        ("shot,made,tried\ncut,1,2", ("--drill", "x"), "leave --drill out"),
+    ],
+)
+def test_a_wrong_log_of_shots_is_refused(run, rows, more, words):
+    result = run("practice", "-", *more, stdin=rows)
+    assert result.exit_code in (2, 3)
+    assert words in result.stderr

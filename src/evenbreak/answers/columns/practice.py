@@ -28,6 +28,20 @@ PRACTICE = registry(
     number("sd_level", "standard deviation", 3, "sd"),
     number("mean_so_far", "average level so far", 2),
     number("mean_in_long_run", "average level in the long run", 2, "mean"),
+    text("shot", "shot"),
+    number("made", "made"),
+    number("tried", "tried"),
+    number("chance_shot", "chance", chance, "chance"),
+    number("chance_low", "between", 2),
+    number("chance_high", "and", 2),
+    number("p_weakest", "weakest", 2),
+    number("share_before", "before", 2),
+    number("share_after", "since", 2),
+    detail("p_change", "change\nby luck", chance),
+    number("made_before", "made before, at the same mix of shots", chance),
+    number("made_after", "made since", chance),
+    detail("odds_ratio", "odds of making a shot, times", 2),
+    detail("p_of_change", "chance of such a change by luck", chance),
     number("n", None),
     number("mean", "average", 2),
     detail("sd", "standard deviation", 2),
@@ -69,7 +83,7 @@ PRACTICE = registry(
     number("p_over", "{range}", chance),
     number("p_not_over", "not over: {losing} or fewer", chance),
     files_only="n_before n_after confidence low high g_low g_high low_normal high_normal slope_low "
-    "slope_high mean_low mean_high innings",
+    "slope_high mean_low mean_high innings since odds_ratio_low odds_ratio_high",
 )
 
 PHYSICS = registry(

@@ -1,0 +1,130 @@
+"""A log of single shots: which to practice next, and whether the player got better."""
+
+import math
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import columns_of, quantities_of
+from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.wording import count_of, how_often, luck_words, percent
+from evenbreak.answers.practice.practice import LUCK
+from evenbreak.files.practice import ShotsFile
+from evenbreak.practice.single_shots import Change, ShotAnalysis
+
+_CLEAR = 0.5
+"""From this chance on a shot is the weakest; below, some are too close to tell."""
+
+
+def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.95) -> Answer:
+    """Return which shot to practice next, and whether the player got better.
+
+    Parameters
+    ----------
+    file
+        the log.
+    found
+        what it says.
+    confidence
+        of the intervals.
+
+    >>> import numpy as np
+    >>> from evenbreak.practice import ShotLog, analyse_shots
+    >>> days = np.array(["2025-01-03", "2025-02-03"], dtype="M8[D]")
+    >>> log = ShotLog(("cut", "bank"), [0, 1, 0, 1], [12, 4, 15, 5], [20] * 4, days.repeat(2))
+    >>> print(shots_answer(ShotsFile(log, "shots.csv", ()), analyse_shots(log)).sentences[0])
+    Practice bank next: you make it 25% of the time, and it is more than 99% sure to be your weakest
+    shot.
+    """
+    log, since = file.log, None if found.since is None else str(found.since)
+    made, tried = int(log.made.sum()), int(log.tried.sum())
+    parts: list[Part] = [*([_next_words(found)] if len(log.names) > 1 else [])]
+    parts.append(_better_words(found, since))
+    change = found.change
+    values = {
+        "made_before": change and change.before,
+        "made_after": change and change.after,
+        "odds_ratio": change and _finite(change.ratio),
+        "odds_ratio_low": change and change.low,
+        "odds_ratio_high": change and _finite(change.high),
+        "p_of_change": change and change.p_value,
+        "since": since,
+    }
+    table = _table(found)
+    days = "" if log.day is None else f", {log.day.min()} to {log.day.max()}"
+    return Answer(
+        f"{count_of(len(log.names), 'shot')}, made {made:,} of {tried:,} in {file.source}{days}",
+        [*parts, Quantities(quantities_of(values)), table],
+        details=[
+            f"'Between' and 'and' are the exact {100 * confidence:g}% interval of a shot by its "
+            "own tries. The chance is drawn towards those of your other shots, the more the fewer "
+            "tries there are; how far is estimated from all of them. 'Weakest' is the probability "
+            "that it is the shot you miss most.",
+            "Before and since are the earlier and the later half of your tries. The change of all "
+            "shots together is tested exactly, shot by shot. With many shots, one or another "
+            "changes by luck: do not pick the one with the smallest number.",
+        ],
+        warnings=file.warnings,
+        csv=table,
+    )
+
+
+def _next_words(found: ShotAnalysis) -> str:
+    first, second = found.shots[:2]
+    if first.p_weakest >= _CLEAR:
+        sure = "more than 99%" if first.p_weakest > 0.99 else percent(first.p_weakest)
+        return (
+            f"Practice {first.name} next: you make it {percent(first.chance)} of the time, and it "
+            f"is {sure} sure to be your weakest shot."
+        )
+    return (
+        f"Practice {first.name} or {second.name} next: you make them {percent(first.chance)} and "
+        f"{percent(second.chance)} of the time, and which shot is your weakest is too close to "
+        f"tell ({percent(first.p_weakest)} and {percent(second.p_weakest)} likely)."
+    )
+
+
+def _better_words(found: ShotAnalysis, since: str | None) -> str:
+    if since is None:
+        return "Give every row a date, of two days or more, to see whether you are getting better."
+    change = found.change
+    if change is None:
+        return "No shot was tried in both halves, so the log cannot show whether you got better."
+    seen = f"before {since} you made {percent(change.before)}, since then {percent(change.after)}"
+    same = ", at the same mix of shots" if len(found.shots) > 1 else ""
+    if change.p_value >= LUCK:
+        return (
+            f"No sign of a change: {seen}{same}, but luck alone changes as much "
+            f"{how_often(change.p_value)}."
+        )
+    got = "better" if change.ratio > 1.0 else "worse"
+    return (
+        f"You got {got}: {seen}{same}; {luck_words(change.p_value)}. The odds of making a shot "
+        f"were multiplied by {_times(change)}."
+    )
+
+
+def _times(change: Change) -> str:
+    if math.isinf(change.ratio):
+        return f"more than {change.low:.2f}"
+    if change.ratio == 0.0:
+        return f"less than {change.high:.2f}"
+    return f"{change.ratio:.2f} (between {change.low:.2f} and {change.high:.2f})"
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _table(found: ShotAnalysis) -> Table:
+    columns = columns_of(
+        "shot made tried chance_shot chance_low chance_high p_weakest share_before share_after "
+        "p_change"
+    )
+    rows = []
+    for one in found.shots:
+        change = one.change
+        later = (None,) * 3 if change is None else (change.before, change.after, change.p_value)
+        name = one.name or "shot"
+        rows.append(
+            [name, one.made, one.tried, one.chance, one.low, one.high, one.p_weakest, *later]
+        )
+    return Table("shots", columns, rows)
