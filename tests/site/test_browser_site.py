@@ -91,7 +91,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     league = published(by_player={"Bo Diaz": "initials"})
     tournament = tournament_of("fall-open", night(8, "double", 99), league.names)
     assert tournament is not None
-    fixtures = [Fixture("2025-09-23", "19:00", "Ann Lee", "José Álvarez")]
+    fixtures = [Fixture("2025-09-23", "Corner, table 2", "Ann Lee", "José Álvarez")]
     write_files(folder, site_files(league, [tournament], fixtures))
     return folder
 

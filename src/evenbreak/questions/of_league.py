@@ -49,6 +49,9 @@ KEYS: Mapping[str, str] = {
     "fee": "prices.entry",
     "title": "name",
     "paper": "paper",
+    "names": "publish.names",
+    "color": "publish.color",
+    "logo": "publish.logo",
 }
 """The key of the file that is the default of a field, those first that others need."""
 

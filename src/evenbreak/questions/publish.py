@@ -8,9 +8,11 @@ from typing import Annotated, Literal
 from evenbreak.fields.kinds import File, Named
 from evenbreak.fields.question import Field, Says
 from evenbreak.files.league import values
-from evenbreak.questions.common import NPL, ChartName, Lengths, OnScale, OutFolder, folder
+from evenbreak.league.tables.rules import USUAL_RULES
+from evenbreak.questions.common import ChartName, EvenRace, Lengths, OutFolder, ScaleOf, folder
 from evenbreak.questions.ratings import title_in
 from evenbreak.questions.results import ROSTER, Results
+from evenbreak.questions.tables import TablePoints, Ties
 
 _LOOK = "The look"
 
@@ -21,18 +23,24 @@ class Publish(Results, Lengths):
 
     RESULTS.csv is what `evenbreak report` reads; several files are read as one. The site is a
     folder of plain files, for any web host, a memory stick or a phone: it fetches nothing from
-    elsewhere, and works without a server. Files that an earlier run made and that are no longer
+    elsewhere, and works without a server. In a league's folder its league.toml gives what is left
+    out, and how single players are named. Files that an earlier run made and that are no longer
     needed are removed. The same results give the same bytes.
     """
 
     examples = """\
+  evenbreak publish
   evenbreak publish season.csv --title "Tuesday league"
   evenbreak publish season.csv --scale fargo --race-to 9 --out public
   evenbreak publish season.csv --names initials --color "#1b6e53" --logo logo.png
   evenbreak publish season.csv --chart apa_8ball --tournaments nights
 """
     out: Annotated[OutFolder, Says("The folder of the site; created if needed.")] = "site"
-    scale: OnScale = NPL
+    scale: Annotated[
+        ScaleOf,
+        Says(usual="that of {roster} or the chart; else npl, and fargo for skill levels", more=""),
+    ] = None
+    race: EvenRace = None
     chart: Annotated[
         ChartName,
         Says(
@@ -47,6 +55,14 @@ class Publish(Results, Lengths):
         ROSTER,
         Says("The league's own list of ratings or levels, by which races are set."),
     ] = None
+    schedule: Annotated[
+        str | None,
+        Field(
+            File("FIXTURES.csv"),
+            "Who plays whom, as `evenbreak league fixtures` writes it; the site has the matches "
+            "after the last result.",
+        ),
+    ] = None
     tournaments: Annotated[
         str | None,
         Field(
@@ -55,6 +71,8 @@ class Publish(Results, Lengths):
             "that are over are shown with their brackets.",
         ),
     ] = None
+    table_points: TablePoints = USUAL_RULES
+    ties: Ties = USUAL_RULES.ties
     title: Annotated[str, Field(Named(title_in, "TEXT"), "The league's name.", section=_LOOK)] = (
         "League"
     )
@@ -82,6 +100,6 @@ class Publish(Results, Lengths):
     def check(self) -> None:
         """Refuse two ways to set races."""
         super().check()
-        lengths = [name for name in ("games", "race_to") if name in self.given]
-        if self.chart is not None and lengths:
-            self.refuse(f"{{chart}} and {{{lengths[0]}}} cannot be combined; leave one out")
+        ways = [name for name in ("chart", "race", "games", "race_to") if name in self.given]
+        if len(ways) > 1:
+            self.refuse(f"{{{ways[0]}}} and {{{ways[1]}}} cannot be combined; leave one out")

@@ -19,9 +19,9 @@ from evenbreak import __version__
 from evenbreak.answers.kit.scales import like_scale_words
 from evenbreak.answers.league.rate import unlinked_words
 from evenbreak.answers.league.roster_matchups import OfferedRaces
+from evenbreak.answers.league.standings import rules_words
 from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.league.tables.rules import TableRules
 from evenbreak.league.tables.table import LeagueTable
 from evenbreak.sheets.bracket_page import drawn_panel
 from evenbreak.sheets.html_page import environment, own_file, policy
@@ -31,7 +31,7 @@ from evenbreak.site.league import RECENT, PublishedLeague
 from evenbreak.site.names import PublicNames, file_names
 from evenbreak.site.pictures import short_day
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.words import joined, ordinal
+from evenbreak.words import ordinal
 
 ROOM = "evenbreak.site"
 MOST_BYTES = 60_000
@@ -62,10 +62,10 @@ class Tournament(NamedTuple):
 
 
 class Fixture(NamedTuple):
-    """A match that is to be played: its day, its time or table, and the players."""
+    """A match that is to be played: its day ('' where not known), where, and between whom."""
 
     day: str
-    when: str
+    where: str
     a: str
     b: str
 
@@ -79,6 +79,8 @@ def site_files(
     maker = _Pages(league, tournaments, fixtures)
     written = {"index.html": maker.standings(), "ratings.html": maker.ratings()}
     written |= {"races.html": maker.races(), "season.html": maker.season()}
+    if fixtures:
+        written["fixtures.html"] = maker.fixture_list()
     if tournaments:
         written["tournaments.html"] = maker.tournaments()
         written |= {one.file: maker.tournament(one) for one in tournaments}
@@ -142,6 +144,7 @@ class _Pages:
             ("index.html", "Standings"),
             ("ratings.html", "Ratings"),
             ("races.html", "Races"),
+            *([("fixtures.html", "Fixtures")] if fixtures else []),
             ("season.html", "Season"),
             *([("tournaments.html", "Tournaments")] if tournaments else []),
         ]
@@ -185,7 +188,7 @@ class _Pages:
             here="index.html",
             two=True,
             tables=[self._table(*one) for one in tables],
-            rule=_rule_words(league.rules),
+            rule=_sentence(rules_words(league.rules, sets=False)),
             last=self._last_night(),
         )
 
@@ -256,24 +259,39 @@ class _Pages:
         )
 
     def _tonight(self) -> dict[str, Any] | None:
-        days = sorted({one.day for one in self.fixtures})
-        if not days:
+        """Return the races of the next night, where its players are known."""
+        days = sorted({one.day for one in self.fixtures if one.day})
+        rows = [self._to_play(one) for one in self.fixtures if days and one.day == days[0]]
+        if not any(row["race"] for row in rows):
             return None
-        rows = []
+        title = f"Races on {short_day(days[0], year=True)}"
+        return {"title": title, "rows": rows, "placed": any(row["where"] for row in rows)}
+
+    def _to_play(self, one: Fixture) -> dict[str, str]:
+        race = self.league.races.by_pair.get((one.a, one.b))
+        return {
+            "where": one.where,
+            "a": one.a,
+            "b": one.b,
+            "race": f"{race[0]}-{race[1]}" if race else "",
+            "chance": _percent(race[2]) if race else "",
+        }
+
+    def fixture_list(self) -> bytes:
+        """Return the page of fixtures, night by night."""
+        days: dict[str, list[dict[str, str]]] = {}
         for one in self.fixtures:
-            race = self.league.races.by_pair.get((one.a, one.b))
-            if one.day == days[0]:
-                rows.append(
-                    {
-                        "when": one.when,
-                        "a": one.a,
-                        "b": one.b,
-                        "race": f"{race[0]}-{race[1]}" if race else "",
-                        "chance": _percent(race[2]) if race else "",
-                    }
-                )
-        title = f"Races on {short_day(days[0], year=True)}" if days[0] else "Tonight's races"
-        return {"title": title, "rows": rows, "timed": any(row["when"] for row in rows)}
+            days.setdefault(one.day, []).append(self._to_play(one))
+        nights = [
+            {
+                "title": short_day(day, year=True) or "No date yet",
+                "rows": rows,
+                "placed": any(row["where"] for row in rows),
+                "raced": any(row["race"] for row in rows),
+            }
+            for day, rows in sorted(days.items(), key=lambda item: (not item[0], item[0]))
+        ]
+        return self._page("fixtures.html", "Fixtures", here="fixtures.html", nights=nights)
 
     def season(self) -> bytes:
         """Return the season in pictures."""
@@ -433,6 +451,10 @@ def _decided_late(league: PublishedLeague) -> str:
     return f"{100 * float((games == needed).mean()):.0f}%"
 
 
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."
+
+
 def _percent(p: float) -> str:
     """Return a chance, '' where it is not known."""
     return "" if math.isnan(p) else f"{100 * p:.0f}%"
@@ -451,31 +473,6 @@ def signed(points: float, decimals: int) -> str:
 
 def _arrow(change: Any, decimals: int) -> str:
     return "new" if change is None or change != change else signed(float(change), decimals)
-
-
-_TIES = {
-    "difference": "games won less games lost",
-    "scored": "games won",
-    "wins": "matches won",
-    "head-to-head": "the matches against each other",
-    "win-share": "the share of matches won",
-    "forfeits": "fewer forfeits",
-    "points": "points",
-}
-"""What decides in a table, by the name of its rule."""
-
-
-def _rule_words(rules: TableRules) -> str:
-    """Return how a table is made, in a sentence."""
-    first, *then = [_TIES[rule] for rule in rules.ladder]
-    decided = f"Ranked by {first}" + (f", then by {joined(then, ', then ')}." if then else ".")
-    if rules.split:
-        return f"Points are split as in the APA. {decided}"
-    a_set = f", and {rules.a_set:g} for each game won" if rules.a_set else ""
-    return (
-        f"{rules.win:g} points for a win, {rules.draw:g} for a draw and {rules.loss:g} for a "
-        f"loss{a_set}. {decided}"
-    )
 
 
 @cache

@@ -55,6 +55,8 @@ class LeagueRaces:
         """How a race is found, in a sentence."""
         if isinstance(self.rule, OfferedRaces):
             return self.rule.in_words
+        if isinstance(self.rule, Chart) and len(self.rule.rows) == 1:
+            return f"Every race is to {self.rule.rows[0].stronger_needs} for both players."
         if isinstance(self.rule, PointsChart):
             return f"The chart {self.rule.name} gives the points that each skill level needs."
         by = "any two skill levels" if self.skills is not None else "each difference in ratings"

@@ -3,33 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import click
 
 from evenbreak import answers, files
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.errors import DataError
 from evenbreak.questions.publish import Publish
 
 if TYPE_CHECKING:
+    from evenbreak.files.league.league_file import LeagueFile
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
     from evenbreak.ratings.roster import Roster
+    from evenbreak.ratings.scale import Scale
     from evenbreak.site.league import PublishedLeague
     from evenbreak.site.names import PublicNames
-    from evenbreak.site.pages import Tournament
+    from evenbreak.site.pages import Fixture, Tournament
     from evenbreak.site.races import LeagueRaces
 
 
 @command_of(Publish, "publish", page=False, always_text=True)
 def command(asked: Publish) -> Answer:
     """Publish a league."""
+    from evenbreak.files.charts import find_chart_file
     from evenbreak.files.store.folder import check_folder
     from evenbreak.ratings.usual import usual_ratings
     from evenbreak.site.league import PublishedLeague
@@ -38,32 +45,70 @@ def command(asked: Publish) -> Answer:
     from evenbreak.site.pages import site_files
 
     check_folder(asked.out)
-    file = files.read_seasons(asked.results, **asked.reading)
+    file = files.read_seasons(asked.results, **asked.reading, unplayed=True)
     listed = None if asked.roster is None else files.read_roster(asked.roster)
     everyone = by_appearance(file.results)
     everyone += sorted(set(listed.roster.players if listed else ()) - {*everyone})
-    names = PublicNames.of(everyone, asked.names)
+    chosen, where = _by_player(league_in(click.get_current_context()))
+    names = PublicNames.of(everyone, asked.names, chosen, where=where)
     results = names.results(file.results)
+    chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
+    scale = _scale(asked, chart, listed)
     say(f"Rating {len(results.players):,} players")
     with Progress("steps") as progress:
-        ratings, _ = usual_ratings(results, scale=asked.scale, progress=progress)
+        ratings, _ = usual_ratings(results, scale=scale, progress=progress)
     if not ratings.matches:
         raise DataError([f"{file.source}: no match in it was played; add matches with games"])
-    color = accent(asked.color or USUAL)
     league = PublishedLeague(
         asked.title,
         results,
         ratings,
-        _races(asked, ratings, results, names, listed),
+        _races(asked, chart, ratings, results, names, listed),
         names,
-        color,
+        accent(asked.color or USUAL),
         logo=_logo(asked.logo),
+        rules=replace(asked.table_points, ties=asked.ties),
     )
     say("Writing the pages")
-    made = site_files(league, _tournaments(asked.tournaments, names))
+    fixtures, warnings = _fixtures(asked.schedule, league)
+    made = site_files(league, _tournaments(asked.tournaments, names), fixtures)
     earlier = _earlier(asked.out)
     write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
-    return _answer(asked, league, made, [*file.warnings, *file.ties])
+    return _answer(asked, league, made, [*file.warnings, *file.ties, *warnings])
+
+
+def _by_player(league: LeagueFile | None) -> tuple[dict[str, Any], str]:
+    """Return how single players are named by the league's file, and what the file is called."""
+    from evenbreak.files.tables.names import clean_name
+
+    if league is None:
+        return {}, ""
+    means = league.aliases
+    chosen = {
+        means.get(clean_name(name), name): way for name, way in league.publish.players.items()
+    }
+    return chosen, f"{league.path}: [publish.players]"
+
+
+def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale:
+    """Return the scale of the ratings, or refuse a chart of differences on an unknown one."""
+    from evenbreak.handicaps.charts.chart import Chart
+    from evenbreak.ratings.scale import SCALES
+
+    stated = None if listed is None else listed.scale
+    if asked.scale is not None and stated is not None and not stated.same_points(asked.scale):
+        asked.refuse(
+            "{roster} has ratings on the scale {stated}, and {scale} is another; leave {scale} out",
+            stated=stated.text,
+        )
+    if (scale := asked.scale or stated) is not None:
+        return scale
+    if not isinstance(chart, Chart):
+        return SCALES["npl" if chart is None else "fargo"]
+    named = [name for name in SCALES if chart.name.startswith(name)]
+    if not named:
+        asked.refuse("{scale} is missing; name the scale of the differences in {chart}")
+    return SCALES[named[0]]
 
 
 def _answer(
@@ -97,6 +142,7 @@ def _answer(
 
 def _races(
     asked: Publish,
+    chart: Any,
     ratings: Ratings,
     results: Results,
     names: PublicNames,
@@ -112,14 +158,13 @@ def _races(
     import numpy as np
 
     from evenbreak.answers.league.sheet import as_listed
-    from evenbreak.files.charts import find_chart_file
+    from evenbreak.handicaps.charts.chart import Chart, ChartRow
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
     from evenbreak.handicaps.charts.level_skills import level_skills
     from evenbreak.ratings.roster import Roster
     from evenbreak.site.races import LeagueRaces
 
     form = ratings.match_form
-    chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
     by_level = isinstance(chart, (LevelChart, PointsChart))
     if listed is None:
         roster = _last_levels(results, chart) if by_level else as_listed(ratings)
@@ -130,10 +175,12 @@ def _races(
         public = [names[name] for name, here in zip(of.players, known, strict=True) if here]
         errors = None if by_level else of.standard_error[known]
         roster = Roster(public, values[known], errors, of.games[known])
-    if asked.chart is None:
-        return LeagueRaces(roster, asked.scale, answers.OfferedRaces(**asked.lengths), form=form)
+    if asked.race is not None:
+        chart = Chart("even races", [ChartRow(0, None, asked.race, asked.race)])
+    if chart is None:
+        return LeagueRaces(roster, ratings.scale, answers.OfferedRaces(**asked.lengths), form=form)
     skills = level_skills(chart, results) if isinstance(chart, LevelChart) else None
-    return LeagueRaces(roster, asked.scale, chart, skills, 0.0 if by_level else form)
+    return LeagueRaces(roster, ratings.scale, chart, skills, 0.0 if by_level else form)
 
 
 def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
@@ -167,6 +214,30 @@ def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
         )
     order = sorted(levels)
     return Roster(order, [levels[name] for name in order])
+
+
+def _fixtures(path: str | None, league: PublishedLeague) -> tuple[list[Fixture], Sequence[str]]:
+    """Return the fixtures after the last result under public names, and what to check in the file.
+
+    They are between players where one of the names is a player's, else between teams.
+    """
+    from evenbreak.files.lists.fixtures import read_fixture_list
+    from evenbreak.files.tables.names import same_name
+    from evenbreak.site.pages import Fixture
+
+    if path is None:
+        return [], []
+    every, warnings = read_fixture_list(path)
+    known = {same_name(name) for name in league.names.names}
+    of_players = any(same_name(one.home) in known for one in every)
+    last = league.days[-1].astype(object) if league.days else None
+    found = []
+    for one in every:
+        if last is None or one.date is None or one.date > last:
+            where = ", ".join(filter(None, [one.venue, f"table {one.table}" if one.table else ""]))
+            sides = [league.names[name] if of_players else name for name in (one.home, one.away)]
+            found.append(Fixture("" if one.date is None else str(one.date), where, *sides))
+    return found, warnings
 
 
 def _logo(path: str | None) -> tuple[str, bytes] | None:
