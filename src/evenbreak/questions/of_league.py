@@ -49,7 +49,7 @@ KEYS: Mapping[str, str] = {
     "fee": "prices.entry",
     "title": "name",
     "paper": "paper",
-    "names": "publish.names",
+    "naming": "publish.names",
     "color": "publish.color",
     "logo": "publish.logo",
 }

@@ -76,9 +76,9 @@ class Publish(Results, Lengths):
     title: Annotated[str, Field(Named(title_in, "TEXT"), "The league's name.", section=_LOOK)] = (
         "League"
     )
-    names: Annotated[
+    naming: Annotated[
         Literal["full", "initials", "hidden"],
-        Field(values.NAMES, "How players are named.", section=_LOOK),
+        Field(values.NAMES, "How players are named.", option="names", section=_LOOK),
     ] = "full"
     color: Annotated[
         str | None,

@@ -21,7 +21,6 @@ from evenbreak.answers.league.rate import unlinked_words
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.standings import rules_words
 from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
-from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.league.tables.table import LeagueTable
 from evenbreak.sheets.bracket_page import drawn_panel
 from evenbreak.sheets.html_page import environment, own_file, policy
@@ -320,6 +319,8 @@ class _Pages:
         place = table.names.index(name) if name in table.names else None
         rated = next((one for one in league.rated if one.player == name), None)
         figures = []
+        if name in league.races.levels:
+            figures.append(("skill level", str(league.races.levels[name])))
         if rated is not None:
             points = f"{rated.rating:.{league.decimals}f}"
             figures.append((f"rating, ±{rated.error:.{league.decimals}f}", points))
@@ -366,7 +367,7 @@ class _Pages:
         first, second = (float(league.races.roster.rating[seat[0]]) for seat in seats)
         alone = "" if gap is None else _percent(float(gap.p_game[0]))
         game = f"{name} wins a single game {alone} of the time"
-        if not isinstance(league.races.rule, (OfferedRaces, Chart)):
+        if league.races.levels:
             won = f" {game}, and the race {_percent(p)} of the time." if alone else ""
             said = (
                 f"{name} is a skill level {first:g} and {opponent}, the last opponent, a skill "

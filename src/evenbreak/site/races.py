@@ -13,9 +13,14 @@ import pandas as pd
 
 from evenbreak.answers.league.roster_matchups import OfferedRaces, all_pairs
 from evenbreak.arrays import Floats, Ints
-from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart import CHARTS, Chart
 from evenbreak.handicaps.charts.gap import Gap, averaging_rule
-from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.charts.level_chart import (
+    LEVEL_CHARTS,
+    POINTS_CHARTS,
+    LevelChart,
+    PointsChart,
+)
 from evenbreak.handicaps.charts.level_skills import FARGO, LevelSkills
 from evenbreak.matches.form import MOST_NODES, normal_rule
 from evenbreak.ratings.roster import Roster
@@ -58,9 +63,21 @@ class LeagueRaces:
         if isinstance(self.rule, Chart) and len(self.rule.rows) == 1:
             return f"Every race is to {self.rule.rows[0].stronger_needs} for both players."
         if isinstance(self.rule, PointsChart):
-            return f"The chart {self.rule.name} gives the points that each skill level needs."
+            return f"The chart {self._chart} gives the points that each skill level needs."
         by = "any two skill levels" if self.skills is not None else "each difference in ratings"
-        return f"The chart {self.rule.name} gives the race for {by}."
+        return f"The chart {self._chart} gives the race for {by}."
+
+    @property
+    def _chart(self) -> str:
+        name = getattr(self.rule, "name", "")
+        return {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}.get(name, name)
+
+    @property
+    def levels(self) -> dict[str, int]:
+        """Everybody's skill level, with a chart of levels."""
+        if isinstance(self.rule, (OfferedRaces, Chart)):
+            return {}
+        return dict(zip(self.roster.players, self._points.tolist(), strict=True))
 
     def gap(self, a: Ints, b: Ints) -> Gap | None:
         """Return how far apart pairs of players are, by their places in the roster.

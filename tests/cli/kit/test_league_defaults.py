@@ -44,6 +44,10 @@ points = [3, 1, 0]
 ties = ["wins"]
 [prices]
 entry = 12
+[publish]
+names = "initials"
+color = "#123456"
+logo = "logo.csv"
 """
 OTHER = {
     "scale": "fargo",
@@ -66,6 +70,8 @@ OTHER = {
     "standings.points": "2,1,0",
     "standings.ties": "scored",
     "prices.entry": "5",
+    "publish.names": "hidden",
+    "publish.color": "#654321",
     "results.columns": "score_a=X,score_b=Y",
     "results.dates": "dmy",
 }
@@ -124,7 +130,7 @@ OPTIONS = [
 
 @pytest.fixture
 def league(tmp_path, monkeypatch):
-    names = "players fixtures teams team_results autumn other ours theirs entrants start last"
+    names = "players fixtures teams team_results autumn other logo ours theirs entrants start last"
     for name in names.split():
         (tmp_path / f"{name}.csv").write_text("")
     monkeypatch.chdir(tmp_path)
@@ -166,7 +172,7 @@ def test_each_option_is_taken_shown_and_overridden(league, capsys, name, one):
         assert f" {one.name} " in capsys.readouterr().err
     other = OTHER.get(key, "other.csv")
     typed = [other] if one.field.argument else [one.option, other]
-    if one.name == "schedule":
+    if one.name == "schedule" and one.field.argument:
         typed = ["results.csv", other]
     own = getattr(asked(name, [*words, *typed]), one.name)
     read = one.kind.read(other)

@@ -45,12 +45,12 @@ def command(asked: Publish) -> Answer:
     from evenbreak.site.pages import site_files
 
     check_folder(asked.out)
-    file = files.read_seasons(asked.results, **asked.reading, unplayed=True)
+    file = _read(asked)
     listed = None if asked.roster is None else files.read_roster(asked.roster)
     everyone = by_appearance(file.results)
     everyone += sorted(set(listed.roster.players if listed else ()) - {*everyone})
     chosen, where = _by_player(league_in(click.get_current_context()))
-    names = PublicNames.of(everyone, asked.names, chosen, where=where)
+    names = PublicNames.of(everyone, asked.naming, chosen, where=where)
     results = names.results(file.results)
     chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
     scale = _scale(asked, chart, listed)
@@ -75,6 +75,15 @@ def command(asked: Publish) -> Answer:
     earlier = _earlier(asked.out)
     write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
     return _answer(asked, league, made, [*file.warnings, *file.ties, *warnings])
+
+
+def _read(asked: Publish) -> files.ResultsFile:
+    """Return the results; the chart says who won where they state levels, but no races."""
+    reading = {**asked.reading, "chart": None, "unplayed": True}
+    file = files.read_seasons(asked.results, **reading)
+    if asked.chart is None or file.results.level_a is None:
+        return file
+    return files.read_seasons(asked.results, **{**reading, "chart": asked.chart})
 
 
 def _by_player(league: LeagueFile | None) -> tuple[dict[str, Any], str]:

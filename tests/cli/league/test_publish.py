@@ -1,0 +1,165 @@
+"""`evenbreak publish`: from a league's folder, by its file or by options."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from evenbreak.files.csv_writer import to_csv
+from evenbreak.files.store.tournament import new_tournament
+from evenbreak.ratings import Results
+from places import ROOT
+from published_leagues import season
+from tournament_nights import night
+
+LEAGUE = """name = "Tuesday 8-Ball"
+chart = "apa_8ball"
+[files]
+fixtures = "fixtures.csv"
+[[results]]
+file = "fall.csv"
+columns = { player_a = "Heim", player_b = "Gast" }
+[aliases]
+"Zeb Q" = "Zebulon Quackenbush"
+[standings]
+points = [3, 1, 0]
+[publish]
+color = "#ffee00"
+logo = "logo.png"
+[publish.players]
+"Zeb Q" = "initials"
+"Bo Diaz" = "hidden"
+"""
+
+
+def results_csv(results: Results, a: str = "player_a", b: str = "player_b") -> bytes:
+    seats = results.player_a.tolist(), results.player_b.tolist()
+    first, second = ([results.players[k] for k in seat] for seat in seats)
+    names = ["date", "score_a", "score_b", "race_a", "race_b", "level_a", "level_b"]
+    columns = {name: getattr(results, name) for name in names}
+    made = {name: column for name, column in columns.items() if column is not None}
+    return to_csv(pd.DataFrame({a: first, b: second, **made}))
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    many = len(season())
+    levels = {"level_a": ["4"] * many, "level_b": ["5"] * many}
+    (tmp_path / "fall.csv").write_bytes(results_csv(season(**levels), "Heim", "Gast"))
+    (tmp_path / "league.toml").write_text(LEAGUE)
+    (tmp_path / "fixtures.csv").write_text(
+        "home,away,date,table\nAnn Lee,Zeb Q,2025-09-09,1\n"
+        "Ann Lee,Zebulon Quackenbush,2025-09-23,2\n"
+    )
+    (tmp_path / "logo.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def content_of(folder: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_a_leagues_folder_is_published_without_a_word(run, folder: Path) -> None:
+    done = run("publish")
+    assert done.exit_code == 0, done.stderr
+    assert "#ffee00 is too light" in done.stdout
+    assert "2 players are not named in full" in done.stdout
+    site = content_of(folder / "site")
+    index = site["index.html"].decode()
+    assert "<title>Tuesday 8-Ball</title>" in index
+    assert "3 points for a win" in index
+    assert site["logo.png"] == b"\x89PNG\r\n\x1a\n"
+    assert b"Sep 23, 2025" in site["fixtures.html"]
+    assert b"Sep 9, 2025" not in site["fixtures.html"]
+    for name, content in site.items():
+        for word in (b"quackenbush", b"zeb", b"diaz"):
+            assert word not in content.lower() + name.encode(), (name, word)
+    run("publish")
+    assert content_of(folder / "site") == site
+
+
+def test_a_player_who_wants_to_be_hidden_loses_the_page(run, folder: Path) -> None:
+    (folder / "site").mkdir()
+    (folder / "site" / "mine.html").write_text("kept")
+    run("publish")
+    assert (folder / "site" / "players" / "ann-lee.html").exists()
+    text = (folder / "league.toml").read_text()
+    (folder / "league.toml").write_text(text + '"Ann Lee" = "hidden"\n')
+    run("publish")
+    site = content_of(folder / "site")
+    assert not any(b"Ann Lee" in content or "ann-lee" in name for name, content in site.items())
+    assert site["mine.html"] == b"kept"
+
+
+def test_a_slip_in_a_name_leaves_the_site_as_it_was(run, folder: Path) -> None:
+    run("publish")
+    site = content_of(folder / "site")
+    text = (folder / "league.toml").read_text()
+    (folder / "league.toml").write_text(text + '"An Lee" = "hidden"\n')
+    done = run("publish")
+    assert done.exit_code == 3
+    assert "did you mean 'Ann Lee'?" in done.stderr
+    assert content_of(folder / "site") == site
+
+
+def test_a_disk_that_fails_leaves_the_site_as_it_was(run, folder, monkeypatch) -> None:
+    run("publish")
+    site = content_of(folder / "site")
+    moved = Path.replace
+
+    def fails(self: Path, target: Path) -> Path:
+        if target.name == "races.html":
+            raise OSError(28, "no space left")
+        return moved(self, target)
+
+    monkeypatch.setattr(Path, "replace", fails)
+    assert run("publish", "--title", "Another").exit_code == 1
+    monkeypatch.undo()
+    assert content_of(folder / "site") == site
+
+
+def test_finished_tournaments_have_their_brackets(run, tmp_path: Path) -> None:
+    whole, part = night(8, "double", 99), night(8, "double", 3)
+    (tmp_path / "nights").mkdir()
+    new_tournament(tmp_path / "nights" / "fall-open.db", whole.events)
+    new_tournament(tmp_path / "nights" / "tonight.db", part.events)
+    (tmp_path / "nights" / "other.db").write_bytes(b"something else")
+    shutil.copy(ROOT / "data" / "demo_league.csv", tmp_path)
+    out = tmp_path / "site"
+    done = run(
+        *("publish", str(tmp_path / "demo_league.csv"), "--out", str(out), "--scale", "fargo"),
+        *("--tournaments", str(tmp_path / "nights")),
+    )
+    assert done.exit_code == 0, done.stderr
+    assert [path.name for path in out.glob("tournament-*")] == ["tournament-fall-open.html"]
+    assert "won by" in (out / "tournaments.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--chart", "npl_10", "--race-to", "7"), "cannot be combined"),
+        (("--logo", "fall.csv"), "save it as one"),
+        (("--color", "red"), "is not a color"),
+        (("--chart", "house.csv"), "--scale is missing"),
+        (("--chart", "apa_8ball"), "no skill levels"),
+    ],
+)
+def test_what_cannot_be_published_is_refused(run, tmp_path, monkeypatch, words, said) -> None:
+    (tmp_path / "fall.csv").write_bytes(results_csv(season()))
+    (tmp_path / "house.csv").write_text(
+        "difference_from,difference_to,stronger_needs,weaker_needs\n0,50,5,5\n51,,5,4\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    done = run("publish", "fall.csv", *words)
+    assert done.exit_code in (2, 3)
+    assert said in " ".join(done.stderr.split())
+    assert not (tmp_path / "site").exists()
