@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,12 +18,16 @@ from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_w
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.sheet import matchups_frame
 from evenbreak.files.results.results_file import ResultsFile
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.gap import Gap
+from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.played_chart import last_levels
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results, who_won
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.sources import rating_sources
-from evenbreak.words import FilePath, joined, say
+from evenbreak.words import FilePath, Sentence, joined, say
 
 SOURCES = {
     "prior": say("assumed before"),
@@ -43,6 +47,7 @@ def why_answer(
     offered: OfferedRaces,
     refit: Refit,
     choice: PriorChoice | None = None,
+    chart: Chart | LevelChart | None = None,
 ) -> Answer:
     """Return which matches made two ratings, and what one more match would change.
 
@@ -58,6 +63,8 @@ def why_answer(
         rates other results in the same way.
     choice
         how the prior was chosen, if it was.
+    chart
+        the league's chart, whose race is then shown next to the fairest one.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -71,6 +78,7 @@ def why_answer(
     matches = matches_behind(file.results, ratings, pair, refit)
     scale = ratings.scale
     names = ratings.players[pair[0]], ratings.players[pair[1]]
+    charted = None if chart is None else _by_chart(file.results, chart, now, pair, ratings)
     brought, sources = ratings.levels.beginning is not None, [_sources_table(ratings, pair)]
     return Answer(
         say(
@@ -82,6 +90,7 @@ def why_answer(
         ),
         [
             joined(filter(None, [_now_in_words(now, names, scale), _more_in_words(more, now)])),
+            *([_chart_in_words(charted, names)] if charted else []),
             _players_table(ratings, pair),
             *(sources if brought else []),
             *([_more_table(more, now, names, scale)] if more else []),
@@ -101,6 +110,7 @@ def why_answer(
             "race_a": now.race and now.race[0],
             "race_b": now.race and now.race[1],
             "p_win_a": now.p_win,
+            **({} if charted is None else charted.data),
             "evidence": evidence_rows(choice),
             "one_more": [
                 {
@@ -141,6 +151,63 @@ def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
         error=points(now.difference_error),
         race=race(now.race),
         p=percent(now.p_win),
+    )
+
+
+class ByChart(NamedTuple):
+    """The race that a chart sets for two players: by which levels or ratings, and P(a wins)."""
+
+    chart: str
+    by_level: bool
+    stated: tuple[float, float]
+    race: tuple[int, int]
+    p_win: float
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The race, for JSON."""
+        a, b = self.race
+        return {"chart_race_a": a, "chart_race_b": b, "chart_p_win_a": self.p_win}
+
+
+def _by_chart(
+    results: Results,
+    chart: Chart | LevelChart,
+    now: Standing,
+    pair: tuple[int, int],
+    ratings: Ratings,
+) -> ByChart | None:
+    """Return the race by the last levels that the results state, or by the ratings."""
+    if now.difference_error is None:
+        return None
+    a, b = now.ratings
+    gap = Gap(a - b, now.difference_error, ratings.scale, ratings.match_form)
+    if isinstance(chart, LevelChart):
+        a, b = last_levels(results)[list(pair)].tolist()
+        if a not in chart.levels or b not in chart.levels:
+            return None
+        needs = chart.race(int(a), int(b))
+    else:
+        needs = chart.race(math.floor(a + 0.5) - math.floor(b + 0.5))
+    p_win = float(gap.win(*needs))
+    return ByChart(chart.name, isinstance(chart, LevelChart), (a, b), needs, p_win)
+
+
+def _chart_in_words(charted: ByChart, names: tuple[str, str]) -> Sentence:
+    words: dict[str, Any] = {
+        "chart": charted.chart,
+        "a": names[0],
+        "race": race(charted.race),
+        "p": percent(charted.p_win),
+    }
+    if not charted.by_level:
+        return say("By {chart} their race is {race}, and {a} wins it {p} of the time.", **words)
+    return say(
+        "By {chart} the race of levels {x:.0f} and {y:.0f} is {race}, and {a} wins it {p} of the "
+        "time by these ratings.",
+        **words,
+        x=charted.stated[0],
+        y=charted.stated[1],
     )
 
 

@@ -164,9 +164,15 @@ def why(asked: Why) -> Answer:
     played = int(ratings.games[pair].sum())
     if played * len(file.results) > MANY:
         say("Rating the league again without each of their matches")
-    offered = answers.OfferedRaces(**asked.lengths)
+    chart = None if asked.chart is None else files.find_chart(asked.chart)
     return answers.why_answer(
-        file, ratings, (pair[0], pair[1]), offered, rated_alike(ratings, file.results), choice
+        file,
+        ratings,
+        (pair[0], pair[1]),
+        answers.OfferedRaces(**asked.lengths),
+        rated_alike(ratings, file.results),
+        choice,
+        None if isinstance(chart, handicaps.PointsChart) else chart,
     )
 
 

@@ -126,6 +126,25 @@ def level_numbers_of(results: Results) -> Iterator[Floats]:
         yield level_numbers(texts)[code.ravel()]
 
 
+def last_levels(results: Results) -> Floats:
+    """Return the level that each player had in the last match that states it, NaN where none does.
+
+    >>> night = Results.from_names(["Ann", "Bo"], ["Bo", "Ann"], [5, 2], [1, 4],
+    ...     level_a=["6", "4"], level_b=["3", "6"])
+    >>> last_levels(night)
+    array([6., 4.])
+    """
+    dates = results.date
+    order = np.arange(len(results)) if dates is None else np.argsort(dates, kind="stable")
+    last = np.full(len(results.players), np.nan)
+    sides = [results.player_a, results.player_b]
+    players = np.column_stack(sides)[order].ravel()
+    level = np.column_stack(list(level_numbers_of(results)))[order].ravel()
+    stated = ~np.isnan(level)
+    last[players[stated]] = level[stated]
+    return last
+
+
 def _by_level(season: Results, level_a: Floats, level_b: Floats) -> Iterator[PlayedChart]:
     ahead = level_a >= level_b
     races = np.where(ahead, season.races, season.races[::-1])
