@@ -19,11 +19,11 @@ def points_answer(
     names: tuple[str, str] = ("A", "B"),
     score: tuple[int, int] = (0, 0),
 ) -> Answer:
-    """Return the chances of a match by a chart of points, from a score on.
+    r"""Return the chances of a match by a chart of points, from a score on.
 
     >>> from evenbreak.handicaps import points_chart
     >>> answer = points_answer(points_chart("apa_9ball"), (5, 3))
-    >>> print(answer.sentences[0])
+    >>> print("\n".join(answer.sentences[:2]))
     B wins the match 50% of the time.
     On average A gets 9.9 of the 20 match points, and B 10.1.
     """
@@ -32,11 +32,19 @@ def points_answer(
     (a, b), (level_a, level_b), (need_a, need_b) = names, levels, odds.needs
     ours, theirs = odds.p_win_1, odds.p_win_2
     winner, p, other = (a, ours, theirs) if ours >= theirs else (b, theirs, ours)
-    text = f"{winner} wins the match {percent(p, other)} of the time."
+    texts = [
+        say("{name} wins the match {p} of the time.", name=winner, p=percent(p, other)),
+    ]
     if odds.share_1 is not None and odds.share_2 is not None:
-        text += (
-            f"\nOn average {a} gets {odds.share_1:.1f} of the {MATCH_POINTS} match points, and {b} "
-            f"{odds.share_2:.1f}."
+        texts.append(
+            say(
+                "On average {a} gets {x:.1f} of the {points} match points, and {b} {y:.1f}.",
+                a=a,
+                x=odds.share_1,
+                points=MATCH_POINTS,
+                b=b,
+                y=odds.share_2,
+            )
         )
     so_far = f", score {score[0]}:{score[1]}" if any(score) else ""
     low, high = (percent(chance) for chance in sorted(by_innings))
@@ -53,7 +61,7 @@ def points_answer(
         f"{a} level {level_a}, {b} level {level_b} of {chart.name}\n"
         f"{need_a} points against {need_b}{so_far}",
         [
-            text,
+            *texts,
             Quantities(quantities_of(values, a=a, b=b)),
             say(
                 "The chances are an assumption, not a measurement: that players of every level "

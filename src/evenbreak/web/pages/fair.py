@@ -10,7 +10,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.match.odds import TwoPlayers, odds_answer, races_for
+from evenbreak.answers.match.odds import TwoPlayers, races_for
 from evenbreak.answers.match.points import points_answer
 from evenbreak.errors import InputError
 from evenbreak.fields.question import declaration
@@ -58,6 +58,7 @@ async def fair(request: Request) -> Response:
         "scales": NAMES,
         "charts": CHARTS_OF_LEVELS,
         "needs": None,
+        "odds": None,
         "texts": [],
         "names": list(dict.fromkeys([*(state.entrants if state else ()), *in_league])),
         "races": [],
@@ -79,12 +80,18 @@ def _by_level(chart: str, typed: dict[str, str], length: int) -> dict[str, Any]:
     if chart in POINTS_CHARTS:
         answer = points_answer(points_chart(chart), (a, b), names)
         return {"sides": sides, "needs": points_chart(chart).race(a, b), "texts": answer.sentences}
-    players = TwoPlayers.of_levels((a, b), level_skills(chart), names)
+    skills = level_skills(chart)
+    players = TwoPlayers.of_levels((a, b), skills, names)
     asked = FairTonight(ratings=(str(a), str(b)), chart=chart, race_to=length)
-    races = races_for(players, asked)
     needs = level_chart(chart).race(a, b)
-    answer = odds_answer(players, Race(*needs, players.rack))
-    return {"sides": sides, "needs": needs, "races": races, "texts": answer.sentences}
+    odds = players.gap.odds(Race(*needs, players.rack))
+    return {
+        "sides": sides,
+        "needs": needs,
+        "odds": odds,
+        "races": races_for(players, asked),
+        "texts": [skills.why],
+    }
 
 
 def _level(text: str, chart: str) -> int:
