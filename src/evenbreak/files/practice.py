@@ -287,11 +287,9 @@ def read_practice(
         >>> import tempfile, pathlib
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     path = pathlib.Path(folder) / "shots.csv"
-        ...     _ = path.write_text("date,shot,made,tried
-    2025-01-03,cut,6,10
-    2025-01-03,bank,2,10
-    ")
-        ...     file = read_practice(path)
+        ...     rows = "date,shot,made,tried\n2025-01-03,cut,6,10\n2025-01-03,bank,2,10\n"
+    ...     _ = path.write_text(rows)
+    ...     file = read_practice(path)
         >>> file.log.names, file.log.made
         (('cut', 'bank'), array([6, 2]))
     """
