@@ -276,22 +276,22 @@ def read_practice(
 
     Parameters
     ----------
-        path, drill, dates
-            as for `read_scores`; a log of shots has no drills.
+    path, drill, dates
+        as for `read_scores`; a log of shots has no drills.
 
     Raises
     ------
-        DataError
-            with all problems of the file.
+    DataError
+        with all problems of the file.
 
-        >>> import tempfile, pathlib
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     path = pathlib.Path(folder) / "shots.csv"
-        ...     rows = "date,shot,made,tried\n2025-01-03,cut,6,10\n2025-01-03,bank,2,10\n"
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "shots.csv"
+    ...     rows = "date,shot,made,tried\n2025-01-03,cut,6,10\n2025-01-03,bank,2,10\n"
     ...     _ = path.write_text(rows)
     ...     file = read_practice(path)
-        >>> file.log.names, file.log.made
-        (('cut', 'bank'), array([6, 2]))
+    >>> file.log.names, file.log.made
+    (('cut', 'bank'), array([6, 2]))
     """
     columns = [
         schema.but(
