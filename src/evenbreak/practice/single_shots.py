@@ -164,7 +164,7 @@ def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
 
     >>> log = ShotLog(("cut", "bank"), [0, 1], [40, 4], [60, 20])
     >>> [(one.name, round(one.chance, 2), one.p_weakest > 0.99) for one in analyse_shots(log).shots]
-    [('bank', 0.25, True), ('cut', 0.65, False)]
+    [('bank', 0.24, True), ('cut', 0.66, False)]
     """
     from scipy.stats import beta
 

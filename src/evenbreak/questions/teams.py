@@ -104,6 +104,25 @@ Order: TypeAlias = Annotated[
 ]
 
 
+Count: TypeAlias = Annotated[
+    str,
+    Field(
+        Choice(COUNTS),
+        "What decides the match: sets won, all games won, or match points as in APA 8-ball "
+        "(3-0 for a shutout, 2-1 hill-hill, else 2-0) and 9-ball (20 shared by points made).",
+        label=say("What decides the night"),
+        titles={
+            "sets": say("Sets won"),
+            "games": say("All games won"),
+            "points": say(
+                "Match points: 3-0 for a shutout, 2-1 hill-hill, else 2-0; in APA 9-ball 20 shared"
+            ),
+        },
+        section=_RULES,
+    ),
+]
+
+
 @dataclass(frozen=True, kw_only=True)
 class OfTeams(Starters):
     """A question about the matches between teams: their ratings, and what is raced to."""
@@ -163,24 +182,7 @@ class Capped(Question):
             ),
         ),
     ] = None
-    count: Annotated[
-        str,
-        Field(
-            Choice(COUNTS),
-            "What decides the match: sets won, all games won, or match points as in APA 8-ball "
-            "(3-0 for a shutout, 2-1 hill-hill, else 2-0) and 9-ball (20 shared by points made).",
-            label=say("What decides the night"),
-            titles={
-                "sets": say("Sets won"),
-                "games": say("All games won"),
-                "points": say(
-                    "Match points: 3-0 for a shutout, 2-1 hill-hill, else 2-0; in APA 9-ball 20 "
-                    "shared"
-                ),
-            },
-            section=_RULES,
-        ),
-    ] = "sets"
+    count: Count = "sets"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -291,14 +293,15 @@ class OnTables:
 class Round(OfTeams):
     """Find who wins a round between two teams, and the head start that makes it even.
 
-    All games of all matches are added up. The files have the columns player and rating; the first
-    player of one meets the first of the other, and so on.
+    All games of all matches are added up, or with {count} their match points. The files have the
+    columns player and rating, or level; the first player of one meets the first of the other, and
+    so on.
     """
 
     examples = """\
   evenbreak round ours.csv theirs.csv --single-games 2
   evenbreak round ours.csv theirs.csv --single-games 1 --everybody --scale fargo
-  evenbreak round ours.csv theirs.csv --race 5
+  evenbreak round ours.csv theirs.csv --chart apa_8ball --count points
 """
     lengths = ("single_games", *OfTeams.lengths)
     ours: Annotated[str, Field(File("OURS.csv"), argument=True)]
@@ -310,7 +313,16 @@ class Round(OfTeams):
     everybody: Annotated[
         bool, Field(Flag(), "Every player meets every player of the other team.")
     ] = False
+    count: Annotated[Count, Says("What is added up: games, match points, or sets.", more="")] = (
+        "games"
+    )
     sure: Sure = False
+
+    def check(self) -> None:
+        """Refuse what `OfTeams` refuses, and another count than that of games where they are."""
+        super().check()
+        if self.single_games is not None and self.count != "games":
+            self.refuse("{count} is for races; with {single_games} the games count")
 
 
 @dataclass(frozen=True, kw_only=True)

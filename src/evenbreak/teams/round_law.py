@@ -25,7 +25,7 @@ from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.teams.pairs import SetRace, pairs_of
-from evenbreak.teams.set_laws import set_laws
+from evenbreak.teams.set_laws import Count, set_laws
 
 _ALIKE = 1e-12  # chances that differ by less are equal
 _DRAWS = 512  # of the skills, where everybody meets everybody; they leave an error of about .001
@@ -103,11 +103,12 @@ def round_law(
     games: int | None = None,
     race: SetRace | None = None,
     everybody: bool = False,
+    count: Count = "games",
     scale: Scale | str | float = "fargo",
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> RoundLaw:
-    """Return the law of our lead in games at the end of a round.
+    """Return the law of our lead, in games or as they count, at the end of a round.
 
     Parameters
     ----------
@@ -118,6 +119,8 @@ def round_law(
         what each match is, one of them: so many single games, or a race of which all games count.
     everybody
         whether each of our players meets each of theirs; else the first meets the first, and so on.
+    count
+        what is added up of a race.
     scale
         the scale of the ratings.
     form
@@ -155,7 +158,7 @@ def round_law(
             laws = _single_games(ours, theirs, int(games or 1), scale, skills, form, levels)
         else:
             asked: Any = {"scale": scale, "skills": skills, "form": form, "levels": levels}
-            found = set_laws(ours, theirs, race, count="games", **asked)
+            found = set_laws(ours, theirs, race, count=count, **asked)
             laws = found.sum(axis=2)
         lead = np.ones(1)
         for pair in met:

@@ -1,8 +1,14 @@
 """Captains and operators of leagues of skill levels, through the command line."""
 
+from functools import reduce
+
+import numpy as np
 import pytest
 
-from evenbreak.handicaps.charts.level_chart import level_chart
+from evenbreak.handicaps.charts.level_chart import level_chart, points_chart
+from evenbreak.handicaps.charts.level_skills import level_skills
+from evenbreak.ratings.roster import Roster
+from evenbreak.teams.set_laws import Points, Shares, set_laws
 
 OURS = {"Ann": 7, "Bo": 6, "Cleo": 5, "Dan": 4, "Eve": 4, "Fay": 3, "Gus": 2}
 THEIRS = {"Uli": 6, "Vic": 5, "Wim": 5, "Xi": 4, "Yu": 3, "Zed": 2}
@@ -12,6 +18,10 @@ RATED = {name: 300 + 60 * level for name, level in {**OURS, **THEIRS}.items()}
 def written(path, rows, columns="player,level"):
     path.write_text("\n".join([columns, *(",".join(map(str, row)) for row in rows)]) + "\n")
     return str(path)
+
+
+def sides():
+    return ([*zip(*list(team.items())[:5], strict=True)] for team in (OURS, THEIRS))
 
 
 @pytest.fixture
@@ -83,6 +93,20 @@ def test_a_round_and_the_caps_of_a_league_of_levels(ask, run, tmp_path):
     told = ask("round", *two, "--chart", "apa_8ball")
     assert "Players by skill level" in told["heading"]
     assert "points, not games" in run("round", *two, "--chart", "apa_9ball").stderr
+    assert (
+        "with --single-games"
+        in run("round", *two, "--single-games", "1", "--count", "points").stderr
+    )
+    for chart, count in (("apa_8ball", Points()), ("apa_9ball", Shares())):
+        told = ask("round", *two, "--chart", chart, "--count", "points")
+        a, b = (Roster(names, [0.0] * 5, level=levels) for names, levels in sides())
+        levels = level_skills(chart) if chart == "apa_8ball" else None
+        race = level_chart(chart) if levels else points_chart(chart)
+        laws = set_laws(a, b, race, count=count, levels=levels).sum(axis=2)
+        lead = reduce(np.convolve, [laws[k, k] for k in range(5)])
+        even = next(row for row in told["starts"] if row["start_1"] == 0)
+        assert even["p_win_1"] == pytest.approx(lead[len(lead) // 2 + 1 :].sum())
+        assert even["p_tie"] == pytest.approx(lead[len(lead) // 2])
     teams = written(
         tmp_path / "teams.csv",
         [("Racks", *one) for one in OURS.items()] + [("Cues", *one) for one in THEIRS.items()],

@@ -31,7 +31,7 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
     >>> days = np.array(["2025-01-03", "2025-02-03"], dtype="M8[D]")
     >>> log = ShotLog(("cut", "bank"), [0, 1, 0, 1], [12, 4, 15, 5], [20] * 4, days.repeat(2))
     >>> print(shots_answer(ShotsFile(log, "shots.csv", ()), analyse_shots(log)).sentences[0])
-    Practice bank next: you make it 25% of the time, and it is more than 99% sure to be your weakest
+    Practice bank next: you make it 24% of the time, and it is more than 99% sure to be your weakest
     shot.
     """
     log, since = file.log, None if found.since is None else str(found.since)

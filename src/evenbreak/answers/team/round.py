@@ -39,6 +39,7 @@ def team_round_answer(
     strengths: str = "",
     rests_on: str | None = None,
     games: int | None = None,
+    unit: str = "game",
     everybody: bool = False,
     names: tuple[str, str] = ("team 1", "team 2"),
     warnings: Sequence[str] = (),
@@ -61,6 +62,8 @@ def team_round_answer(
         what the chances rest on, if that is not the ratings.
     games
         the games of each match, if it is single games; then CSI's way is compared.
+    unit
+        what is added up: game, point or set.
     everybody
         whether everybody meets everybody.
     names
@@ -84,11 +87,11 @@ there are no ties.
         ahead = law.with_start(fair)
         seen = ahead if fair > 0 else Outcome(ahead.lose, ahead.tie, ahead.win)
         words.append(
-            f"With {count_of(abs(fair), 'game')} for {names[fair < 0]} it is nearest to even: they "
+            f"With {count_of(abs(fair), unit)} for {names[fair < 0]} it is nearest to even: they "
             f"{_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
         )
     else:
-        words.append("No head start of whole games brings it nearer to even.")
+        words.append(f"No head start of whole {unit}s brings it nearer to even.")
     parts: list[Part] = ["\n".join(words)]
     csi: int | None = None
     if games is not None:
