@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from subprocess import list2cmdline
+from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of
 from evenbreak.answers.kit.parts import Quantities, Table
-from evenbreak.words import listed
+from evenbreak.words import FilePath, listed, say
 
 
 def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> Answer:
@@ -42,6 +43,35 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
             f"{wrote}. The players are made up.",
             Table("commands", columns_of("who command"), commands, "Three commands to try next:"),
             Table("files", columns_of("file holds"), list(files.items())),
+        ],
+    )
+
+
+def league_answer(path: str, files: Sequence[tuple[str, str, str]], commands: Any) -> Answer:
+    """Return what a new file of a league was written from, and what can be run now.
+
+    Parameters
+    ----------
+    path
+        the file.
+    files
+        each file of the folder, what it is taken as ('' if nothing), and what it holds.
+    commands
+        what each command is for, and the command.
+
+    >>> answer = league_answer("league.toml", [("a.csv", "results", "9 matches")], [])
+    >>> print(answer.sentences[0])
+    Wrote league.toml. Commands in its folder now take their defaults from it.
+    """
+    return Answer(
+        "The league's file",
+        [
+            say(
+                "Wrote {file}. Commands in its folder now take their defaults from it.",
+                file=FilePath(path),
+            ),
+            Table("files", columns_of("file taken_as holds"), list(files)),
+            Table("commands", columns_of("for_what command"), list(commands), "To try next:"),
         ],
     )
 

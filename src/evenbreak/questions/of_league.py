@@ -39,6 +39,10 @@ KEYS: Mapping[str, str] = {
     "tables": "tables",
     "turnover": "turnover",
     "start": "hours",
+    "time": "hours",
+    "begins": "begins",
+    "ends": "ends",
+    "venue": "venue",
     "sets": "team.sets",
     "order": "team.order",
     "cap": "team.cap",
@@ -47,11 +51,11 @@ KEYS: Mapping[str, str] = {
     "table_points": "standings.points",
     "ties": "standings.ties",
     "fee": "prices.entry",
+    "color": "publish.color",
+    "logo": "publish.logo",
     "title": "name",
     "paper": "paper",
     "naming": "publish.names",
-    "color": "publish.color",
-    "logo": "publish.logo",
 }
 """The key of the file that is the default of a field, those first that others need."""
 
@@ -68,6 +72,7 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
     ("Season", "race"): "",  # of sets, not of games
     ("Season", "sets"): "",
     ("Season", "results"): "files.team_results",
+    ("Fixtures", "names"): "files.teams or files.roster",
 }
 """The fields of some questions that have another key, or none."""
 
@@ -75,6 +80,12 @@ ONLY_WITH: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("Matchups", "tables"): ("pairs", "players_file"),  # no night has all pairs of a league
 }
 """The fields whose default is taken only if one of some others is typed."""
+
+INSTEAD: Mapping[tuple[str, str], str] = {("Fixtures", "names"): "schedule"}
+"""The fields whose default is taken only where another field has none."""
+
+BY_LEVEL = {("Fair", "chart"), ("FairTonight", "chart"), ("Compare", "chart")}
+"""The fields that take a chart by skill level alone; so do `results` that may be left out."""
 
 NEEDED = ("from_file",)
 """The fields whose default is taken only where the question is refused without it."""
@@ -105,6 +116,8 @@ class Taken(NamedTuple):
 def key_of(question: type, name: str) -> str:
     """Return the key of the file that is the default of a field; '' if there is none."""
     for one in question.__mro__:
+        if one.__name__ == "LeagueInit":  # which writes the file
+            return ""
         if (one.__name__, name) in OTHERWISE:
             return OTHERWISE[one.__name__, name]
     return KEYS.get(name, "")
@@ -136,6 +149,9 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
         for one in every
         if one.name in NEEDED and _refusal(question, typed, _without(every, [one])) is None
     ]
+    by_level = [one for one in every if _is_for_levels(question, one.name)]
+    if by_level and not _has_levels(typed, _without(every, needless), league):
+        needless += by_level
     kept, left_out = _without(every, needless), list[Taken]()
     while (why := _refusal(question, typed, kept)) is not None:
         named = _parameters(why)
@@ -148,6 +164,28 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
         if _refusal(question, typed, [*kept, one]) is None:
             kept.append(one)
     return kept
+
+
+def _is_for_levels(question: Any, name: str) -> bool:
+    if name == "results":
+        return not next(one.required for one in declared(question) if one.name == name)
+    return any((one.__name__, name) in BY_LEVEL for one in question.__mro__)
+
+
+def _has_levels(typed: Mapping[str, Any], taken: list[Taken], league: LeagueFile) -> bool:
+    """Return whether a league is one of skill levels without ratings, by its chart and roster."""
+    charts = [one.value for one in taken if one.name == "chart"]
+    chart = typed.get("chart", charts[0] if charts else None)
+    if chart is None or league.scale is not None or "scale" in typed:
+        return False
+    from evenbreak.files.charts import find_chart
+    from evenbreak.files.lists.roster import read_roster
+    from evenbreak.handicaps.charts.level_chart import LevelChart
+
+    roster = league.files.roster
+    return isinstance(find_chart(chart), LevelChart) and (
+        roster is None or read_roster(league.place(roster)).levels
+    )
 
 
 def _without(every: list[Taken], others: list[Taken]) -> list[Taken]:
@@ -168,20 +206,25 @@ def _parameters(error: AskedError) -> set[str]:
 
 def _offered(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> Iterator[Taken]:
     """Yield what the file has for the fields that have no value yet, in the order of `KEYS`."""
-    order = list(KEYS)
+    order = {name: place for place, name in enumerate(KEYS)}
     fields = [one for one in declared(question) if key_of(question, one.name)]
-    for one in sorted(fields, key=lambda field: order.index(field.name)):
+    for one in sorted(fields, key=lambda field: order.get(field.name, 0)):
         wanted = ONLY_WITH.get((question.__name__, one.name), ())
         if one.name in typed or (wanted and not {*wanted} & {*typed}):
             continue
+        other = INSTEAD.get((question.__name__, one.name), "")
+        if other in typed or (other and text_of(league, key_of(question, other)) is not None):
+            continue
         key = key_of(question, one.name)
         if key.startswith("results."):
-            text = _of_sources(league, typed.get("results", ()), key.removeprefix("results."))
+            text = _of_sources(
+                league, typed.get("results", typed.get("left", ())), key.removeprefix("results.")
+            )
         else:
             text = text_of(league, key)
         if text is None:
             continue
-        if one.name == "start":
+        if key == "hours":
             text = text.partition(",")[0]
         yield Taken(one.name, key, _value(one, text, f"{league.path}: {key}"), text)
 
@@ -204,11 +247,12 @@ def text_of(league: LeagueFile, key: str) -> str | None:
 
     if key in ("results", "aliases"):
         return str(league.path) if getattr(league, key) else None
+    key, _, otherwise = key.partition(" or ")
     section, _, name = key.rpartition(".")
     of: Any = getattr(league, section) if section else league
     value = getattr(of, name)
     if value is None:
-        return None
+        return text_of(league, otherwise) if otherwise else None
     held = SECTIONS.get(section, type(league))
     kind = next(one.kind for one in declared(held) if one.name == name)
     if kind is FILE and (name != "chart" or Path(league.place(value)).is_file()):

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from evenbreak.fields.kinds import File, Flag, Named, Whole
-from evenbreak.fields.question import Field, Question
-from evenbreak.questions.common import OutFolder, folder
+from evenbreak.fields.question import Field, Question, Says
+from evenbreak.files.league.values import LINE
+from evenbreak.questions.common import ChartName, HandicappedRace, OutFolder, ScaleOf, folder
+from evenbreak.tournaments.evening.format import Discipline, Tables
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,6 +25,45 @@ class Demo(Question):
   evenbreak demo data
 """
     folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "evenbreak-demo"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeagueInit(Question):
+    """Write the file of a league, league.toml, from what is in its folder.
+
+    FOLDER is the current one unless given. Its files are looked at: results, lists of players,
+    fixtures, a chart. What they do not say is asked, each time with a proposal; in a script, and
+    with {yes}, the proposals are taken. Then every command run in the folder takes its defaults
+    from the file.
+    """
+
+    examples = """\
+  evenbreak league init
+  evenbreak league init tuesday --yes
+  evenbreak league init --name "Tuesday 8-Ball" --chart apa_8ball --tables 6
+"""
+    folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "."
+    yes: Annotated[bool, Field(Flag(), "Take all proposals, and ask nothing.")] = False
+    name: Annotated[
+        str | None, Field(LINE, "The name of the league.", usual="the folder's", metavar="TEXT")
+    ] = None
+    discipline: Annotated[Discipline | None, Says("The game.", usual="8-ball")] = None
+    scale: Annotated[ScaleOf, Says(more="")] = None
+    chart: Annotated[
+        ChartName,
+        Says("The chart of the races: its name, or a file of the folder.", usual="by the players"),
+    ] = None
+    race_to: Annotated[
+        int | None,
+        HandicappedRace,
+        Says("In place of a chart: the stronger player needs N games."),
+    ] = None
+    tables: Annotated[Tables | None, Says(usual="left open")] = None
+
+    def check(self) -> None:
+        """Refuse two kinds of races."""
+        if self.chart is not None and self.race_to is not None:
+            self.refuse("{chart} and {race_to} cannot be combined; leave one out")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,10 @@ import pytest
 
 from evenbreak.cli.kit.asked import AskedCommand, asked_of
 from evenbreak.cli.kit.faces import FACES
+from evenbreak.cli.kit.said import runs
 from evenbreak.cli.program import program
 from evenbreak.fields.question import declared
-from evenbreak.questions.of_league import KEYS, key_of
+from evenbreak.questions.of_league import BY_LEVEL, KEYS, key_of
 
 RACES = {"chart": 'chart = "npl_8"', "race": "race = 6", "race_to": "race_to = 6"}
 TOP = {
@@ -20,6 +21,9 @@ TOP = {
     "minutes_per_game": "minutes_per_game = 6.5",
     "name": 'name = "Tuesday"',
     "paper": 'paper = "letter"',
+    "venue": 'venue = "Corner Pocket"',
+    "begins": "begins = 2026-09-01",
+    "ends": "ends = 2026-11-01",
 }
 TABLES = """
 [files]
@@ -45,9 +49,9 @@ ties = ["wins"]
 [prices]
 entry = 12
 [publish]
-names = "initials"
 color = "#123456"
-logo = "logo.csv"
+logo = "logo.png"
+names = "initials"
 """
 OTHER = {
     "scale": "fargo",
@@ -58,6 +62,9 @@ OTHER = {
     "discipline": "8-ball",
     "minutes_per_game": "9",
     "name": "Another",
+    "venue": "Elsewhere",
+    "begins": "2026-10-01",
+    "ends": "2026-12-01",
     "paper": "a4",
     "chart": "npl_12",
     "race": "4",
@@ -70,12 +77,15 @@ OTHER = {
     "standings.points": "2,1,0",
     "standings.ties": "scored",
     "prices.entry": "5",
-    "publish.names": "hidden",
     "publish.color": "#654321",
+    "publish.names": "hidden",
     "results.columns": "score_a=X,score_b=Y",
     "results.dates": "dmy",
 }
 """Another value for each key, as it is typed; that of a file is other.csv."""
+
+MADE = ("files.teams or files.roster", "begins", "ends")
+"""What is for fixtures that are not made yet."""
 
 LINEUP = ["ours.csv", "theirs.csv"]
 WORDS = {
@@ -104,6 +114,7 @@ WORDS = {
 MORE = {
     ("matchups", "tables"): ["--pairs", "tonight.csv"],
     ("matchups", "turnover"): ["--pairs", "tonight.csv"],
+    ("publish", "race_to"): [],
     ("rate", "chart"): ["--system", "npl", "--roster", "last.csv"],
     **{(name, "from_file"): ["Ann", "Bo"] for name in ("odds", "fair", "live")},
 }
@@ -130,24 +141,31 @@ OPTIONS = [
 
 @pytest.fixture
 def league(tmp_path, monkeypatch):
-    names = "players fixtures teams team_results autumn other logo ours theirs entrants start last"
+    names = "players fixtures teams team_results autumn other ours theirs entrants start last"
     for name in names.split():
-        (tmp_path / f"{name}.csv").write_text("")
+        (tmp_path / f"{name}.csv").write_text("player,level\nAnn,5\nBo,4\n")
+    (tmp_path / "logo.png").write_text("")
     monkeypatch.chdir(tmp_path)
 
-    def write(key, question):
+    def write(key, question, required):
         by_chart = any(one.name == "chart" for one in declared(question))
         races = key if key in RACES else "chart" if by_chart else "race"
         pace = "discipline" if key != "minutes_per_game" else "minutes_per_game"
         leaves_out = {"discipline", "minutes_per_game"} - {pace}
+        by_level = (question.__name__, key) in BY_LEVEL or (key == "results" and not required)
+        if by_level:
+            leaves_out |= {"scale"}
         top = [line for name, line in TOP.items() if name not in leaves_out]
-        (tmp_path / "league.toml").write_text("\n".join([*top, RACES[races], TABLES]))
+        chart = 'chart = "apa_8ball"' if by_level else RACES[races]
+        tables = TABLES.replace('fixtures = "fixtures.csv"\n', "") if key in MADE else TABLES
+        (tmp_path / "league.toml").write_text("\n".join([*top, chart, tables]))
 
     return write
 
 
 def asked(name, words):
     command = COMMANDS[name]
+    runs(command)
     with command.make_context(name, list(words)) as ctx:
         values = {name: value for name, value in ctx.params.items() if name not in FACES}
         return asked_of(command.question, values, ctx)
@@ -157,19 +175,21 @@ def asked(name, words):
 def test_each_option_is_taken_shown_and_overridden(league, capsys, name, one):
     question = COMMANDS[name].question
     key = key_of(question, one.name)
-    league(key, question)
+    league(key, question, one.required)
     words = WORDS.get(name, [])
     more = MORE.get((name, one.name), [])
     words = more if one.name == "from_file" else [*words, *more]
     if key.startswith("results."):
-        words = [*words, *(["--results"] if name == "why" else []), "autumn.csv"]
+        option = {"why": ["--results"], "league fixtures": ["--left"]}.get(name, [])
+        words = [*words, *option, "autumn.csv"]
     value = getattr(asked(name, words), one.name)
     assert value != one.default
     verbose = ["-v"] if any(param.name == "verbose" for param in COMMANDS[name].params) else []
     if verbose:
         capsys.readouterr()
         asked(name, [*words, "-v"])
-        assert f" {one.name} " in capsys.readouterr().err
+        shown = capsys.readouterr().err
+        assert f" {one.name} " in shown or f" {one.option} " in shown
     other = OTHER.get(key, "other.csv")
     typed = [other] if one.field.argument else [one.option, other]
     if one.name == "schedule" and one.field.argument:

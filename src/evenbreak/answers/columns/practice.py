@@ -193,6 +193,8 @@ FILES = registry(
     text("who", "if you"),
     text("command", "type", whole=True),
     text("file", "file"),
+    text("taken_as", "taken as"),
+    text("for_what", "for"),
     text("holds", "what it holds"),
     text("verdict", "verdict"),
     number("numbers", "numbers"),

@@ -136,7 +136,7 @@ def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answe
         system = system.on_chart(files.find_chart(asked.chart))
     last = files.read_roster(roster)
     refuse_for_system(last, system)
-    season = files.read_results(asked.results[0], **asked.reading)
+    season = files.read_seasons(asked.results, **asked.reading)
     moves = answers.rating_changes_of_season(system, last, season, chart=system)
     return answers.rating_changes_answer(moves, last, season)
 

@@ -22,7 +22,7 @@ from evenbreak.files.league import LEAGUE_TOML, values
 from evenbreak.files.league import find_league as find_league
 from evenbreak.files.league import is_league as is_league
 from evenbreak.files.league.toml_lines import Keys, lines_of
-from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.problems import Problems, printable, quoted
 from evenbreak.files.tables.rows import content_of
 from evenbreak.league.tables.rules import TableRules
 from evenbreak.ratings.scale import Scale
@@ -238,8 +238,13 @@ def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile
     path = Path(place)
     if path.is_dir():
         path = path / LEAGUE_TOML
-    source, content = content_of(path)
-    problems = Problems(source)
+    _, content = content_of(path)
+    return league_of(content, path, quickly=quickly)
+
+
+def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFile:
+    """Return what a league's file of this content says; raises as `read_league` does."""
+    problems = Problems(printable(str(path)))
     try:
         text = content.decode("utf-8-sig")
         table = tomllib.loads(text)

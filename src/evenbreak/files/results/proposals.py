@@ -76,7 +76,7 @@ def columns_hint(
     >>> print(columns_hint({}, ["Sp H", "Sp G", "S"], [["Ann", "Bo", "7-5"]]))
     if it has them by other names, add columns "player_a=Sp H,player_b=Sp G,score=S"
     """
-    readings = _readings(places, titles, rows)
+    readings = readings_of(places, titles, rows)
     if not 0 < len(readings) <= _MOST_READINGS:
         return say("add them; one column score, with 7-5 in a cell, takes the place of two")
     options = [_option(reading) for reading in readings]
@@ -101,7 +101,7 @@ def _option(reading: Reading) -> str:
     return f"{quote}{titles}{quote}"
 
 
-def _readings(
+def readings_of(
     places: Mapping[str, int], titles: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> list[Reading]:
     """Return every way to read the file that its titles and rows leave open."""
@@ -281,7 +281,8 @@ def _are_scores(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> bo
         over = [max(m, n) != r for m, n, r in zip(a, b, goals, strict=True) if min(m, n, r) >= 0]
         if sum(over) > _FEW * len(over):
             return False
-    return not any(_is_of_player(c, p) for c, p in zip(pair, players, strict=True))
+    # Either way around: what rules out one order of the players must not leave the other.
+    return not any(_is_of_player(column, player) for column in pair for player in players)
 
 
 def _may_be_scores(pair: _Pair, players: _Pair) -> bool:

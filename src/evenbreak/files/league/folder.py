@@ -1,0 +1,228 @@
+"""What the files in a league's folder are, so that `league.toml` can be written from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from evenbreak.errors import DataError, EvenbreakError
+from evenbreak.files.charts import DIFFERENCES, LEVELS, read_chart
+from evenbreak.files.foreign.results import export_of
+from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.lists.teams import FIXTURES, TEAM, TEAMS
+from evenbreak.files.results.columns import RESULTS_FILE
+from evenbreak.files.results.proposals import readings_of
+from evenbreak.files.results.results_file import ALIASES, read_aliases, read_results
+from evenbreak.files.tables.names import same_name
+from evenbreak.files.tables.schema import Schema
+from evenbreak.files.tables.table import TextTable
+from evenbreak.words import Sentence, say, say_count
+
+ENDINGS = (".csv", ".tsv", ".txt", ".xlsx", ".ods", ".json")
+MOST_FILES = 200
+"""A folder with more files is hardly that of a league."""
+
+RESULTS, ROSTER, CHART = "results", "roster", "chart"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeenFile:
+    """A file of a folder, and what it is.
+
+    Parameters
+    ----------
+    name
+        of the file.
+    what
+        results, team_results, roster, fixtures, teams, chart, aliases; '' if none of them.
+    about
+        what it holds, in words.
+    columns
+        of results: the titles of the columns, where they are not known ones.
+    players
+        the names in it, as they are compared.
+    holds
+        its content, where it could be read.
+    """
+
+    name: str
+    what: str
+    about: Sentence
+    columns: Mapping[str, str] = field(default_factory=dict)
+    players: frozenset[str] = frozenset()
+    teams: frozenset[str] = frozenset()
+    """The teams that it names, likewise."""
+    holds: Any = None
+
+
+def seen_files(folder: str | Path) -> list[SeenFile]:
+    """Return what the files in a folder are, in the order of their names.
+
+    Raises
+    ------
+    OSError
+        if the folder cannot be read.
+    """
+    places = sorted(
+        place
+        for place in Path(folder).iterdir()
+        if place.suffix.lower() in ENDINGS and place.is_file() and place.name[0] != "."
+    )
+    every = [_seen(place) for place in places[:MOST_FILES]]
+    teams = frozenset[str]().union(*(one.teams for one in every))
+    return _one_league(
+        [
+            replace(one, what="team_results")
+            if one.what == RESULTS and one.players and one.players <= teams
+            else one
+            for one in every
+        ]
+    )
+
+
+def _one_league(every: list[SeenFile]) -> list[SeenFile]:
+    """Return the files with those set aside that have no player of the others: another league's."""
+    largest = max(
+        (one for one in every if one.what == RESULTS),
+        key=lambda one: len(one.players),
+        default=None,
+    )
+    if largest is None:
+        return every
+    league, known = {largest.name}, largest.players
+    while more := [
+        one
+        for one in every
+        if one.name not in league and one.what in (RESULTS, ROSTER) and one.players & known
+    ]:
+        league |= {one.name for one in more}
+        known = known.union(*(one.players for one in more))
+    teams = frozenset[str]().union(*(one.teams for one in every if one.name in league))
+    about = say("players of another league than {file}", file=largest.name)
+    return [
+        replace(one, what="", about=about)
+        if one.name not in league and one.players and not one.players & (known | teams)
+        else one
+        for one in every
+    ]
+
+
+def _seen(path: Path) -> SeenFile:
+    for look in (_chart, _aliases, _results, _roster, _fixtures, _teams, _results_by_rows):
+        try:
+            if (seen := look(path)) is not None:
+                return seen
+        except (EvenbreakError, OSError):
+            continue
+    return SeenFile(name=path.name, what="", about=say("not used"))
+
+
+def _table(schema: Schema, path: Path, **how: Any) -> TextTable | None:
+    """Return the table in a file if it has all the columns that a schema needs."""
+    table = schema.text(path, **how)
+    for name, column in schema.columns.items():
+        ways = [{name}, *(set(names.split()) for names in column.instead or ())]
+        if column.needed and not any(way <= table.found for way in ways):
+            return None
+    return table
+
+
+def _chart(path: Path) -> SeenFile | None:
+    table = (DIFFERENCES | LEVELS).text(path)
+    if not any(columns <= table.found for columns in _OF_CHARTS):
+        return None
+    try:
+        read_chart(path)
+    except DataError:
+        about = say("a chart with mistakes: see `evenbreak chart audit {name}`", name=path.name)
+        return SeenFile(name=path.name, what="", about=about)
+    return SeenFile(name=path.name, what=CHART, about=say("a chart of races"))
+
+
+_OF_CHARTS = ({"stronger_needs", "weaker_needs"}, {"level", "opponent_level", "needs"})
+
+
+def _aliases(path: Path) -> SeenFile | None:
+    table = _table(ALIASES, path)
+    if table is None or table.titles["means"].casefold() not in ("means", "stands for"):
+        return None
+    means = read_aliases(path).means
+    about = say_count("{n} name that means another", "{n} names that mean others", len(means))
+    return SeenFile(name=path.name, what="aliases", about=about, holds=means)
+
+
+def _results(path: Path) -> SeenFile | None:
+    """Return a file of results whose titles are known."""
+    table = _table(RESULTS_FILE, path, exported=export_of)
+    return None if table is None else _results_by(path, {})
+
+
+def _results_by_rows(path: Path) -> SeenFile | None:
+    """Return a file of results whose rows leave one reading of its titles."""
+    ways: list[Mapping[str, str]] = []
+
+    def hint(*of_file: Any) -> str:
+        ways.extend(readings_of(*of_file))
+        return ""
+
+    RESULTS_FILE.text(path, hint=hint)
+    if len(ways) > 1:
+        about = say(
+            "perhaps results; `evenbreak rate {name}` shows in which {n} ways they can be read",
+            name=path.name,
+            n=len(ways),
+        )
+        return SeenFile(name=path.name, what="", about=about)
+    return _results_by(path, ways[0]) if ways else None
+
+
+def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
+    try:
+        results = read_results(path, columns=columns).results
+    except DataError as error:
+        about = say_count(
+            "results of matches, with {n} line to mend: see `evenbreak rate {name}`",
+            "results of matches, with {n} lines to mend: see `evenbreak rate {name}`",
+            len(error.problems),
+            name=path.name,
+        )
+        return SeenFile(name=path.name, what=RESULTS, about=about, columns=columns)
+    about = say(
+        "{n:,} matches of {players:,} players", n=len(results), players=len(results.players)
+    )
+    names = frozenset(map(same_name, results.players))
+    return SeenFile(
+        name=path.name, what=RESULTS, about=about, columns=columns, players=names, holds=results
+    )
+
+
+def _roster(path: Path) -> SeenFile | None:
+    table = _table(TEAM, path)
+    if table is None or not {"rating", "level"} & table.found:
+        return None
+    file = read_roster(path)
+    names = frozenset(map(same_name, file.roster.players))
+    about = say("{n:,} players", n=len(names))
+    teams = frozenset(map(same_name, filter(None, table.cells("team"))))
+    return SeenFile(
+        name=path.name, what=ROSTER, about=about, players=names, teams=teams, holds=file
+    )
+
+
+def _fixtures(path: Path) -> SeenFile | None:
+    table = _table(FIXTURES, path)
+    if table is None or not {"round", "date"} & table.found:
+        return None
+    names = frozenset(map(same_name, (*table.cells("home"), *table.cells("away"))))
+    return SeenFile(name=path.name, what="fixtures", about=say("who plays whom"), players=names)
+
+
+def _teams(path: Path) -> SeenFile | None:
+    table = _table(TEAMS, path)
+    if table is None or not table.titles["team"].casefold().startswith("team"):
+        return None
+    names = frozenset(map(same_name, table.cells("team")))
+    about = say("{n} teams", n=len(names))
+    return SeenFile(name=path.name, what="teams", about=about, teams=names)
