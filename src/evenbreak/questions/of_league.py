@@ -149,7 +149,7 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
         for one in every
         if one.name in NEEDED and _refusal(question, typed, _without(every, [one])) is None
     ]
-    by_level = [one for one in every if _is_for_levels(question, one.name)]
+    by_level = [one for one in every if _is_for_levels(question, one.name, typed)]
     if by_level and not _has_levels(typed, _without(every, needless), league):
         needless += by_level
     kept, left_out = _without(every, needless), list[Taken]()
@@ -166,7 +166,11 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
     return kept
 
 
-def _is_for_levels(question: Any, name: str) -> bool:
+def _is_for_levels(question: Any, name: str, typed: Mapping[str, Any]) -> bool:
+    from evenbreak.questions.results import ByChart
+
+    if name == "chart" and issubclass(question, ByChart) and "system" not in typed:
+        return bool(question.__name__ != "Publish")  # whose chart sets races too
     if name == "results":
         return not next(one.required for one in declared(question) if one.name == name)
     return any((one.__name__, name) in BY_LEVEL for one in question.__mro__)

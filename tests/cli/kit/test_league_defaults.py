@@ -9,6 +9,7 @@ from evenbreak.cli.kit.said import runs
 from evenbreak.cli.program import program
 from evenbreak.fields.question import declared
 from evenbreak.questions.of_league import BY_LEVEL, KEYS, key_of
+from evenbreak.questions.results import ByChart
 
 RACES = {"chart": 'chart = "npl_8"', "race": "race = 6", "race_to": "race_to = 6"}
 TOP = {
@@ -115,7 +116,6 @@ MORE = {
     ("matchups", "tables"): ["--pairs", "tonight.csv"],
     ("matchups", "turnover"): ["--pairs", "tonight.csv"],
     ("publish", "race_to"): [],
-    ("rate", "chart"): ["--system", "npl", "--roster", "last.csv"],
     **{(name, "from_file"): ["Ann", "Bo"] for name in ("odds", "fair", "live")},
 }
 """What is typed for some options besides, or in place of the words."""
@@ -153,6 +153,8 @@ def league(tmp_path, monkeypatch):
         pace = "discipline" if key != "minutes_per_game" else "minutes_per_game"
         leaves_out = {"discipline", "minutes_per_game"} - {pace}
         by_level = (question.__name__, key) in BY_LEVEL or (key == "results" and not required)
+        if key == "chart" and issubclass(question, ByChart):
+            by_level = question.__name__ != "Publish"
         if by_level:
             leaves_out |= {"scale"}
         top = [line for name, line in TOP.items() if name not in leaves_out]
