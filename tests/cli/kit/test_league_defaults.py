@@ -67,7 +67,6 @@ OTHER = {
     "begins": "2026-10-01",
     "ends": "2026-12-01",
     "paper": "a4",
-    "chart": "npl_12",
     "race": "4",
     "race_to": "4",
     "team.sets": "3",
@@ -85,15 +84,16 @@ OTHER = {
 }
 """Another value for each key, as it is typed; that of a file is other.csv."""
 
+LEVELS = "level,opponent_level,needs,opponent_needs\n4,4,3,3\n5,4,4,3\n5,5,4,4\n"
 MADE = ("files.teams or files.roster", "begins", "ends")
 """What is for fixtures that are not made yet."""
 
 LINEUP = ["ours.csv", "theirs.csv"]
 WORDS = {
-    "odds": ["92", "80"],
-    "fair": ["92", "80"],
-    "live": ["92", "80"],
-    "compare": ["7:7", "9:9", "92", "80"],
+    "odds": ["5", "4"],
+    "fair": ["5", "4"],
+    "live": ["5", "4"],
+    "compare": ["7:7", "9:9", "5", "4"],
     "why": ["Ann", "Bo"],
     "lineup": LINEUP,
     "round": LINEUP,
@@ -145,6 +145,7 @@ def league(tmp_path, monkeypatch):
     for name in names.split():
         (tmp_path / f"{name}.csv").write_text("player,level\nAnn,5\nBo,4\n")
     (tmp_path / "logo.png").write_text("")
+    (tmp_path / "levels.csv").write_text(LEVELS)
     monkeypatch.chdir(tmp_path)
 
     def write(key, question, required):
@@ -192,7 +193,7 @@ def test_each_option_is_taken_shown_and_overridden(league, capsys, name, one):
         asked(name, [*words, "-v"])
         shown = capsys.readouterr().err
         assert f" {one.name} " in shown or f" {one.option} " in shown
-    other = OTHER.get(key, "other.csv")
+    other = "levels.csv" if key == "chart" else OTHER.get(key, "other.csv")
     typed = [other] if one.field.argument else [one.option, other]
     if one.name == "schedule" and one.field.argument:
         typed = ["results.csv", other]
