@@ -8,10 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from evenbreak.handicaps import chart
-from evenbreak.league import LeaguePlayers, RandomPairing, Season, run_chunk, simulate
+from evenbreak.handicaps import chart, system_of
+from evenbreak.league import (
+    LeaguePlayers,
+    RandomPairing,
+    Season,
+    World,
+    play_systems,
+    run_chunk,
+    simulate,
+)
 from evenbreak.matches import race_win_probability
-from evenbreak.ratings.scale import scale_of
+from evenbreak.ratings.scale import SCALES, scale_of
 
 Beside = Callable[..., float]
 
@@ -113,3 +121,33 @@ def test_replicas(beside: Beside, benchmark: Any, schedule: str) -> None:
         note="statistics in ours",
     )
     print(ratio, speed(2000 * 32 * WEEKS, benchmark.extra_info["ours"]))
+
+
+@pytest.mark.parametrize(("players", "replicas"), [(1000, 1), (64, 16)])
+def test_a_thousand_player_seasons(beside: Beside, players: int, replicas: int) -> None:
+    """What a season costs whatever its size: the statistics, and numpy's calls."""
+    season = season_of(players)
+    season.lookup.expected  # noqa: B018
+    bare = bare_league(players) if replicas == 1 else bare_replicas(replicas, players)
+    beside(
+        f"{replicas} replicas of {players:,} players, {WEEKS} weeks / bare loop",
+        lambda: simulate(season, replicas=replicas, seed=1),
+        bare,
+        rounds=31,
+        note="statistics in ours",
+    )
+
+
+@pytest.mark.parametrize("name", ["step 1", "fargo-like", "level-review"])
+def test_systems_compared(beside: Beside, name: str) -> None:
+    """Any system, with newcomers, sandbaggers and final scores, beside bare steps without them."""
+    system = system_of(name)
+    rating = skills(24)
+    world = World(LeaguePlayers.of(rating, skill=rating), SCALES["npl"], weeks=WEEKS)
+    beside(
+        f"{name} in a contest, 500 replicas of 24 players / bare loop of steps",
+        lambda: play_systems(world, [system], replicas=500, seed=1),
+        bare_replicas(500, 24),
+        rounds=5,
+        note="all measures in ours",
+    )

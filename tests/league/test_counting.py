@@ -62,6 +62,7 @@ def test_rating_errors_are_counted_and_cut_at_the_widest():
     rating = SEASON.players.rating[:, None].astype(np.int16)
     skill = (SEASON.players.rating - [0, 3, -2, 500, 1])[:, None].astype(np.int16)
     count.week(1, rating, skill, None)
+    count.count_kept()
     values = np.arange(-count.widest, count.widest + 1)
     found = {int(value): int(n) for value, n in zip(values, count.errors[1], strict=True) if n}
     assert found == {0: 1, 3: 1, -2: 1, count.widest: 1, 1: 1}

@@ -26,6 +26,9 @@ _LARGE = 1 << 20
 _SMALL = 1 << 15
 """The first whole number that signed 16 bits cannot hold."""
 
+_FEW = 1 << 18
+"""Errors of a whole chunk that are kept and counted at once, since each count takes a while."""
+
 _BLOCK = 1 << 15
 """Ratings counted at a time, so that they stay in the cache."""
 
@@ -56,6 +59,7 @@ class Counting:
         errors = np.arange(-self.widest, self.widest + 1)
         is_near = near(errors, season.system.scale)
         self.noted = np.column_stack([errors**0, errors, errors**2, is_near])
+        self.kept: list[tuple[int, NDArray[np.int16]]] = []
         # The bin of no error, among the bins of a row's batch.
         small = np.int16 if batches * bins < _SMALL else np.intp  # fewer bytes are faster
         zeros = (bins * np.arange(batches) + self.widest).astype(small)
@@ -69,6 +73,9 @@ class Counting:
         here: Bools | None,
     ) -> None:
         """Count the rating errors of the players in the league (None: everybody)."""
+        if here is None and rating.size * len(self.errors) <= _FEW:
+            self.kept.append((week, rating - skill))
+            return
         bins = 2 * self.widest + 1
         counted = np.zeros(self.batches * bins, dtype=np.int64)
         step = max(1, _BLOCK // rating.shape[1])
@@ -84,6 +91,26 @@ class Counting:
         by_batch = counted.reshape(self.batches, bins)
         self.errors[week] = by_batch.sum(axis=0)
         self.weeks[:, week] = by_batch @ self.noted
+
+    def count_kept(self) -> None:
+        """Count the errors of a small league's weeks all at once."""
+        if not self.kept:
+            return
+        bins, weeks = 2 * self.widest + 1, [week for week, _ in self.kept]
+        errors = np.stack([error for _, error in self.kept]).reshape(len(weeks), self.batches, -1)
+        if max(int(errors.max()), -int(errors.min())) > self.widest:
+            np.clip(errors, -self.widest, self.widest, out=errors)
+        places = errors + (bins * np.arange(len(weeks)) + self.widest)[:, None, None]
+        counted = np.bincount(places.ravel(), minlength=bins * len(weeks))
+        self.errors[weeks] = counted.reshape(-1, bins)
+        near = np.abs(errors) <= int(self.noted[:, 3].sum()) // 2  # a range around no error
+        wide = errors.astype(np.int32)
+        sums = [
+            wide.sum(axis=2),
+            np.einsum("wbr,wbr->wb", wide, wide, dtype=np.int64),
+            near.sum(axis=2),
+        ]
+        self.weeks[:, weeks] = np.stack([np.full_like(sums[0], errors.shape[2]), *sums]).T
 
     def matches(self, cell: Places, won: Bools, played: Any) -> None:
         """Count matches by their place in the tables of all batches, and by winner.
@@ -111,6 +138,8 @@ class Counting:
         matches = self._across(ended.matches)
         width = -(-(self.look.gap + 1) // _BINS)
         share = 1 if ended.matches.shape[1] > 1 else self.replicas
+        most = min(self.widest, max(int(moved.max()), -int(moved.min())))
+        self.count_kept()
         return Tally(
             replicas=np.full(self.batches, self.replicas),
             matches=matches.sum(axis=1, dtype=np.int64) * share,
@@ -121,9 +150,9 @@ class Counting:
             games=None if games is None else self._across(games).sum(axis=1, dtype=np.int64),
             products=self._products(wins, moved, matches, share),
             wins_counts=_by_player(wins, int(wins.max(initial=0))),
-            rating_counts=_by_player(
-                np.clip(moved, -self.widest, self.widest) + self.widest, 2 * self.widest
-            ),
+            rating_counts=None
+            if len(moved) * len(self.noted) > _LARGE
+            else _by_player(np.clip(moved, -most, most) + most, 2 * most),
             errors=self.errors,
             gap_width=width,
             gaps=self._gaps(width),

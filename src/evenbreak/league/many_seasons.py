@@ -184,13 +184,16 @@ class _Chunk:
         if isinstance(schedule, RandomPairing):
             if here is None and self.batches == 1:
                 return schedule.pairs(week, self.rng, many)
-            who = np.flatnonzero(self.season.players.here(week))
+            who = None if here is None else np.flatnonzero(self.season.players.here(week))
+            count = many if who is None else len(who)
             drawn = (
-                schedule.pairs(week, self.rng, len(who))
+                schedule.pairs(week, self.rng, count)
                 if self.batches == 1
-                else schedule.many_pairs(self.rng, len(who), self.batches)
+                else schedule.many_pairs(self.rng, count, self.batches)
             )
-            return [((who[a] + first).ravel(), (who[b] + first).ravel()) for a, b in drawn]
+            if who is not None:
+                drawn = [(who[a], who[b]) for a, b in drawn]
+            return [((a + first).ravel(), (b + first).ravel()) for a, b in drawn]
         if isinstance(schedule, RoundRobin | FixedSchedule):
             rounds = [(a + first, b + first) for a, b in schedule.pairs(week, self.rng, many)]
         else:  # a schedule of the user's own, which may draw too

@@ -22,7 +22,7 @@ from evenbreak.errors import InputError
 Round = tuple[Places, Places]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 
-_FEW = 1000
+_FEW = 5000
 """With fewer players than this, shuffling all is faster than drawing half of them."""
 
 

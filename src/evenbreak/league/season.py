@@ -187,7 +187,8 @@ class Tally:
         None if it would be large.
     rating_counts
         in how many replicas each player's rating moved by -most, ..., most points: shape
-        (players, 2 * most + 1); larger moves are counted at the ends. None if it would be large.
+        (players, 2 * most + 1); moves beyond four doublings are counted at the ends. None if it
+        would be large.
     errors
         how many players had each rating error (rating less true skill, rounded to whole points)
         at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1),
@@ -327,7 +328,11 @@ def fifths_of(skill: NDArray[Any]) -> Ints:
 
 
 _IN_BATCHES = ("replicas", "gaps", "weeks", "fifths")
-_WIDENED = ("wins_counts",)
+_WIDENED = {"wins_counts": 0, "rating_counts": 1}
+"""Tables by player as wide as was needed, and how many columns are to be added before each other.
+
+Wins begin at 0; moves are around the middle.
+"""
 
 
 def _added(first: Tally, second: Tally, name: str) -> Any:
@@ -339,6 +344,10 @@ def _added(first: Tally, second: Tally, name: str) -> Any:
     if name in _IN_BATCHES:
         return np.concatenate([mine, theirs])
     if name in _WIDENED and mine.shape != theirs.shape:
-        most = max(mine.shape[1], theirs.shape[1])
-        mine, theirs = (np.pad(x, ((0, 0), (0, most - x.shape[1]))) for x in (mine, theirs))
+        most, around = max(mine.shape[1], theirs.shape[1]), _WIDENED[name]
+        mine, theirs = (
+            np.pad(x, ((0, 0), (around * left // 2, left - around * left // 2)))
+            for x in (mine, theirs)
+            for left in (most - x.shape[1],)
+        )
     return mine + theirs
