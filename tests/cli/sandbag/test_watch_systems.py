@@ -45,7 +45,7 @@ def test_most_evidence_is_against_who_dumps_and_honest_players_are_not_flagged(
     players = json.loads(found.stdout)["players"]
     if dumps:
         assert max(players, key=lambda row: row["largest_e"])["player"] == "P0"
-        assert max(row["largest_e"] for row in players) > 20.0
+        assert max(row["largest_e"] for row in players) > 10.0
     else:
         assert not [row["player"] for row in players if row["flagged"]]
 

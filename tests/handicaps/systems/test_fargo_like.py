@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 from scipy.special import log_expit
 
 from evenbreak.handicaps import Entries, FargoLike, History, Matches
+from evenbreak.handicaps.systems import fargo_like
 from evenbreak.handicaps.systems.fargo_like import performance
 from evenbreak.handicaps.systems.laws import entries_for, played_nights
 
@@ -99,6 +100,15 @@ def test_a_starter_counts_for_the_games_that_lack_and_moves_nobody_else():
     assert np.abs(after[0][1:] - after[1][1:]).max() < 2.0
     # 8 games, and 192 more (and the 2) against the starter.
     assert after[0][0] == pytest.approx(400.0 + 8 / 202 * 200, abs=12.0)
+
+
+def test_large_leagues_are_solved_as_small_ones_are(monkeypatch):
+    found = []
+    for most in (0, 20_000):
+        monkeypatch.setattr(fargo_like, "_DENSE", most)
+        *_, (_, published) = played_nights(FargoLike(), np.random.default_rng(9))
+        found.append(published)
+    np.testing.assert_allclose(found[0], found[1], atol=1e-6)
 
 
 def test_a_performance_is_the_rating_at_which_a_score_is_expected():

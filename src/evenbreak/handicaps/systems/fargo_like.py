@@ -16,8 +16,8 @@ ratings on the list rest on as many games as the list states, `past` at most (20
 none); and that the level of the scale is held by the list (the real one's anchor is unpublished).
 
 All replicas are solved at once: Newton's method from the last ratings, each step by conjugate
-gradients with a scaled diagonal. Games of a pair are one entry, so the work does not grow with the
-matches of a pair.
+gradients with a scaled diagonal, or densely in a single small league. Games of a pair are one
+entry, so the work does not grow with the matches of a pair.
 """
 
 from __future__ import annotations
@@ -50,6 +50,9 @@ _LONGEST = 2.0
 """The longest step, in log-odds: from farther away Newton's method may overshoot."""
 
 _STEPS = 100
+
+_DENSE = 20_000
+"""With at most so many entries of all matrices the steps are solved for densely."""
 
 
 class _Games(NamedTuple):
@@ -228,9 +231,11 @@ def _fitted(
 def _solved(
     games: _Games, curvature: Floats, held: Floats, right: Floats, shape: tuple[int, ...]
 ) -> Floats:
-    """Return the Newton step of all replicas by conjugate gradients, each with its own lengths."""
+    """Return the Newton step of all replicas: by dense solves, or by conjugate gradients."""
     low, high, size = games.low, games.high, right.size
     diagonal = held + np.bincount(low, curvature, size) + np.bincount(high, curvature, size)
+    if size * shape[0] <= _DENSE:
+        return _solved_densely(games, curvature, diagonal, right, shape[0])
 
     def image(of: Floats) -> Floats:
         force = curvature * (of[low] - of[high])
@@ -260,6 +265,19 @@ def _solved(
         turn = np.divide(square, before, out=np.zeros_like(square), where=before > 0.0)
         direction = scaled + spread(turn) * direction
     return step
+
+
+def _solved_densely(
+    games: _Games, curvature: Floats, diagonal: Floats, right: Floats, players: int
+) -> Floats:
+    across = right.size // players
+    (low, replica), (high, _) = np.divmod(games.low, across), np.divmod(games.high, across)
+    matrix = np.zeros((across, players, players))
+    matrix[replica, low, high] = matrix[replica, high, low] = -curvature
+    own = np.arange(players)
+    matrix[:, own, own] = diagonal.reshape(players, across).T
+    steps = np.linalg.solve(matrix, right.reshape(players, across).T[..., None])[..., 0]
+    return np.asarray(steps.T.reshape(-1), dtype=float)
 
 
 def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any) -> Floats:
