@@ -117,6 +117,8 @@ ASKED = {
     "--racks abb",
     "matchups": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10",
     "matchups_levels": "matchups data/apa_roster.csv --chart apa_8ball",
+    "odds_levels": "odds 5 3 --chart apa_8ball",
+    "odds_points": "odds 5 3 --chart apa_9ball",
     "matchups_both": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10 "
     "--games 7..13 --minutes-per-game 8 --tables 2",
     "matchups_uneven": "matchups data/demo_roster.csv --race-to 3",
