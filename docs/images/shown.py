@@ -252,6 +252,14 @@ picture.legend(fontsize=9)
             draws="draw_two_lists",
         ),
         Shown(
+            "practice_shots.svg",
+            "Which shots went in",
+            "Single shots by day, and the earlier and the later half of the tries.",
+            "how-to/did-my-practice-help.md",
+            "practice data/practice_shots.csv --plot FILE",
+            draws="draw_practice_shots",
+        ),
+        Shown(
             "runs.svg",
             "How long the runs are",
             "The score of several innings, with a range shaded.",

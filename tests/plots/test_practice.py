@@ -12,9 +12,9 @@ from evenbreak.matches import StraightPool, even_spot, straight_pool_odds
 from evenbreak.plots.practice import (
     draw_drill,
     draw_log,
+    draw_practice_shots,
     draw_score,
     draw_scores,
-    draw_shots,
     draw_spot,
     draw_two_lists,
 )
@@ -171,11 +171,11 @@ def test_many_levels_have_no_crowd_of_ticks():
 def test_a_log_of_shots_is_drawn_with_the_halves_that_its_text_states():
     file = read_practice(DATA / "practice_shots.csv")
     found = analyse_shots(file.log)
-    axes = draw_shots(file, found)
+    axes = draw_practice_shots(file, found)
     texts = [text.get_text() for text in axes.figure.legends[0].get_texts()]
     assert texts[-2:] == ["before 2024-10-01: 50%", "since 2024-10-01: 62%"]
     halves = {float(line.get_ydata()[0]) for line in axes.lines if len(line.get_ydata()) == 2}
     assert halves == {found.change.before, found.change.after}
     undated = file._replace(log=replace(file.log, day=None))
-    axes = draw_shots(undated, analyse_shots(undated.log))
+    axes = draw_practice_shots(undated, analyse_shots(undated.log))
     assert len(axes.get_xticklabels()) == 5

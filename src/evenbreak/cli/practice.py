@@ -92,9 +92,9 @@ def _shots(asked: Scores, file: ShotsFile) -> Answer:
             )
     found = practice.analyse_shots(file.log, confidence=asked.confidence)
     if asked.plot is not None:
-        from evenbreak.plots.practice import draw_shots
+        from evenbreak.plots.practice import draw_practice_shots
 
-        write_plot(draw_shots(file, found, confidence=asked.confidence), asked.plot)
+        write_plot(draw_practice_shots(file, found, confidence=asked.confidence), asked.plot)
     return shots_answer(file, found, confidence=asked.confidence)
 
 

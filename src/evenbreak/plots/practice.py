@@ -94,7 +94,7 @@ def draw_scores(
 
 
 @in_our_look
-def draw_shots(
+def draw_practice_shots(
     file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.95, ax: Axes | None = None
 ) -> Axes:
     """Draw the share of single shots made on each day, and in the earlier and the later half.
