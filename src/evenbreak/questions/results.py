@@ -36,17 +36,21 @@ Day: TypeAlias = Annotated[str | None, Field(Text("DATE"), "A day.")]
 
 
 def columns_in(text: str) -> dict[str, str]:
-    """Return the title of each column that a text names.
+    """Return the title of each column that a text names, for all files or for the one it names.
 
     >>> columns_in("player_a=Home,player_b=Away")
     {'player_a': 'Home', 'player_b': 'Away'}
+    >>> columns_in("autumn.csv:player_a=Home,player_b=Away")
+    {'autumn.csv:player_a': 'Home', 'autumn.csv:player_b': 'Away'}
     """
     columns: dict[str, str] = {}
+    file, sign, rest = text.partition("=")[0].rpartition(":")
+    text = rest + text[len(file + sign + rest) :]
     # A title may have a comma in it, but hardly words and an equals sign after it.
     for part in re.split(r",(?=[\w ]+=)", text):
-        name, sign, title = (piece.strip() for piece in part.partition("="))
-        name = name.lower().replace(" ", "_")
-        if not (name and sign and title):
+        name, sign_of, title = (piece.strip() for piece in part.partition("="))
+        name = file + sign + name.lower().replace(" ", "_")
+        if not (part.partition("=")[0].strip() and sign_of and title):
             raise InputError(
                 f"{part.strip()!r}; give the column and the title that it has in the file, such as "
                 "player_a=Home,player_b=Away"
@@ -77,7 +81,8 @@ class Reading(Question):
             "What the file calls its columns, such as player_a=Home,player_b=Away.",
             many=True,
             section=_READING,
-            more="See [other names of columns](../files.md#other-names-of-columns).",
+            more="With a file's name and a colon before it, such as `autumn.csv:score=Stand`, for "
+            "that file alone. See [other names of columns](../files.md#other-names-of-columns).",
         ),
     ] = ()
     skip_bad: Annotated[
@@ -96,7 +101,7 @@ class Reading(Question):
     def check(self) -> None:
         """Refuse a column that is named twice."""
         pairs = [pair for part in self.columns for pair in part.items()]
-        titles = [title.casefold() for _, title in pairs]
+        titles = [(name.rpartition(":")[0], title.casefold()) for name, title in pairs]
         for k, (name, title) in enumerate(pairs):
             if name in dict(pairs[:k]) or titles[k] in titles[:k]:
                 self.refuse(

@@ -37,3 +37,18 @@ def test_one_file_is_itself(seasons):
 def test_the_same_file_twice_is_refused(seasons):
     with pytest.raises(InputError, match=r"last.csv"):
         read_seasons([seasons[0], seasons[0]])
+
+
+def test_titles_may_be_those_of_one_file_or_of_the_files_that_have_them(tmp_path):
+    autumn, spring = tmp_path / "autumn.csv", tmp_path / "spring.csv"
+    autumn.write_text("Sp 1,Sp 2,Stand\nAnn,Bo,7-5\n")
+    spring.write_text("home,away,Stand\nAnn,Bo,3-7\n")
+    columns = {"autumn.csv:player_a": "Sp 1", "autumn.csv:player_b": "Sp 2", "score": "Stand"}
+    results = read_seasons([autumn, spring], columns=columns).results
+    assert results.score_a.tolist() == [7, 3]
+    shared = {"player_a": "Sp 1", "player_b": "Sp 2", "score": "Stand"}
+    assert read_seasons([autumn, spring], columns=shared).results.score_a.tolist() == [7, 3]
+    with pytest.raises(InputError, match=r"'summer\.csv', which is none of the files"):
+        read_seasons([autumn, spring], columns={**columns, "summer.csv:score": "X"})
+    with pytest.raises(InputError, match="'Runde', which is a column of none"):
+        read_seasons([autumn, spring], columns={**columns, "event": "Runde"})

@@ -21,6 +21,7 @@ from evenbreak.files.results.results_file import (
     ResultsFile,
     in_a_row,
     read_results,
+    refuse_unfound,
 )
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.problems import quoted, refusal, warning
@@ -144,7 +145,7 @@ def league_results(
     skip_bad
         whether rows that cannot be read are left out and listed; otherwise they are an error.
     reading
-        what else there is for `read_results`.
+        what else `read_results` takes.
 
     Raises
     ------
@@ -170,17 +171,20 @@ def league_results(
     if aliases is None:
         aliases = AliasesFile(dict(league.aliases), str(league.path), ())
     known = replace(aliases, means={k: v for k, v in aliases.means.items() if k != v})
+    paths = [league.place(one.file) for one in league.results]
     files = [
         read_results(
-            league.place(one.file),
+            path,
             aliases=known,
             columns=columns or one.columns,
+            maybe=bool(columns) and len(paths) > 1,
             dates=dates or one.dates,  # type: ignore[arg-type]  # one of the two, as its field says
             skip_bad=skip_bad,
             **reading,
         )
-        for one in league.results
+        for path, one in zip(paths, league.results, strict=True)
     ]
+    refuse_unfound(columns or {}, paths, files)
     names = [one.file for one in league.results]
     every = in_a_row(files, doubles=True)
     rows = _Rows.of(every.results, files, names)
@@ -383,7 +387,7 @@ def _name_doubts(
     apart = {name for name, meant in means.items() if name == meant}
     doubts = []
     for group in groups:
-        names = sorted({*group} - apart, key=lambda name: (-matches[name], name))
+        names = sorted({*group} - apart, key=lambda name: (-matches[name], '"' in name, name))
         if len(names) > 1:
             doubts.append(NameDoubt(tuple(names), tuple(matches[name] for name in names)))
     return tuple(doubts)

@@ -27,11 +27,13 @@ from evenbreak.files.results.proposals import columns_hint
 from evenbreak.files.results.races_by_chart import races_by_chart
 from evenbreak.files.results.statuses import LeftOut, played_matches
 from evenbreak.files.tables.dates import DateOrder
+from evenbreak.files.tables.header import UNREAD
 from evenbreak.files.tables.names import Name, PlayerNames, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import first_ones, quoted, warning
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
+from evenbreak.files.tables.titles import key_of
 from evenbreak.ratings.results import Results
 from evenbreak.words import FilePath, Parameter, joined, say, say_count
 
@@ -71,6 +73,8 @@ class ResultsFile:
         these rows, and those of byes and matches not played, each with why.
     renamed
         names as they are written that are read as another, each with that.
+    titles
+        what the file calls the columns that it has.
     read
         the name and the fingerprint of each file that was read, where there are several.
     """
@@ -87,6 +91,7 @@ class ResultsFile:
     skipped: int = 0
     left_out: tuple[LeftOut, ...] = ()
     renamed: tuple[tuple[str, str], ...] = ()
+    titles: Mapping[str, str] = field(default_factory=dict)
     read: tuple[tuple[str, str], ...] = ()
 
 
@@ -99,6 +104,7 @@ def read_results(
     skip_bad: bool = False,
     unplayed: bool = False,
     chart: str | Path | None = None,
+    maybe: bool = False,
 ) -> ResultsFile:
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
@@ -116,7 +122,10 @@ def read_results(
     aliases
         a file that says which names mean the same player, or what `read_aliases` reads from it.
     columns
-        for columns such as player_a the titles that they have in the file, if not known ones.
+        for columns such as player_a the titles that they have in the file, if not known ones;
+        those of `autumn.csv:player_a` are for the file of that name alone.
+    maybe
+        whether titles in `columns` that the file lacks are left aside.
     dates
         'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
     skip_bad
@@ -147,7 +156,11 @@ def read_results(
         by_alias = read_aliases(by_alias)
     table, left_out = played_matches(
         RESULTS_FILE.text(
-            path, called=_checked(columns or {}), hint=columns_hint, exported=export_of
+            path,
+            called=columns_of_file(_checked(columns or {}), path),
+            maybe=maybe,
+            hint=columns_hint,
+            exported=export_of,
         ),
         (*NAMES, "winner", "loser"),
     )
@@ -193,6 +206,7 @@ def read_results(
         _tied(results, table),
         skipped=len(bad),
         left_out=(*left_out, *bad),
+        titles=table.titles,
         renamed=tuple({**names.merged(), **names.renamed()}.items()),
     )
 
@@ -209,10 +223,45 @@ def _without_unplayed(table: TextTable) -> TextTable:
     return table.without(table.lines[~stated].tolist())
 
 
+def columns_of_file(columns: Mapping[str, str], path: str | Path) -> dict[str, str]:
+    """Return which titles mean which columns in a file: those for all, and for it by name.
+
+    >>> columns_of_file({"score": "Stand", "b.csv:score": "S", "c.csv:score": "T"}, "x/b.csv")
+    {'score': 'S'}
+    """
+    own = {name: title for name, title in columns.items() if ":" not in name}
+    for key, title in columns.items():
+        file, _, name = key.rpartition(":")
+        if file in (str(path), Path(path).name):
+            own[name] = title
+    return own
+
+
+def refuse_unfound(
+    columns: Mapping[str, str], paths: Sequence[str | Path], files: Sequence[ResultsFile]
+) -> None:
+    """Refuse a title that no file has, and the name of a file that is none of them."""
+    for key, title in columns.items():
+        file, _, name = key.rpartition(":")
+        if file and not any(file in (str(path), Path(path).name) for path in paths):
+            raise InputError(
+                "{columns} has titles for {file}, which is none of the files; correct its name",
+                columns=Parameter("columns"),
+                file=quoted(file),
+            )
+        found = {key_of(one.titles[name]) for one in files if name in one.titles}
+        if not file and title != UNREAD and key_of(title) not in found:
+            raise InputError(
+                "{columns} has {title}, which is a column of none of the files; correct it",
+                columns=Parameter("columns"),
+                title=quoted(title),
+            )
+
+
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
     """Return which titles mean which columns, or refuse columns that there are none of."""
     for name in columns:
-        if name not in RESULTS_FILE.columns:
+        if name.rpartition(":")[2] not in RESULTS_FILE.columns:
             raise InputError(
                 "{columns} has {name!r}, which is not a column of results; give {names}",
                 columns=Parameter("columns"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,14 @@ from evenbreak.files.results.results_file import (
     in_a_row,
     read_aliases,
     read_results,
+    refuse_unfound,
 )
-from evenbreak.files.tables.dates import DateOrder
 
 
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
     r"""Read several files of results as one career of each player.
+
+    Titles in `columns` are those of the files that have them.
 
     In place of a file may stand that of a league, `league.toml`: it names files, the titles of
     their columns and aliases.
@@ -47,20 +49,20 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
     ...     read_seasons([last, this]).results.players
     ('Ann', 'Bo', 'Cy')
     """
-    return in_a_row(
-        [
-            _of_league(path, **reading) if is_league(path) else read_results(path, **reading)
-            for path in paths
-        ]
-    )
+    several = {"maybe": len(paths) > 1, **reading}
+    files = [
+        _of_league(path, **reading) if is_league(path) else read_results(path, **several)
+        for path in paths
+    ]
+    if not any(map(is_league, paths)):
+        refuse_unfound(reading.get("columns") or {}, paths, files)
+    return in_a_row(files)
 
 
 def _of_league(
     path: str | Path,
     *,
     aliases: str | Path | None = None,
-    columns: Mapping[str, str] | None = None,
-    dates: DateOrder | None = None,
     skip_bad: bool = False,
     **reading: Any,
 ) -> ResultsFile:
@@ -69,14 +71,8 @@ def _of_league(
     Raises
     ------
     DataError
-        as `read_league` and `read_results` do, and if the league names no results.
+        as `read_league` and `league_results` do.
     """
-    found = league_results(
-        read_league(path, quickly=True),
-        aliases=None if aliases is None else read_aliases(aliases),
-        columns=columns,
-        dates=dates,
-        skip_bad=skip_bad,
-        **reading,
-    )
-    return found.file
+    league = read_league(path, quickly=True)
+    known = None if aliases is None else read_aliases(aliases)
+    return league_results(league, aliases=known, skip_bad=skip_bad, **reading).file

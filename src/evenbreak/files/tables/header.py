@@ -135,11 +135,14 @@ class Header:
         the player, unless there is a Home player, too.
         """
         called = {key_of(title): name for name, title in self._called.items()}
+        settled = set(self._called)
+        if self._maybe:
+            settled = {called[key] for key in map(key_of, titles) if key in called}
         means = []
         for title in titles:
             key = key_of(title)
             own = called.get(key, "") if title.strip() else ""
-            others = [name for name in self._means.get(key, ()) if name not in self._called]
+            others = [name for name in self._means.get(key, ()) if name not in settled]
             means.append((own,) if own else tuple(others))
         taken = {names[0] for names in means if len(names) == 1}
         found = []

@@ -173,6 +173,7 @@ def read_table(
     *,
     rows: str = "",
     called: Mapping[str, str] | None = None,
+    maybe: bool = False,
     hint: Hint | None = None,
     exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TextTable:
@@ -198,6 +199,8 @@ def read_table(
         checked elsewhere.
     called
         for some columns the title that they have in this file.
+    maybe
+        whether those of them that the file lacks are left aside.
     hint
         what to do where required columns are missing (see `Header`).
     exported
@@ -224,7 +227,7 @@ def read_table(
     """
     source, content = table_content(path)
     problems = Problems(source)
-    header = Header(required, optional or {}, instead or {}, called, hint)
+    header = Header(required, optional or {}, instead or {}, called, hint, maybe=maybe)
     titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
     if not titles:
         _add_unreadable(unreadable, problems)

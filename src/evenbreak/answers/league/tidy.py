@@ -1,0 +1,150 @@
+"""A league's results as one list: what was merged, changed and left out, and what is in doubt."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.wording import count_of
+from evenbreak.files.league.sources import LeagueResults, alias_lines
+from evenbreak.ratings.results_frame import FORMATS
+from evenbreak.words import listed
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from evenbreak.ratings.results import Results
+
+MOST_SHOWN = 20
+"""How many changes a person reads; a file or JSON has all."""
+
+_SIDES = np.array(["", "a", "b"], dtype=object)
+_ORDER = (
+    *("date", "event", "division", "team_a", "player_a", "level_a", "team_b", "player_b"),
+    *("level_b", "race_a", "race_b", "score_a", "score_b", "winner", "first_break"),
+    *("break_format", "racks", "forfeit"),
+)
+
+
+def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = None) -> Answer:
+    """Return what became of a league's results.
+
+    Parameters
+    ----------
+    found
+        the results.
+    answers
+        names with those that they mean, as somebody has just answered: lines to keep.
+    """
+    changes: Counter[str] = Counter(change.kind for change in found.changes)
+    matches = count_of(len(found.results), "match", "matches")
+    sources = listed([f"{n:,} from {source}" for source, n in found.sources])
+    played = np.unique([found.results.player_a, found.results.player_b])
+    said = f"{matches} between {count_of(len(played), 'player')}: {sources}."
+    left = [
+        count_of(changes[kind], one, several)
+        for kind, one, several in (
+            ("double", "match that was there twice", "matches that were there twice"),
+            (
+                "left out",
+                "row that is no match or cannot be read",
+                "rows that are no matches or cannot be read",
+            ),
+        )
+        if changes[kind]
+    ]
+    parts: list[Part] = [said + (f" Left out: {listed(left)}." if left else "")]
+    if changes["doubt"]:
+        parts.append(
+            f"{count_of(changes['doubt'], 'match', 'matches')} may be in two files, with another "
+            "score or without a date; both count until you correct a file."
+        )
+    if answers:
+        parts += [
+            "Put these lines below [aliases] in league.toml, so that you are not asked again:",
+            Table("answers", columns_of("alias_line"), [(line,) for line in alias_lines(answers)]),
+        ]
+    doubts = [
+        (doubt.names[0], doubt.matches[0], name, many)
+        for doubt in found.name_doubts
+        for name, many in zip(doubt.names[1:], doubt.matches[1:], strict=True)
+    ]
+    if doubts:
+        lines = [(line,) for doubt in found.name_doubts for line in doubt.alias_lines()]
+        parts += [
+            "These names may be one player's and were kept apart:",
+            Table(
+                "name_doubts",
+                columns_of("tidy_name tidy_matches other_name other_matches"),
+                doubts,
+            ),
+            "Those that are one player's: put their line below [aliases] in league.toml. Those "
+            'that are two: write "Name" = "Name" there for one of them.',
+            Table("aliases", columns_of("alias_line"), lines),
+        ]
+    done = Table(
+        "changes",
+        columns_of("change_kind change_file change_line change_text"),
+        [(one.kind, one.source, one.line or None, str(one.text)) for one in found.changes],
+        most=MOST_SHOWN,
+    )
+    if found.changes:
+        more = len(found.changes) - MOST_SHOWN
+        parts.append(
+            "What was changed or left out:"
+            if more <= 0
+            else f"The first {MOST_SHOWN} of {len(found.changes):,} changes; --csv has all:"
+        )
+        parts.append(done)
+    return Answer(
+        f"{matches} from {count_of(len(found.sources), 'file')}",
+        parts,
+        csv=done,
+        warnings=found.file.ties,
+        data={"sources": [{"file": name, "matches": n} for name, n in found.sources]},
+    )
+
+
+def results_frame(results: Results) -> pd.DataFrame:
+    """Return matches as a table that `read_results` reads back, by day, those without one last.
+
+    Columns of which nothing is stated are left out.
+
+    >>> from evenbreak.ratings import Results
+    >>> results_frame(Results.from_names(["Ann"], ["Bo"], [7], [5])).columns.tolist()
+    ['player_a', 'player_b', 'score_a', 'score_b']
+    """
+    import pandas as pd
+
+    known = results.counted | (results.score_a + results.score_b > 0)
+    known &= True if results.unscored is None else ~results.unscored
+    shown: dict[str, Callable[[Any], Any]] = {
+        **dict.fromkeys(("player_a", "player_b"), np.array(results.players, dtype=object).take),
+        **dict.fromkeys(("winner", "first_break"), _SIDES.take),
+        "break_format": np.array(FORMATS, dtype=object).take,
+        "date": lambda days: _or_empty(days.astype(str), ~np.isnat(days)),
+        "forfeit": lambda forfeits: np.where(forfeits, "yes", ""),
+        **dict.fromkeys(("race_a", "race_b"), lambda race: _or_empty(race, race > 0)),
+        **dict.fromkeys(("score_a", "score_b"), lambda score: _or_empty(score, known)),
+    }
+    stated = {name: values for name in _ORDER if (values := getattr(results, name)) is not None}
+    columns = {name: shown.get(name, np.asarray)(values) for name, values in stated.items()}
+    columns = {
+        name: cells
+        for name, cells in columns.items()
+        if name.startswith(("player", "score")) or (cells != "").any()
+    }
+    frame = pd.DataFrame(columns)
+    if results.date is not None:
+        frame = frame.take(np.argsort(results.date, kind="stable"))
+    return frame.reset_index(drop=True)
+
+
+def _or_empty(values: Any, stated: Any) -> Any:
+    return np.where(stated, values.astype(object), "")
