@@ -12,7 +12,7 @@ from pathlib import Path
 
 from evenbreak.files import arcs, chain_files, charts, practice
 from evenbreak.files.lists import roster, saved_ratings, season, teams
-from evenbreak.files.results import columns, results_file
+from evenbreak.files.results import aliases, columns
 from evenbreak.files.tables.dates import Day
 from evenbreak.files.tables.names import Name
 from evenbreak.files.tables.schema import Column, Parsed, Schema, Text, Whole
@@ -28,7 +28,7 @@ SCHEMAS = {
     "results": columns.RESULTS.only(*_NEEDED),
     "more of results": columns.RESULTS.only(*_OTHERS),
     "layouts": columns.LAYOUTS,
-    "aliases": results_file.ALIASES,
+    "aliases": aliases.ALIASES,
     "chart by difference": charts.DIFFERENCES,
     "chart by level": charts.LEVELS,
     "chart of points": charts.POINTS,

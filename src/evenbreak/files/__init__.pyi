@@ -31,9 +31,9 @@ from .lists.teams import read_team_results as read_team_results
 from .lists.teams import read_teams as read_teams
 from .practice import DrillLogFile as DrillLogFile
 from .practice import read_drill_log as read_drill_log
-from .results.results_file import AliasesFile as AliasesFile
+from .results.aliases import AliasesFile as AliasesFile
+from .results.aliases import read_aliases as read_aliases
 from .results.results_file import ResultsFile as ResultsFile
-from .results.results_file import read_aliases as read_aliases
 from .results.results_file import read_results as read_results
 from .results.seasons import read_seasons as read_seasons
 from .store.folder import write_files as write_files

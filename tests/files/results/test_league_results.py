@@ -3,7 +3,7 @@
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.results.results_file import read_aliases
+from evenbreak.files.results.aliases import read_aliases
 from evenbreak.files.results.seasons import read_seasons
 
 LEAGUE = """\

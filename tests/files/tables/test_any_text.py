@@ -11,7 +11,8 @@ from evenbreak.files.csv_writer import text_cell
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.lists.season import read_pairs, read_schedule, read_season_players
 from evenbreak.files.practice import read_drill_log, read_scores
-from evenbreak.files.results.results_file import read_aliases, read_results
+from evenbreak.files.results.aliases import read_aliases
+from evenbreak.files.results.results_file import read_results
 from evenbreak.files.tables.names import clean_name
 from evenbreak.files.tables.problems import printable
 from evenbreak.ratings.results import Results

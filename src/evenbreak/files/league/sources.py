@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.files.league.league_file import LeagueFile
+from evenbreak.files.results.aliases import AliasesFile
 from evenbreak.files.results.results_file import (
-    AliasesFile,
     ResultsFile,
     in_a_row,
     read_results,

@@ -15,7 +15,7 @@ import numpy as np
 from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.foreign.results import export_of
-from evenbreak.files.league.league_file import is_league, read_league
+from evenbreak.files.results.aliases import AliasesFile, read_aliases
 from evenbreak.files.results.columns import NAMES, RESULTS_FILE
 from evenbreak.files.results.doubts import (
     date_warnings,
@@ -28,9 +28,8 @@ from evenbreak.files.results.races_by_chart import races_by_chart
 from evenbreak.files.results.statuses import LeftOut, played_matches
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.header import UNREAD
-from evenbreak.files.tables.names import Name, PlayerNames, hidden_letter_warnings, same_name
+from evenbreak.files.tables.names import PlayerNames, hidden_letter_warnings, same_name
 from evenbreak.files.tables.problems import first_ones, quoted, warning
-from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.files.tables.titles import key_of
@@ -438,101 +437,3 @@ def _joined(seasons: Sequence[Results]) -> Results:
         a, b = place[season.player_a], place[season.player_b]
         renumbered.append(replace(season, players=players, player_a=a, player_b=b))
     return reduce(Results.joined, renumbered)
-
-
-_WRITE = say("a name, or delete the line")
-
-ALIASES = Schema(
-    "names",
-    name=Name(
-        "alias, written, as written, nickname, from",
-        "a name as it may appear in the results",
-        needed=True,
-        given_first=False,
-        write=_WRITE,
-    ),
-    means=Name(
-        "player, real name, right name, stands for, to",
-        "the name of the player who is meant",
-        needed=True,
-        write=_WRITE,
-    ),
-)
-
-
-@dataclass(frozen=True, eq=False)
-class AliasesFile:
-    """The contents of a file of aliases.
-
-    Parameters
-    ----------
-    means
-        from a name as it is written to the name that is meant, which is never itself an alias.
-    source
-        what the file is called in messages.
-    warnings
-        what to check although the file can be used, a line each.
-    """
-
-    means: dict[str, str]
-    source: str
-    warnings: tuple[str, ...]
-
-
-def read_aliases(path: str | Path) -> AliasesFile:
-    r"""Read which names mean the same player from a CSV file; '-' is standard input.
-
-    A league's file has them as `[aliases]`.
-
-    Names are cleaned as those of results are. A name that means itself changes nothing.
-
-    Raises
-    ------
-    DataError
-        with everything that is wrong in the file: missing columns, no rows, empty cells, a
-        name that means two players, an alias that means another alias.
-
-    >>> import tempfile, pathlib
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = pathlib.Path(folder) / "aliases.csv"
-    ...     _ = path.write_text("name,means\nBobby,Bob Smith\nBob  S.,Bob Smith\n")
-    ...     read_aliases(path).means
-    {'Bobby': 'Bob Smith', 'Bob S.': 'Bob Smith'}
-    """
-    if is_league(path):
-        league = read_league(path, quickly=True)
-        return AliasesFile(_others(league.aliases), str(league.path), ())
-    table = ALIASES.read(path)
-    means: dict[str, str] = {}
-    line_of: dict[str, int] = {}
-    for name, meant, line in zip(table["name"], table["means"], table.lines.tolist(), strict=True):
-        if not name or not meant:
-            continue
-        if means.setdefault(name, meant) != meant:
-            table.problems.add(
-                line,
-                "{name} means {meant} here, but {earlier} in line {line}; keep one of the two",
-                name=quoted(name),
-                meant=quoted(meant),
-                earlier=quoted(means[name]),
-                line=line_of[name],
-            )
-        line_of.setdefault(name, line)
-    for name, meant in means.items():
-        if name != meant and means.get(meant, meant) != meant:
-            table.problems.add(
-                line_of[name],
-                "{name} means {meant}, which means {other} in line {line}; write the player's "
-                "real name in both lines, and keep only one of two names that mean each other",
-                name=quoted(name),
-                meant=quoted(meant),
-                other=quoted(means[meant]),
-                line=line_of[meant],
-            )
-    table.problems.raise_any()
-    hidden = hidden_letter_warnings(table, ["means"])
-    return AliasesFile(_others(means), table.source, (*table.warnings, *hidden))
-
-
-def _others(means: Mapping[str, str]) -> dict[str, str]:
-    return {name: meant for name, meant in means.items() if name != meant}

@@ -8,10 +8,10 @@ from typing import Any
 
 from evenbreak.files.league.league_file import is_league, read_league
 from evenbreak.files.league.sources import league_results
+from evenbreak.files.results.aliases import read_aliases
 from evenbreak.files.results.results_file import (
     ResultsFile,
     in_a_row,
-    read_aliases,
     read_results,
     refuse_unfound,
 )
