@@ -145,4 +145,4 @@ def test_aliases_are_read_by_each_command_that_reads_results(run, league, tmp_pa
     assert "Annie" not in result.stdout
     refused = run(*words, "season.csv", "--aliases", "season.csv")
     assert refused.exit_code == 3
-    assert "season.csv:1: there is no column 'name'" in refused.stderr
+    assert "season.csv:1: there are no columns 'name'" in refused.stderr

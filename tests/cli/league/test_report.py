@@ -384,7 +384,7 @@ def test_any_bytes_end_with_0_or_3(run, tmp_path_factory, junk, below_a_header):
 
 
 def test_of_many_problems_the_first_twenty_are_shown(run, tmp_path):
-    season = HEADER + "2024-09-03,Ann,Bo,x,5\n" * 50
+    season = HEADER + "2024-09-03,Ann,Bo,x,5\n" * 50 + "2024-09-03,Ann,Bo,7,5\n"
     result = run("report", "-", "--out", str(tmp_path / "sheet"), stdin=season)
     errors = [line for line in result.stderr.splitlines() if line.startswith("Error: ")]
     assert errors[0].startswith("Error: stdin:2: ")

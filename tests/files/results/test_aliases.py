@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
-from evenbreak.files.results.results_file import read_aliases
+from evenbreak.files.results.aliases import read_aliases
 
 
 @pytest.fixture
