@@ -203,7 +203,7 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
         (["night.csv", "--system", "fide"], 2, "system is 'fide'; give npl"),
         (["-", "--roster", "-"], 2, "which only one file can be"),
         (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
-        (["night.csv", "--aliases", "last.csv"], 3, "there are no columns 'name'"),
+        (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),
         (["-", "--chart", "-"], 2, "which only one file can be"),
         (["night.csv", "--half-life", "30"], 2, "leave out --half-life"),
     ],

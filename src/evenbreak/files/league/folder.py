@@ -12,9 +12,10 @@ from evenbreak.files.charts import DIFFERENCES, LEVELS, read_chart
 from evenbreak.files.foreign.results import export_of
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.lists.teams import FIXTURES, TEAM, TEAMS
+from evenbreak.files.results.aliases import ALIASES, read_aliases
 from evenbreak.files.results.columns import RESULTS_FILE
 from evenbreak.files.results.proposals import readings_of
-from evenbreak.files.results.results_file import ALIASES, read_aliases, read_results
+from evenbreak.files.results.results_file import read_results
 from evenbreak.files.tables.names import same_name
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import TextTable
