@@ -166,6 +166,8 @@ ASKED = {
     "tournament_show": "tournament show --at 20:10",
     "simulate": "simulate data/demo_league_roster.csv --weeks 10 --replicas 40 --no-matches "
     "--out OUT",
+    "simulate_compare": "simulate data/demo_league_roster.csv --compare npl --compare none "
+    "--weeks 10 --replicas 40",
 }
 """A question for each command, and for each kind of answer that it has."""
 

@@ -46,9 +46,19 @@ class Estimate(NamedTuple):
     quantile: float
 
     @property
+    def margin(self) -> Floats:
+        """Half of the interval of each value."""
+        return np.asarray(self.quantile * self.error)
+
+    @property
+    def change_margin(self) -> Floats:
+        """Half of the interval of each difference."""
+        return np.asarray(self.quantile * self.change_error)
+
+    @property
     def clear(self) -> Floats:
         """The sign of the difference from the first system; 0 where it is within its error."""
-        beyond = np.abs(self.change) > self.quantile * self.change_error + 1e-12
+        beyond = np.abs(self.change) > self.change_margin + 1e-12
         return np.where(beyond, np.sign(self.change), 0.0)
 
 

@@ -168,7 +168,7 @@ def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     _lines(axes, deciles, "part", "p_even")
     axes.locator_params(axis="x", integer=True)
     axes.set_ylim(bottom=0.0)
-    axes.legend(loc="lower left", frameon=False)
+    legend_below(axes, ax)
     return axes
 
 
@@ -193,7 +193,7 @@ def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axe
     axes.locator_params(axis="x", integer=True)
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(left=0.0)
-    axes.legend(loc="lower left", frameon=False)
+    legend_below(axes, ax)
     return axes
 
 

@@ -122,12 +122,12 @@ def comparison_answer(
         [
             joined(_verdict(comparison) if several else _alone(comparison), " "),
             _FAIRER,
-            _table(comparison, _SHOWN),
+            *_tables(comparison, _SHOWN),
             *([_SAME] if several else []),
             _READ,
             *assumed,
         ],
-        details=[_table(comparison, _DETAILS), _READ_DETAILS],
+        details=[*_tables(comparison, _DETAILS), _READ_DETAILS],
         warnings=warnings,
         data=data,
         csv=frame_table("measures", frame),
@@ -140,25 +140,23 @@ _FAIRER = say(
     even=EVEN,
 )
 
-_SAME = say(
-    "\N{PLUS-MINUS SIGN} is a 90% interval of the difference: all systems had the same players, "
-    "nights and luck."
-)
+_SAME = say("All systems had the same players, nights and luck.")
 
 _READ = say(
     "'Ratings off by': typically (root mean square), in doublings of the odds of "
     "a game, over the last quarter of the nights. 'Newcomers right': the nights until they are off "
     "by less than {right:g} doublings. 'Dumping pays': how much more of the matches that count a "
-    "player wins who held back in the weeks before. 'Titles': those of the weakest and of the "
-    "strongest fifth; 1 is an equal share.",
+    "player wins who held back in the weeks before. 'Titles': those of the strongest fifth; 1 is "
+    "an equal share.",
     right=RIGHT,
 )
 
 
 _READ_DETAILS = say(
-    "'Better wins': the mean chance of the better player. 'Games of the last': the games of the "
-    "player (or team) with the most games on a night. 'Changes a season': how often a player's "
-    "number changes. 'Drift': by how much all numbers rise against the skills, in doublings."
+    "'Titles, weakest': those of the weakest fifth. 'Better wins': the mean chance of the better "
+    "player. 'Games of the last': the games of the player (or team) with the most games on a "
+    "night. 'Changes a season': how often a player's number changes. 'Drift': by how much all "
+    "numbers rise against the skills, in doublings."
 )
 
 
@@ -312,12 +310,12 @@ _SHOWN: Mapping[str, Show] = {
     "nights_until_right": _decimals(1),
     "sandbagging_pays": _percent,
     "mean_games": _decimals(2),
-    "titles_weakest": _decimals(2),
     "titles_strongest": _decimals(2),
 }
 """The measures in the order of the table, and how each is shown."""
 
 _DETAILS: Mapping[str, Show] = {
+    "titles_weakest": _decimals(2),
     "p_better_wins": _percent,
     "games_a_night": _decimals(1),
     "changes_a_season": _decimals(1),
@@ -326,39 +324,42 @@ _DETAILS: Mapping[str, Show] = {
 """The measures of a further table, for those who ask for details."""
 
 
-def _table(comparison: Comparison, shown: Mapping[str, Show]) -> Table:
-    """Return the systems in rows, and below them the differences from the first."""
+def _tables(comparison: Comparison, shown: Mapping[str, Show]) -> Iterator[Table]:
+    """Yield a table with the systems in rows, and one of their differences from the first."""
     measures, names = comparison.measures, comparison.names
-    rows: list[tuple[Any, ...]] = []
-    for place, name in enumerate(names):
-        rows.append((name, *(
-            None if math.isnan(value) else show(value)
-            for key, show in shown.items()
-            for value in [float(measures[key].value[place])]
-        )))  # fmt: skip
-    if len(names) == 1:
-        rows.append(("\N{PLUS-MINUS SIGN} (90%)", *(
-            None if math.isnan(half) else show(half)
-            for key, show in shown.items()
-            for half in [float(measures[key].quantile * measures[key].error[0])]
-        )))  # fmt: skip
-    for place, name in enumerate(names[1:], 1):
-        rows.append((
-            say("{name} less {own}", name=name, own=names[0]),
-            *(_difference(measures[key], place, show) for key, show in shown.items()),
-        ))  # fmt: skip
     columns = columns_of("system_compared " + " ".join(f"compared_{key}" for key in shown))
-    return Table("", columns, rows)
+    rows: list[tuple[Any, ...]] = [
+        (name, *(_value(float(measures[key].value[place]), show) for key, show in shown.items()))
+        for place, name in enumerate(names)
+    ]
+    if len(names) == 1:
+        margins = (_value(float(measures[key].margin[0]), show) for key, show in shown.items())
+        rows.append(("\N{PLUS-MINUS SIGN}", *margins))
+    yield Table("", columns, rows)
+    if len(names) > 1:
+        yield Table(
+            "",
+            columns,
+            [
+                (name, *(_difference(measures[key], place, shown[key]) for key in shown))
+                for place, name in enumerate(names[1:], 1)
+            ],
+            say("Difference from {own}, with a 90% interval:", own=names[0]),
+        )
+
+
+def _value(value: float, show: Show) -> str | None:
+    return None if math.isnan(value) else show(value)
 
 
 def _difference(of: Estimate, place: int, show: Show) -> str | None:
-    change, half = float(of.change[place]), float(of.quantile * of.change_error[place])
+    change, half = float(of.change[place]), float(of.change_margin[place])
     if math.isnan(change) or math.isnan(half):
         return None
-    sign = "+" if change >= 0.0 else ""
-    if half > 0.0 and not float(show(half).removesuffix("%")):
-        return f"{sign}{change:.2g} \N{PLUS-MINUS SIGN} {half:.1g}"
-    return f"{sign}{show(change).removesuffix('%')} \N{PLUS-MINUS SIGN} {show(half)}"
+    sign, bare = ("+" if change >= 0.0 else ""), [show(x).removesuffix("%") for x in (change, half)]
+    if half > 0.0 and not float(bare[1]):
+        bare = [f"{change:.2g}", f"{half:.1g}"]
+    return f"{sign}{bare[0]}\N{PLUS-MINUS SIGN}{bare[1]}"
 
 
 # The tables.
@@ -370,8 +371,8 @@ def measures_frame(comparison: Comparison) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        system, measure (the keys of `MEASURES`), value and standard_error; difference,
-        difference_low and difference_high: from the first system, with a 90 % interval.
+        system, measure (the keys of `MEASURES`), value, standard_error and margin, half of its
+        90 % interval; difference from the first system and difference_margin, half of its own.
     """
     rows = []
     for place, name in enumerate(comparison.names):
@@ -381,14 +382,10 @@ def measures_frame(comparison: Comparison) -> pd.DataFrame:
                 "measure": measure,
                 "value": float(of.value[place]),
                 "standard_error": float(of.error[place]),
-                "difference": None,
-                "difference_low": None,
-                "difference_high": None,
+                "margin": float(of.margin[place]),
+                "difference": float(of.change[place]) if place else None,
+                "difference_margin": float(of.change_margin[place]) if place else None,
             }
-            if place:
-                change, half = float(of.change[place]), of.quantile * float(of.change_error[place])
-                row |= {"difference": change, "difference_low": change - half,
-                        "difference_high": change + half}  # fmt: skip
             rows.append(row)
     return pd.DataFrame(rows)
 
