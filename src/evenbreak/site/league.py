@@ -27,7 +27,7 @@ from evenbreak.site.races import LeagueRaces
 MOST_POINTS = 24
 """Dates at which the history of ratings is drawn."""
 
-MOST_REFITS = 1200
+MOST_REFITS = 800
 """Matches whose worth is worked out, each by rating the league without it; the last ones."""
 
 RECENT = 8

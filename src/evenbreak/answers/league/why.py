@@ -15,8 +15,8 @@ from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import like_scale_words, points_on
 from evenbreak.answers.kit.wording import percent, race
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
-from evenbreak.answers.league.roster_matchups import OfferedRaces
-from evenbreak.answers.league.sheet import matchups_frame
+from evenbreak.answers.league.roster_matchups import OfferedRaces, cannot_be_compared
+from evenbreak.answers.league.sheet import as_listed
 from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.gap import Gap
@@ -326,13 +326,18 @@ class Standing:
     def of(cls, ratings: Ratings, pair: tuple[int, int], offered: OfferedRaces) -> Standing:
         """Return where two players stand (positions in `ratings.players`)."""
         both = float(ratings.rating[pair[0]]), float(ratings.rating[pair[1]])
-        (row,) = matchups_frame(ratings, pair, offered).to_dict("records")
-        if row["note"] and not row["p_win_a"] >= 0.0:  # not a number: there is no race
+        listed = as_listed(ratings)
+        if cannot_be_compared(listed, *pair):
             return cls(both, None, None, None)
-        needs, p_win = (int(row["race_a"]), int(row["race_b"])), float(row["p_win_a"])
-        if row["player_a"] != ratings.players[pair[0]]:
+        turned = listed.rating[pair[0]] < listed.rating[pair[1]]
+        seats = list(pair[::-1] if turned else pair)  # the stronger one first, as in lists
+        points, errors = listed.rating[seats], listed.standard_error[seats]
+        gap = Gap(points[:1] - points[1:], np.hypot(*errors), ratings.scale, ratings.match_form)
+        m, n = offered.fairest(gap)
+        needs, p_win = (int(m[0]), int(n[0])), float(gap.win(m, n)[0])
+        if turned:
             needs, p_win = needs[::-1], 1.0 - p_win
-        return cls(both, float(row["difference_error"]), needs, p_win)
+        return cls(both, float(gap.error[0]), needs, p_win)
 
 
 @dataclass(frozen=True)
