@@ -130,7 +130,7 @@ def test_nothing_scrolls_sideways_and_nothing_is_refused(browser: Any, site: Pat
 def test_two_taps_show_a_race(browser: Any, site: Path) -> None:
     page = opened(browser, site / "races.html")
     page.get_by_role("button", name="Ann Lee").click()
-    assert "against whom" in page.inner_text("#said")
+    assert "Who is Ann Lee playing?" in page.inner_text("#said")
     page.get_by_role("button", name="José Álvarez").click()
     assert "Ann Lee needs" in page.inner_text("#said")
     assert page.inner_text("#race strong").replace("–", "-").count("-") == 1

@@ -35,6 +35,21 @@ def test_a_slip_in_a_name_is_refused_and_not_published() -> None:
         PublicNames.of(PLAYERS, by_player={"Zeb Quackenbush": "hidden"})
 
 
+def test_other_spellings_and_aliases_are_the_same_player() -> None:
+    names = PublicNames.of(
+        ["Ann Lee", "Zebulon Q", "ann  LEE", "Zeb"],
+        by_player={"Zeb": "initials", "ANN lee": "hidden"},
+        aliases={"zeb": "Zebulon Q"},
+    )
+    assert dict(names.names) == {"Ann Lee": "Player 1", "Zebulon Q": "Z. Q."}
+    assert [names[name] for name in ("ann lee", "ZEB", "Zebulon  q")] == [
+        "Player 1",
+        "Z. Q.",
+        "Z. Q.",
+    ]
+    assert names["Somebody Else"] == "A guest"
+
+
 def test_later_players_change_nobodys_name_or_file() -> None:
     before, after = [*PLAYERS[:3]], [*PLAYERS, "Zoe Quinn", "Ann lee!"]
     for usual in ("full", "initials", "hidden"):

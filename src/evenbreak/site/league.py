@@ -110,6 +110,12 @@ class PublishedLeague:
         days = np.unique(dates[self.results.counted])
         return list(days[~np.isnat(days)])
 
+    @property
+    def teams(self) -> set[str]:
+        """The teams that the results name."""
+        columns = (self.results.team_a, self.results.team_b)
+        return {str(name) for column in columns if column is not None for name in column} - {""}
+
     @cached_property
     def rated(self) -> list[Rated]:
         """The list of ratings, provisional ones last."""

@@ -16,7 +16,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from evenbreak.errors import DataError
-from evenbreak.files.tables.names import KnownNames, clean_name
+from evenbreak.files.tables.names import KnownNames, clean_name, same_name
 from evenbreak.files.tables.problems import quoted
 from evenbreak.ratings.results import Results
 
@@ -41,6 +41,8 @@ class PublicNames:
         the public name of each player, by the private one.
     ways
         how each is named.
+    means
+        the names of players by other names that they have in some file (see `same_name`).
     stranger
         how a player is named who is in none of the league's lists, such as a guest of a tournament.
 
@@ -51,6 +53,7 @@ class PublicNames:
 
     names: Mapping[str, str]
     ways: Mapping[str, Shown]
+    means: Mapping[str, str]
     stranger: Shown = "full"
 
     @classmethod
@@ -60,19 +63,37 @@ class PublicNames:
         usual: Shown = "full",
         by_player: Mapping[str, Shown] | None = None,
         *,
+        aliases: Mapping[str, str] | None = None,
         where: str = "",
     ) -> PublicNames:
         """Return the public names of players, given in an order that new players do not change.
+
+        Parameters
+        ----------
+        players
+            the players of all lists; those whose names differ in case or blanks alone are one.
+        usual, by_player
+            how all are named, and how some are.
+        aliases
+            the names of players by others that they have.
+        where
+            what names `by_player`, for errors.
 
         Raises
         ------
         DataError
             if a name of `by_player` is nobody's: a slip would show what should be hidden.
         """
-        order = [*dict.fromkeys(players)]
+        others = {same_name(name): meant for name, meant in (aliases or {}).items()}
+        means: dict[str, str] = {}
+        for name in players:
+            means.setdefault(same_name(others.get(same_name(name), name)), name)
+        order = [*means.values()]
+        for name, meant in others.items():
+            means.setdefault(name, means.get(same_name(meant), meant))
         known, chosen, problems = KnownNames(order), {}, []
         for name, way in (by_player or {}).items():
-            place = known.place(clean_name(name))
+            place = known.place(means.get(same_name(clean_name(name)), clean_name(name)))
             if place is None:
                 problems.append(
                     f"{where or 'names'}: {quoted(name)} is not a player of this league"
@@ -88,15 +109,13 @@ class PublicNames:
         for number, (name, way) in enumerate(ways.items(), 1):
             names[name] = name if way == "full" else _unlike(_short(name, way, number), taken)
         strictest = max((usual, *chosen.values()), key=STRICTEST.index)
-        return cls(names, ways, strictest)
+        return cls(names, ways, means, strictest)
 
     def __getitem__(self, name: str) -> str:
         """Return what a player is called; a stranger is named as the strictest rule has it."""
-        if name in self.names:
-            return self.names[name]
-        at = KnownNames(list(self.names)).place(clean_name(name))
-        if at is not None:
-            return [*self.names.values()][at]
+        meant = name if name in self.names else self.means.get(same_name(clean_name(name)), "")
+        if meant in self.names:
+            return self.names[meant]
         return name if self.stranger == "full" else _short(name, self.stranger, 0)
 
     @property

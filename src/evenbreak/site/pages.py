@@ -121,6 +121,7 @@ def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament |
         if match.side in ("final", "second final") and match.name in state.counted
     ]
     title = " ".join(name.replace("_", " ").replace("-", " ").split())
+    title = title[:1].upper() + title[1:]
     file = next(iter(file_names([title]).values()))
     day = state.events[0].at[:10]
     won_by = names[finals[-1]] if finals else ""
@@ -301,7 +302,7 @@ class _Pages:
             ("players", f"{int((~league.ratings.idle).sum()):,}"),
             ("matches", f"{league.ratings.matches:,}"),
             *([("games", f"{games:,}")] if games else []),
-            *([("went to the last game", hill)] if hill else []),
+            *([("went hill-hill", hill)] if hill else []),
         ]
         return self._page(
             "season.html",
@@ -354,13 +355,13 @@ class _Pages:
             if other not in hidden and (found := races.get((name, other))) is not None
         ]
 
-    def _why(self, name: str) -> list[str]:
+    def _why(self, name: str) -> tuple[str, list[str]] | None:
         """Return why the race against the last opponent is what it is, and what would change it."""
         league = self.league
         opponent = next((one.opponent for one in league.matches.get(name, ())), "")
         found = league.races.by_pair.get((name, opponent))
         if found is None:
-            return []
+            return None
         m, n, p = found
         seats = [np.array([league.races.roster.players.index(one)]) for one in (name, opponent)]
         gap = league.races.gap(*seats)
@@ -391,7 +392,7 @@ class _Pages:
         ]
         if isinstance(league.races.rule, OfferedRaces) and not more:
             more = ["Whoever wins the next match between the two, the race stays the same."]
-        return [said, *more]
+        return f"{m}-{n}", [said, *more]
 
     def tournaments(self) -> bytes:
         """Return the list of tournaments."""
@@ -417,8 +418,7 @@ class _Pages:
             "about.html",
             "About this site",
             ratings_words=(
-                "Ratings come from every game of the results, with a margin for how far off they "
-                "may be."
+                "The ratings use every game in the results, and show how far off they may be."
             ),
             names_words=_names_words(league.names.ways),
             tables=[(f"data/{file}", text) for file, text in _TABLES.items()],

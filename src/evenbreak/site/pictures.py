@@ -121,9 +121,8 @@ def _by_week(league: PublishedLeague) -> tuple[str, Chart, str] | None:
     most = max(weeks, key=lambda k: (weeks[k], -k))
     label = "Matches in each week of the season"
     words = (
-        f"The busiest week began on {short_day(str(monday + timedelta(weeks=most)))}, with "
-        f"{weeks[most]:,} matches; on average there were {len(days) / len(weeks):.1f} in a week "
-        "with play."
+        f"The busiest week started on {short_day(str(monday + timedelta(weeks=most)))}, with "
+        f"{weeks[most]:,} matches. The average week with play had {len(days) / len(weeks):.1f}."
     )
     chart = Chart(
         label,
@@ -186,10 +185,10 @@ def _evenness(league: PublishedLeague) -> tuple[str, Chart, str] | None:
         size = np.abs(apart[part])
         below.append((at, f"{size.min():.0f}–{size.max():.0f}", "middle"))
     words = (
-        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches over their "
-        f"races; by today's ratings {100 * float(np.mean(expected)):.0f}% were to be expected. On "
-        "the dashed line a race is even. Below the dots: how many points apart the two were; the "
-        "bars show how far chance alone moves a dot."
+        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; today's "
+        f"ratings say to expect {100 * float(np.mean(expected)):.0f}%. A dot on the dashed line "
+        "means even races. Under each dot: how many points apart the two players were. The bars "
+        "show how far luck alone can move a dot."
     )
     chart = Chart(
         "How often the stronger player won, by the difference in ratings",

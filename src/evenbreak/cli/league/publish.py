@@ -21,7 +21,6 @@ from evenbreak.errors import DataError
 from evenbreak.questions.publish import Publish
 
 if TYPE_CHECKING:
-    from evenbreak.files.league.league_file import LeagueFile
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
@@ -48,9 +47,15 @@ def command(asked: Publish) -> Answer:
     file = _read(asked)
     listed = None if asked.roster is None else files.read_roster(asked.roster)
     everyone = by_appearance(file.results)
-    everyone += sorted(set(listed.roster.players if listed else ()) - {*everyone})
-    chosen, where = _by_player(league_in(click.get_current_context()))
-    names = PublicNames.of(everyone, asked.naming, chosen, where=where)
+    everyone += sorted(listed.roster.players if listed else ())
+    of_file = league_in(click.get_current_context())
+    names = PublicNames.of(
+        everyone,
+        asked.naming,
+        of_file.publish.players if of_file else {},  # type: ignore[arg-type]
+        aliases={} if asked.aliases is None else files.read_aliases(asked.aliases).means,
+        where=f"{of_file.path}: [publish.players]" if of_file else "",
+    )
     results = names.results(file.results)
     chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
     scale = _scale(asked, chart, listed)
@@ -84,19 +89,6 @@ def _read(asked: Publish) -> files.ResultsFile:
     if asked.chart is None or file.results.level_a is None:
         return file
     return files.read_seasons(asked.results, **{**reading, "chart": asked.chart})
-
-
-def _by_player(league: LeagueFile | None) -> tuple[dict[str, Any], str]:
-    """Return how single players are named by the league's file, and what the file is called."""
-    from evenbreak.files.tables.names import clean_name
-
-    if league is None:
-        return {}, ""
-    means = league.aliases
-    chosen = {
-        means.get(clean_name(name), name): way for name, way in league.publish.players.items()
-    }
-    return chosen, f"{league.path}: [publish.players]"
 
 
 def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale:
@@ -143,7 +135,7 @@ def _answer(
     if league.accent.changed:
         said.append(
             f"The color {asked.color} is too light for text on white, so the site uses "
-            f"{league.accent.light} by day."
+            f"{league.accent.light} on light screens."
         )
     data = {"folder": asked.out, "files": sorted(made)}
     return Answer(league.title, said, warnings=warnings, data=data)
@@ -181,9 +173,11 @@ def _races(
         of = listed.roster
         values = of.level if by_level else of.rating
         known = ~np.isnan(values)
-        public = [names[name] for name, here in zip(of.players, known, strict=True) if here]
-        errors = None if by_level else of.standard_error[known]
-        roster = Roster(public, values[known], errors, of.games[known])
+        public = [names[name] for name in of.players]
+        known &= [name not in public[:k] for k, name in enumerate(public)]  # aliases
+        kept = np.flatnonzero(known)
+        errors = None if by_level else of.standard_error[kept]
+        roster = Roster([public[k] for k in kept], values[kept], errors, of.games[kept])
     if asked.race is not None:
         chart = Chart("even races", [ChartRow(0, None, asked.race, asked.race)])
     if chart is None:
@@ -228,7 +222,7 @@ def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
 def _fixtures(path: str | None, league: PublishedLeague) -> tuple[list[Fixture], Sequence[str]]:
     """Return the fixtures after the last result under public names, and what to check in the file.
 
-    They are between players where one of the names is a player's, else between teams.
+    Who is no team of the results is taken for a player, so that no name slips through.
     """
     from evenbreak.files.lists.fixtures import read_fixture_list
     from evenbreak.files.tables.names import same_name
@@ -237,14 +231,16 @@ def _fixtures(path: str | None, league: PublishedLeague) -> tuple[list[Fixture],
     if path is None:
         return [], []
     every, warnings = read_fixture_list(path)
-    known = {same_name(name) for name in league.names.names}
-    of_players = any(same_name(one.home) in known for one in every)
+    teams = {same_name(str(name)) for name in league.teams}
     last = league.days[-1].astype(object) if league.days else None
     found = []
     for one in every:
         if last is None or one.date is None or one.date > last:
             where = ", ".join(filter(None, [one.venue, f"table {one.table}" if one.table else ""]))
-            sides = [league.names[name] if of_players else name for name in (one.home, one.away)]
+            sides = [
+                name if same_name(name) in teams else league.names[name]
+                for name in (one.home, one.away)
+            ]
             found.append(Fixture("" if one.date is None else str(one.date), where, *sides))
     return found, warnings
 
