@@ -196,27 +196,19 @@ def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
     """
     import numpy as np
 
-    from evenbreak.handicaps.charts.played_chart import level_numbers_of
+    from evenbreak.handicaps.charts.played_chart import last_levels
     from evenbreak.ratings.roster import Roster
 
-    levels: dict[str, float] = {}
-    rows = np.arange(len(results))
-    if results.date is not None:
-        rows = np.argsort(results.date, kind="stable")
-    columns = list(level_numbers_of(results))
-    for row in rows.tolist():
-        for seat, column in zip((results.player_a, results.player_b), columns, strict=True):
-            if column[row] in chart.levels:
-                levels[results.players[int(seat[row])]] = float(column[row])
-    if not levels:
+    levels = last_levels(results)
+    known = np.flatnonzero(np.isin(levels, chart.levels))
+    if not len(known):
         raise DataError(
             [
                 f"--chart {chart.name}: the results state no skill levels; add the columns level_a "
                 "and level_b, or give a list with --roster"
             ]
         )
-    order = sorted(levels)
-    return Roster(order, [levels[name] for name in order])
+    return Roster([results.players[k] for k in known], levels[known])
 
 
 def _fixtures(path: str | None, league: PublishedLeague) -> tuple[list[Fixture], Sequence[str]]:
