@@ -37,13 +37,14 @@ class LadderErrors(BySystem):
 
     A rating goes up with each match won and down with each match lost, and the chart turns the
     difference of two ratings into a race. Opponents are as good as the player and correctly rated,
-    unless an option says otherwise.
+    unless an option says otherwise. With a chart of skill levels the levels are followed.
     """
 
     examples = """\
   evenbreak ladder --chart npl_10
   evenbreak ladder --chart npl_8 --autocorrelated --start-error -30 --newcomer
   evenbreak ladder --chart npl_10 --step 2 --plot step_2.png
+  evenbreak ladder --chart apa_8ball
   evenbreak ladder --compare
 """
     step: Annotated[
@@ -196,7 +197,8 @@ class SandbagPay(BySystem):
     """Show what it pays to lose matches on purpose.
 
     Opponents are as good as the player and correctly rated. The player loses up to D matches on
-    purpose, then plays E in earnest while the rating climbs back. Nothing is simulated.
+    purpose, then plays E in earnest while the rating climbs back. Systems that move ratings or
+    levels match by match are solved; the others are played many times, and the error is stated.
     """
 
     examples = """\
@@ -204,6 +206,7 @@ class SandbagPay(BySystem):
   evenbreak sandbag pay --chart npl_12 --stake 100 --dumped-stake 5 --plot pay.png
   evenbreak sandbag pay --in-a-row 4 --prize 500 --stake 0
   evenbreak sandbag pay --compare
+  evenbreak sandbag pay --system tap-like
 """
     dumped: Annotated[
         int,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from evenbreak.fields.kinds import File, Flag, Named, Number, Whole
 from evenbreak.fields.question import Field, Says
-from evenbreak.files.league.values import SYSTEM
 from evenbreak.questions.common import (
     RACE_TO,
     ChartName,
@@ -26,7 +25,7 @@ from evenbreak.questions.common import (
 )
 from evenbreak.questions.pace import MINUTES, Pace, Turnover
 from evenbreak.questions.results import ON_STDIN, ROSTER
-from evenbreak.questions.systems import DAY_SD, BySystem
+from evenbreak.questions.systems import ANY_SYSTEM, DAY_SD, BySystem
 from evenbreak.tournaments.evening.format import Discipline, Tables
 
 if TYPE_CHECKING:
@@ -45,11 +44,11 @@ SHARE_OF = Number(0.0, 1.0, " is no share; give a number from 0 to 1, such as 0.
 
 
 def _systems(text: str) -> tuple[System, ...]:
-    return tuple(SYSTEM.read(name.strip()) for name in text.split(",") if name.strip())
+    return tuple(ANY_SYSTEM.read(name.strip()) for name in text.split(",") if name.strip())
 
 
 def _spelled(systems: tuple[System, ...]) -> str:
-    return ", ".join(SYSTEM.words(system) for system in systems)
+    return ", ".join(ANY_SYSTEM.words(system) for system in systems)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,10 +28,13 @@ def _system(text: str) -> System:
     return system_of(text)
 
 
+ANY_SYSTEM = replace(SYSTEM, reader=_system)
+"""A handicap system that a user names, who may name code of their own; a file may not."""
+
 SystemOf: TypeAlias = Annotated[
     System | None,
     Field(
-        replace(SYSTEM, reader=_system),
+        ANY_SYSTEM,
         "How ratings move: npl, step UP [DOWN], margin [MOST], elo [K], fixed [GAMES], "
         "none [GAMES], fargo-like, level-review, apa-like, tap-like, level-steps [STEPS], "
         "averages, win-percent, napa-like, or a class of your own as MODULE:CLASS.",

@@ -161,7 +161,7 @@ def test_the_help_names_all_systems(run):
     [
         (("--chart", "apa_8ball", "--system", "npl"), 2, "--system level-steps"),
         (("--chart", "apa_8ball", "--day-sd", "3"), 2, "leave it out with skill levels"),
-        (("--system", "tap-like"), 2, "evenbreak simulate"),
+        (("--system", "tap-like"), 2, "evenbreak simulate --compare"),
         (("--chart", "npl_9"), 3, "npl_9"),
         (("--system", "chess"), 2, "'chess'"),
         (("--step", "0"), 2, "'0'"),

@@ -1,7 +1,9 @@
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.systems import own
 from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.none import NoHandicap
 from evenbreak.handicaps.systems.step import step_system
 from rows import each_of
 
@@ -46,3 +48,40 @@ def test_a_system_is_its_own_name():
 def test_what_names_no_system_is_told_with_what_does(written, message):
     with pytest.raises(InputError, match=message):
         system_of(written)
+
+
+class _Added:
+    name = "Ours"
+
+    def load(self):
+        return NoHandicap
+
+
+def test_the_systems_of_installed_packages_are_found_by_their_names(monkeypatch):
+    monkeypatch.setattr(own, "entry_points", lambda group: [_Added()] * (group == own.GROUP))
+    assert system_of("ours") == NoHandicap()
+    with pytest.raises(InputError, match="napa-like or ours"):
+        system_of("theirs")
+
+
+@each_of(
+    "written, message",
+    [
+        ("level-review windw=3", "windw is no parameter of it; give window, kept"),
+        ("level-review window=many", "window is 'many'; give a number"),
+        ("level-review trim=10", "leaves no score of 20"),
+        ("npl k=3", "leave k= out"),
+        ("fargo-like 3", "write it as fargo-like"),
+        ("averages games=8", "give an odd number"),
+    ],
+)
+def test_parameters_that_a_system_cannot_have_are_refused(written, message):
+    with pytest.raises(InputError, match=message):
+        system_of(written)
+
+
+def test_parameters_are_set_by_name():
+    system = system_of("Tap Like window=15 lowest=none hysteresis=.25")
+    assert (system.window, system.lowest, system.hysteresis, system.trim) == (15, None, 0.25, 1)
+    assert system_of(system.name) == system
+    assert system_of("none 7").games == 7

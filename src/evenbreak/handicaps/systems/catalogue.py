@@ -199,7 +199,7 @@ def steps_of(name: Any) -> StepSystem:
     if not isinstance(system, StepSystem):
         raise InputError(
             "the system {name} does not move ratings by whole points match by match, so there is "
-            "no chain to follow here; `evenbreak simulate` plays seasons of it",
+            "no chain to follow here; `evenbreak simulate --compare` plays seasons of it",
             name=system.name,
         )
     return system
