@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import seed_of, whole
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_skills import level_skills
@@ -113,6 +113,7 @@ class Doublings:
         return Entries.of(rating, level, *counts)
 
 
+@array_values
 @dataclass(frozen=True, eq=False)
 class Contest:
     """Sums over the replicas of a world, by system and group of replicas.

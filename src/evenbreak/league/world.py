@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints, array_values
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
 from evenbreak.league.players import LeaguePlayers
@@ -63,6 +63,7 @@ class Night(NamedTuple):
     counts: bool
 
 
+@array_values
 @dataclass(frozen=True, eq=False)
 class World:
     """A league to be played under several systems.

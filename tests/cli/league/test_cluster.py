@@ -10,8 +10,8 @@ import time
 
 import pytest
 
+from evenbreak.cli.kit import cluster as module
 from evenbreak.cli.kit.cluster import cluster_at
-from evenbreak.cli.league import simulate as module
 from evenbreak.errors import InputError, WorkerError
 from evenbreak.workers import in_order
 

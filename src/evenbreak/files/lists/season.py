@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from evenbreak.arrays import array_values
 from evenbreak.errors import InputError
 from evenbreak.files.lists.entrants import check_one_scale, entered
 from evenbreak.files.lists.roster import (
@@ -36,6 +37,7 @@ SEASON = ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | O
 """The roster of a season."""
 
 
+@array_values
 @dataclass(frozen=True, eq=False)
 class SeasonPlayers:
     """What a league's roster contains.
