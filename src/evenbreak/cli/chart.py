@@ -74,7 +74,9 @@ def audit(asked: ChartAudit) -> Answer:
         if asked.plot is not None:
             asked.refuse("a chart by skill level has no rating differences; leave {plot} out")
         levels = handicaps.audit_levels(file.found, scale=asked.scale or "npl")
-        return level_audit_answer(levels, warnings=warnings)
+        return level_audit_answer(
+            levels, skills=handicaps.level_skills(file.found), warnings=warnings
+        )
     if isinstance(file.found, handicaps.PointsChart):
         if asked.plot is not None or asked.scale is not None:
             asked.refuse(

@@ -4,13 +4,14 @@ import json
 from pathlib import Path
 
 import click
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from evenbreak.cli.program import program
 from evenbreak.files.charts import read_chart
-from evenbreak.handicaps import audit_levels
+from evenbreak.handicaps import audit_levels, level_skills
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import Turnover
 from evenbreak.questions.league import Matchups
@@ -164,12 +165,21 @@ def test_ratings_beside_levels_give_the_chances(run, roster):
     assert answer(run, roster(text), "--race-to", "5")["levels"] is None
 
 
+def test_a_level_rates_a_player_who_has_no_rating(run, roster):
+    text = "player,fargo,SL\nAnn,600,6\nBo,400,4\nCy,,2\n"
+    rows = answer(run, roster(text), "--chart", "apa_8ball")["pairs"]
+    (row,) = (row for row in rows if {row["player_a"], row["player_b"]} == {"Ann", "Cy"})
+    shift = 500 - np.mean(level_skills("apa_8ball").strength([6, 4]))
+    assert row["difference"] == pytest.approx(600 - shift)
+    assert "rated by skill level" in run("matchups", roster(text), "--chart", "apa_8ball").stderr
+
+
 @pytest.mark.parametrize(
     ("text", "more", "words"),
     [
         (LEVELS, ("--scale", "2"), "--scale is for ratings"),
         ("player,level\nAnn,7\nBo,8\n", (), "roster.csv:3: 'Bo' has skill level 8; the levels"),
-        ("player,level\nAnn,7\nBo,\n", (), "roster.csv:3: 'Bo' has no skill level"),
+        ("player,level\nAnn,7\nBo,\n", (), "roster.csv:3: 'Bo' has no skill level (new players"),
         ("player,rating\nAnn,92\nBo,71\n", (), "needs skill levels"),
     ],
 )
@@ -426,7 +436,8 @@ def test_a_system_of_another_scale_than_the_list_is_refused(run, fargo_list, com
 
 @pytest.mark.slow
 def test_a_season_on_another_scale_than_the_list_is_refused(run, fargo_list, tmp_path):
-    refused = run("simulate", str(fargo_list), "--out", str(tmp_path / "season"))
+    words = ("--system", "npl", "--out", str(tmp_path / "season"))
+    refused = run("simulate", str(fargo_list), *words)
     assert refused.exit_code == 2
     assert "Fargo scale" in refused.stderr
 

@@ -11,6 +11,8 @@ from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.seasons import read_seasons
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
+from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.scale import Scale
 from evenbreak.words import FilePath, Parameter, say
 
 
@@ -64,6 +66,37 @@ def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
     if results is None:
         return level_skills(chart)
     return level_skills(chart, read_seasons([results]).results)
+
+
+MANY = 10
+"""Players with a rating and a level from which on it is seen how far a level is from a rating."""
+
+
+def rated_by_level(roster: Roster, chart: LevelChart, scale: Scale) -> Roster:
+    """Return a roster in which players without a rating have that of their level.
+
+    Levels lie where `level_skills` has them, shifted to the ratings of those who have both. Ratings
+    are off by as much as those are apart, or half of what doubles the odds where they are few.
+
+    >>> from evenbreak.handicaps import level_chart
+    >>> from evenbreak.ratings import scale_of
+    >>> club = Roster(["Ann", "Bo", "Cy"], [600, 400, np.nan], level=[6, 4, 5])
+    >>> rated_by_level(club, level_chart("apa_8ball"), scale_of("fargo")).rating.round()
+    array([600., 400., 498.])
+    """
+    on_chart = np.isin(roster.level, chart.levels)
+    rated, new = on_chart & ~np.isnan(roster.rating), on_chart & np.isnan(roster.rating)
+    if not rated.any() or not new.any():
+        return roster
+    points = level_skills(chart).strength(roster.level) * scale.points_per_doubling / 100.0
+    shift = (roster.rating - points)[rated]
+    off = float(shift.std()) if rated.sum() >= MANY else scale.points_per_doubling / 2.0
+    unknown = new & np.isnan(roster.standard_error)
+    return replace(
+        roster,
+        rating=np.where(new, shift.mean() + points, roster.rating),
+        standard_error=np.where(unknown, off, roster.standard_error),
+    )
 
 
 def with_level(file: RosterFile, starter: float | None) -> RosterFile:

@@ -18,6 +18,7 @@ from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, OfferedRaces, 
 from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import NOT_STATED
@@ -251,8 +252,10 @@ def about_players(tonight: Round) -> Iterator[Remark]:
     here[np.unique(tonight.pairs)] = True
     unrated, silent = np.isnan(read.rating), np.isnan(started.standard_error)
     filled = np.isnan(read.standard_error) & ~silent
+    by_level = unrated & isinstance(tonight.chart, LevelChart)
     for which, what, why in (
-        (unrated & filled, "without a rating", "taken as {0:g} ± {1:g}"),
+        (by_level & filled, "without a rating", "rated by skill level, such as {0:.4g} ± {1:.3g}"),
+        (unrated & filled & ~by_level, "without a rating", "taken as {0:g} ± {1:g}"),
         (unrated & ~filled, "without a rating", "taken as {0:g}"),
         (
             ~unrated & filled & (read.games == 0),

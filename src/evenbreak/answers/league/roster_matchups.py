@@ -148,7 +148,10 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
             lambda place: say(
                 "{player} has {level}; the levels of the chart {chart} are {levels}",
                 player=quoted(roster.players[place]),
-                level=say("no skill level")
+                level=say(
+                    "no skill level (new players can get one with {starter})",
+                    starter=Parameter("starter"),
+                )
                 if np.isnan(roster.level[place])
                 else say("skill level {level:g}", level=roster.level[place]),
                 chart=chart.name,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
-from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, with_level
+from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, rated_by_level, with_level
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
@@ -56,7 +56,10 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
         players = replace(file.roster, rating=levels.strength(file.roster.level))
     else:
         points = _scale_of_list(file, asked.scale, of_league)
-        players = with_starters(file.roster, points, asked.starter, asked.starter_sd)
+        players = file.roster
+        if isinstance(of_league, handicaps.LevelChart):
+            players = rated_by_level(players, of_league, points)
+        players = with_starters(players, points, asked.starter, asked.starter_sd)
     check_roster(file, players, of_league, points)
     if levels is not None:
         pass

@@ -42,7 +42,7 @@ ROSTER = Schema(
     "players",
     player=Name("name, player name, full name", "each name once", needed=True),
     rating=Number(
-        "points, handicap, fargo rating, elo",
+        "points, handicap, fargo rating, fargo, elo",
         "the title may name the scale (`Fargo rating`, `Elo`); not needed where there are levels",
         least=-LARGEST,
         most=LARGEST,

@@ -23,10 +23,10 @@ AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 def catalogue_name(text: str) -> str:
     """Return what a chart of the catalogue is called, however its name was typed.
 
-    >>> catalogue_name(" NPL-10 ")
-    'npl_10'
+    >>> catalogue_name(" NPL-10 "), catalogue_name("APA 8-Ball")
+    ('npl_10', 'apa_8ball')
     """
-    return re.sub(r"[-\s]+", "_", text.strip().lower())
+    return re.sub(r"(?<=\d)_ball$", "ball", re.sub(r"[-\s]+", "_", text.strip().lower()))
 
 
 def chart_of(chart_or_name: Any) -> Chart:
