@@ -73,6 +73,7 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
     ("Season", "sets"): "",
     ("Season", "results"): "files.team_results",
     ("Fixtures", "names"): "files.teams or files.roster",
+    ("LeagueTable", "results"): "results or files.team_results",
 }
 """The fields of some questions that have another key, or none."""
 
@@ -249,9 +250,11 @@ def text_of(league: LeagueFile, key: str) -> str | None:
     """
     from evenbreak.files.league.league_file import SECTIONS
 
-    if key in ("results", "aliases"):
-        return str(league.path) if getattr(league, key) else None
     key, _, otherwise = key.partition(" or ")
+    if key in ("results", "aliases"):
+        if getattr(league, key):
+            return str(league.path)
+        return text_of(league, otherwise) if otherwise else None
     section, _, name = key.rpartition(".")
     of: Any = getattr(league, section) if section else league
     value = getattr(of, name)

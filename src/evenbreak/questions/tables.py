@@ -235,6 +235,9 @@ class Fixtures(Reading):
             metavar="SEED",
         ),
     ] = None
+    title: Annotated[
+        str, Field(Text("NAME"), "The name of the league, for the calendar.", section=_WHEN)
+    ] = "League matches"
     ics: Annotated[
         str | None, Field(File("FILE.ics"), "Write a calendar that phones can open.")
     ] = None
@@ -242,7 +245,7 @@ class Fixtures(Reading):
     def check(self) -> None:
         """Refuse two lists of fixtures or none, and dates without a first one."""
         if (self.names is None) == (self.schedule is None):
-            self.refuse("give LIST.csv, or fixtures that are made with {schedule}")
+            self.refuse("give {names}, or fixtures that are made with {schedule}")
         for name in ("ends", "weekdays", "skip"):
             if self.begins is None and name in self.given:
                 self.refuse(f"{{{name}}} needs the first night; add {{begins}} 2026-09-01")

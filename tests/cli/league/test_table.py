@@ -56,6 +56,21 @@ def test_players_deductions_and_sides(ask, sets, tmp_path):
     assert {row["team"]: row["played"] for row in home} == {"Acers": 1, "Bankers": 1, "Caroms": 0}
 
 
+def test_a_league_of_skill_levels_needs_its_file_alone(ask, tmp_path, monkeypatch):
+    head = "date,team_a,team_b,player_a,player_b,score_a,score_b,level_a,level_b\n"
+    own = tmp_path / "autumn.csv"
+    toml = 'chart = "{0}"\n[standings]\npoints = "{0}"\n[[results]]\nfile = "autumn.csv"\n'
+    monkeypatch.chdir(tmp_path)
+    for chart, rows, points in (
+        ("apa_8ball", "Al,Xi,2,5,4,6\nBea,Yu,2,0,3,3", [4, 2]),
+        ("apa_9ball", "Al,Xi,25,21,3,3\nBea,Yu,37,46,5,6\nCy,Zed,75,17,9,9", [41, 19]),
+    ):
+        lines = [f"2026-09-01,Acers,Bankers,{row}" for row in rows.split("\n")]
+        own.write_text(head + "\n".join(lines) + "\n")
+        (tmp_path / "league.toml").write_text(toml.format(chart))
+        assert [row["points"] for row in ask("league", "table")["table"]] == points
+
+
 @each_of(
     "words, message",
     [

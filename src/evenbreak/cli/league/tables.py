@@ -13,6 +13,7 @@ from evenbreak.answers.kit.wording import count_of
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.terminal import write_file
+from evenbreak.files.results.races_by_chart import races_by_chart
 from evenbreak.files.tables.names import same_name
 from evenbreak.league.tables.fixtures import Fixture, left_of, nights
 from evenbreak.league.tables.fixtures import fixtures as round_robin_fixtures
@@ -24,11 +25,15 @@ def table(asked: LeagueTable) -> Answer:
     """Make the table of a league."""
     from evenbreak.answers.league.standings import table_answer
 
-    file = files.read_seasons(asked.results, **asked.reading, unplayed=True)
+    file = files.read_seasons(asked.results, **{**asked.reading, "chart": None}, unplayed=True)
+    results, warnings = file.results, [*file.warnings]
+    if asked.chart is not None and results.level_a is not None and results.level_b is not None:
+        results, lines = races_by_chart(results, asked.chart, file.lines, file.source, points=True)
+        warnings += lines
     rules = replace(asked.table_points, ties=asked.ties)
-    matches, of_teams = _matches(asked, file.results, rules)
+    matches, of_teams = _matches(asked, results, rules)
     start = None
-    warnings = [*file.warnings, *_left_out(matches)]
+    warnings += _left_out(matches)
     if asked.teams is not None:
         matches, start, lines = _with_teams(matches, asked.teams)
         warnings += lines
@@ -64,7 +69,8 @@ def _matches(
     named = all(one is not None and (one != "").any() for one in teams)
     if named and asked.of != "players":
         return league.team_matches(results, count_games=asked.count_games, rules=rules), True
-    return league.player_matches(results), asked.of == "teams"
+    of_teams = asked.of == "teams" or (asked.of is None and asked.teams is not None)
+    return league.player_matches(results), of_teams
 
 
 def _left_out(matches: league.TableMatches) -> list[str]:
@@ -118,7 +124,7 @@ def fixtures(asked: Fixtures) -> Answer:
 
         calendar = calendar_bytes(
             listed,
-            name=only or "League matches",
+            name=f"{asked.title}: {only}" if only else asked.title,
             venue=asked.venue or "",
             start=asked.time,
             minutes=asked.minutes,

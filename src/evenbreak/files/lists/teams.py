@@ -89,6 +89,8 @@ TEAMS = Schema(
         most=10_000,
         write=say("points such as -2"),
     ),
+    venue=Text("home venue, location, place", "where it is at home"),
+    tables=Text("tables there", "the number of tables at that venue"),
 )
 """The teams of a league."""
 

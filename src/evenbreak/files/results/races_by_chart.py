@@ -19,7 +19,12 @@ from evenbreak.words import say, say_count
 
 
 def races_by_chart(
-    results: Results, chart: str | Path, lines: NDArray[np.int64], source: str
+    results: Results,
+    chart: str | Path,
+    lines: NDArray[np.int64],
+    source: str,
+    *,
+    points: bool = False,
 ) -> tuple[Results, list[str]]:
     """Return results with the races that a chart sets for the levels or ratings stated in them.
 
@@ -34,6 +39,8 @@ def races_by_chart(
         the name or the file of the chart.
     lines, source
         the line of each match, and what the file is called in warnings.
+    points
+        whether scores are points where the chart is one of points, and it sets those to win.
     """
     of_league = find_chart(chart)
     race_a, race_b = (race.copy() for race in results.races)
@@ -41,7 +48,7 @@ def races_by_chart(
     unset = results.counted & (race_a == 0) & (race_b == 0) & (score_a + score_b > 0)
     if not unset.any():
         return results, []
-    if isinstance(of_league, PointsChart):
+    if isinstance(of_league, PointsChart) and not points:
         text = say(
             "{chart} is a chart of points, so it sets no race in games here, and scores count as "
             "games",
@@ -64,7 +71,11 @@ def races_by_chart(
         needs: Any = of_league.races(a - b)
     else:
         known = np.isin(stated[0], of_league.levels) & np.isin(stated[1], of_league.levels)
-        needs = of_league.races(stated[0][known], stated[1][known])
+        a, b = (level[known] for level in stated)
+        if isinstance(of_league, PointsChart):
+            needs = [np.interp(level, of_league.levels, of_league.points) for level in (a, b)]
+        else:
+            needs = of_league.races(a, b)
     m, n = np.zeros_like(race_a), np.zeros_like(race_b)
     m[known], n[known] = needs
     ends = ((score_a == m) & (score_b < n)) | ((score_b == n) & (score_a < m))
