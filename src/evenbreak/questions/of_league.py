@@ -167,11 +167,15 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
     return kept
 
 
+_BY_ANY_CHART = ("Publish", "LeagueTable")
+"""Questions whose chart sets the races of results whether or not it is one of levels."""
+
+
 def _is_for_levels(question: Any, name: str, typed: Mapping[str, Any]) -> bool:
     from evenbreak.questions.results import ByChart
 
     if name == "chart" and issubclass(question, ByChart) and "system" not in typed:
-        return bool(question.__name__ != "Publish")  # whose chart sets races too
+        return question.__name__ not in _BY_ANY_CHART
     if name == "results":
         return not next(one.required for one in declared(question) if one.name == name)
     return any((one.__name__, name) in BY_LEVEL for one in question.__mro__)
