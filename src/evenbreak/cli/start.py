@@ -6,6 +6,7 @@ import click
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.terminal import say
 from evenbreak.questions.start import Demo, Reproduce, Serve
 
@@ -42,4 +43,4 @@ def reproduce(asked: Reproduce) -> Answer:
 def serve(asked: Serve) -> None:
     """Open tonight's tournament or team night as a page."""
     # By its name, because the terminal and the page know nothing of each other.
-    import_module("evenbreak.web.command").serve(asked)
+    import_module("evenbreak.web.command").serve(asked, league_in(click.get_current_context()))

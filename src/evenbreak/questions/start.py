@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from evenbreak.fields.kinds import File, Flag, Named, Whole
 from evenbreak.fields.question import Field, Question, Says
@@ -75,6 +75,8 @@ class Serve(Question):
     evenbreak tournament can be used on it at the same time.
     """
 
+    of_league: ClassVar[bool] = True
+    """Forms begin with what the league's file says."""
     examples = """\
   evenbreak serve
   evenbreak serve saturday.db --lan

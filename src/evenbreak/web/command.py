@@ -13,6 +13,7 @@ import segno
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.demo import write_demo_evening
+from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import back_up
 from evenbreak.files.store.evening_file import TOURNAMENT, holds
 from evenbreak.files.store.team_night import read_team_events
@@ -22,8 +23,8 @@ from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
 
-def serve(asked: Serve) -> None:
-    """Serve the page until Ctrl+C."""
+def serve(asked: Serve, league: LeagueFile | None) -> None:
+    """Serve the page until Ctrl+C; its forms begin with the rules of a league."""
     path = _demo() if asked.demo else Path(asked.file or "tonight.db")
     if path.exists():
         if holds(path, TOURNAMENT) or not read_team_events(path):
@@ -44,7 +45,7 @@ def serve(asked: Serve) -> None:
     if asked.lan:
         hosts |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
     address = f"http://{own}:{asked.port}"
-    site = Site(path, frozenset(hosts), address)
+    site = Site(path, frozenset(hosts), address, league)
     if why := _taken(host, asked.port):
         asked.refuse(
             "{port} {n}: {why}; give another one, such as {free}",

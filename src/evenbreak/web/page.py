@@ -188,6 +188,7 @@ def page(
             director=is_director(request),
             csrf=form_token(request),
             once=secrets.token_urlsafe(9),
+            of_league=values.pop("of_league", {}),
             begun=begun_at(request),
             said=request.session.pop(_SAID, []),
             live=live,

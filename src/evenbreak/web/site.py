@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from evenbreak.errors import DataError
+from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
 from evenbreak.web.beside import Made
@@ -35,6 +36,8 @@ class Site:
         the names and addresses under which this computer may be asked.
     address
         where phones find it, such as http://192.168.1.20:8000; for QR codes.
+    rules
+        the league's file, from which forms begin; None if there is none.
     clock
         returns what time it is, such as 2025-03-01T19:30:00.
     tries, all_tries, taps
@@ -44,6 +47,7 @@ class Site:
     path: Path
     hosts: frozenset[str] = frozenset({"127.0.0.1", "localhost", "::1"})
     address: str = "http://127.0.0.1:8000"
+    rules: LeagueFile | None = None
     clock: Callable[[], str] = now
     tries: Tries = field(default_factory=lambda: Tries(5))
     all_tries: Tries = field(default_factory=lambda: Tries(30))

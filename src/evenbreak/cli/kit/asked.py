@@ -147,7 +147,8 @@ class AskedCommand(click.Command):
             f"--{name}": one.option for one in declared(question) for name in one.field.old
         }
         names = {one.name for one in declared(question)}
-        if takes_any(question) and "league" not in names:
+        of_league = takes_any(question) or getattr(question, "of_league", False)
+        if of_league and "league" not in names:
             self.params.append(league_option())
         self.params.append(
             click.Option(

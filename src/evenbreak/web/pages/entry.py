@@ -39,6 +39,7 @@ from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
 from evenbreak.tournaments.evening.plan import FORMATS, opened
+from evenbreak.web.defaults import of_league
 from evenbreak.web.forms import (
     CHOOSE_IT,
     EVEN,
@@ -95,6 +96,7 @@ async def _choices(site: Site) -> dict[str, Any]:
         "formats": FORMATS,
         "races": RACES,
         "charts": CHARTS,
+        "of_league": of_league(NewTournament, site.rules, charts=CHARTS),
         "scales": NAMES,
         "chip_charts": CHIP_CHARTS,
         "league": site.league.sheet,

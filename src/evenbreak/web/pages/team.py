@@ -27,11 +27,12 @@ from evenbreak.answers.team.night import (
 )
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.team_night import add_team_events
-from evenbreak.questions.teams import ORDERS
+from evenbreak.questions.teams import ORDERS, Lineup, OnTables
 from evenbreak.ratings.scale import NAMES
 from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What, check_plan
 from evenbreak.teams.evening.fold import TeamEvening
+from evenbreak.web.defaults import of_league
 from evenbreak.web.forms import RACES, Form, form_fields, form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import asked_again, done, page, site_of
@@ -148,6 +149,8 @@ async def _choices(site: Site) -> dict[str, Any]:
         "orders": ORDERS,
         "races": RACES,
         "charts": EVERY_CHART,
+        "of_league": of_league(OnTables, site.rules, charts=EVERY_CHART)
+        | of_league(Lineup, site.rules, charts=EVERY_CHART, orders=ORDERS),
         "scales": NAMES,
     }
 
