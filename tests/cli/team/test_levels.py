@@ -69,7 +69,7 @@ def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
     assert "points, not games" in run(*asked, "--count", "games").stderr
 
 
-def test_ratings_beside_levels_give_the_chances(ask, lists, tmp_path):
+def test_ratings_beside_levels_give_the_chances(ask, run, lists, tmp_path):
     rated = [
         written(
             tmp_path / f"rated_{name}.csv",
@@ -81,6 +81,8 @@ def test_ratings_beside_levels_give_the_chances(ask, lists, tmp_path):
     asked = ("--chart", "apa_8ball", "--cap", "23")
     told = ask("lineup", *rated, *asked, "--scale", "fargo")
     assert "Ratings on the Fargo scale" in told["heading"]
+    own = run("lineup", *rated, *asked, "--scale", "fargo", "--results", "none.csv")
+    assert "the results are not used" in own.stderr
     mixed = ask("lineup", rated[0], lists[1], *asked)
     assert mixed["p_win"] == ask("lineup", *lists, *asked)["p_win"]
 

@@ -7,13 +7,12 @@ from dataclasses import replace
 
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.league.by_level import by_level, skills_of
-from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.ratings.scale import Scale
 from evenbreak.teams.pairs import SetRace
-from evenbreak.words import Parameter, Sentence, say
+from evenbreak.words import Sentence, say
 
 
 def lists_by_level(
@@ -40,16 +39,11 @@ def lists_by_level(
     Raises
     ------
     InputError
-        if a list states no levels, or the results are not needed.
+        if a list states no levels.
     """
     read = [by_level(file, chart) for file in lists]
     files = [file for file, _ in read]
     if isinstance(chart, PointsChart) or all(levels is None for _, levels in read):
-        if results is not None:
-            raise InputError(
-                "{results} is for chances by skill levels with a chart of races; leave it out",
-                results=Parameter("results"),
-            )
         return files, None
     levels = skills_of(chart, results)
     strong = [

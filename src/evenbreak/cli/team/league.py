@@ -291,8 +291,12 @@ def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Streng
         if asked.scale is not None:
             raise InputError(SCALE_OF_LEVELS)
         warnings = list(dict.fromkeys(line for file in every for line in file.warnings))
+        if asked.results is not None and levels is None:
+            warnings.append("the results are not used: a chart of points sets the chances itself")
         return Strengths([file.roster for file in every], FARGO, levels, warnings)
     scale, warnings = scale_of_teams(lists, asked.scale)
+    if asked.results is not None:
+        warnings.append("the results are not used: the chances come from the ratings of the lists")
     rosters = [with_starters(file.roster, scale, asked.starter, asked.starter_sd) for file in every]
     return Strengths(rosters, scale, None, warnings)
 
