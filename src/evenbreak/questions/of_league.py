@@ -72,6 +72,7 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
     ("Season", "race"): "",  # of sets, not of games
     ("Season", "sets"): "",
     ("Season", "results"): "files.team_results",
+    ("Season", "columns"): "",  # of the players' results
     ("Fixtures", "names"): "files.teams or files.roster",
     ("LeagueTable", "results"): "results or files.team_results",
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -61,6 +62,24 @@ def columns_in(text: str) -> dict[str, str]:
     return columns
 
 
+Columns: TypeAlias = Annotated[
+    tuple[dict[str, str], ...],
+    Field(
+        Named(columns_in, "NAME=TITLE,..."),
+        "What the file calls its columns, such as player_a=Home,player_b=Away.",
+        many=True,
+        section=_READING,
+        more="With a file's name and a colon before it, such as `autumn.csv:score=Stand`, for "
+        "that file alone. See [other names of columns](../files.md#other-names-of-columns).",
+    ),
+]
+
+
+def in_one(columns: Sequence[Mapping[str, str]]) -> dict[str, str]:
+    """Return the titles of all options --columns."""
+    return {name: title for part in columns for name, title in part.items()}
+
+
 @dataclass(frozen=True, kw_only=True)
 class Reading(Question):
     """How a file of results is to be read."""
@@ -74,17 +93,7 @@ class Reading(Question):
             more="See [aliases](../files.md#aliases).",
         ),
     ] = None
-    columns: Annotated[
-        tuple[dict[str, str], ...],
-        Field(
-            Named(columns_in, "NAME=TITLE,..."),
-            "What the file calls its columns, such as player_a=Home,player_b=Away.",
-            many=True,
-            section=_READING,
-            more="With a file's name and a colon before it, such as `autumn.csv:score=Stand`, for "
-            "that file alone. See [other names of columns](../files.md#other-names-of-columns).",
-        ),
-    ] = ()
+    columns: Columns = ()
     skip_bad: Annotated[
         bool,
         Field(
@@ -112,10 +121,9 @@ class Reading(Question):
     @property
     def reading(self) -> dict[str, Any]:
         """How to read the results, as `files.read_results` takes it."""
-        columns = {name: title for part in self.columns for name, title in part.items()}
         return {
             "aliases": self.aliases,
-            "columns": columns,
+            "columns": in_one(self.columns),
             "dates": self.dates,
             "skip_bad": self.skip_bad,
         }

@@ -29,6 +29,7 @@ from evenbreak.questions.common import (
     Starters,
     Sure,
 )
+from evenbreak.questions.results import Columns
 from evenbreak.questions.tables import TablePoints, Ties
 from evenbreak.teams.set_laws import COUNTS
 from evenbreak.tournaments.evening.format import Discipline, Tables
@@ -390,6 +391,7 @@ class Season(Question):
     race: Annotated[
         int | None, Field(_SETS, "A match goes to the first to win N sets.", rare=True)
     ] = None
+    columns: Columns = ()
     teams: Annotated[
         str | None,
         Field(

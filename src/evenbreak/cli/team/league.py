@@ -17,6 +17,7 @@ from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.handicaps.charts.level_skills import FARGO
+from evenbreak.questions.results import in_one
 from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale
 from evenbreak.words import Parameter
@@ -177,7 +178,7 @@ def _matches(asked: Season) -> tuple[Any, Any, Any, tuple[Any, tuple[str, ...]],
     if asked.teams is not None:
         known, start, lines = files.read_teams(asked.teams)
         warnings += lines
-    played, ahead = files.read_team_results(asked.results, known)
+    played, ahead = files.read_team_results(asked.results, known, columns=in_one(asked.columns))
     warnings += played.warnings
     if asked.schedule is not None:
         if unplayed := len(ahead.pairs):

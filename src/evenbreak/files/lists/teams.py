@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import compress
 from pathlib import Path
 
@@ -14,6 +15,12 @@ from numpy.typing import NDArray
 from evenbreak.arrays import Floats, Ints, array_values
 from evenbreak.files.lists.roster import ROSTER, WRITTEN, RosterFile, roster_of
 from evenbreak.files.lists.typed_list import read_players
+from evenbreak.files.results.columns import LAYOUTS, RESULTS
+from evenbreak.files.results.matches import with_scores_apart
+from evenbreak.files.results.proposals import TEAMS as TEAMS_CALLED
+from evenbreak.files.results.proposals import columns_hint
+from evenbreak.files.results.results_file import columns_of_file
+from evenbreak.files.results.statuses import played_matches
 from evenbreak.files.tables.names import Name, same_name
 from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.files.tables.schema import Number, Schema, Text, Whole
@@ -46,7 +53,7 @@ def _side(also: str, about: str) -> Name:
     return Name(also, about, needed=True, write=say("the team's name"))
 
 
-_SETS = Whole(needed=True, empty=None)
+_SETS = Whole(needed=True, empty=None, instead=("score",))
 ROUND = Schema(
     round=Text("week, matchday, night", "the round; the date, where there is no such column"),
     date=Text("day, match date", "the date"),
@@ -74,6 +81,8 @@ TEAM_RESULTS = (
             "away sets, away points, score away, score b, score 2", "the sets that away won"
         ),
     )
+    | LAYOUTS.only("score", "status", "remark")
+    | Schema(forfeit=RESULTS["forfeit"])
     | ROUND
     | PLACE
 )
@@ -264,10 +273,13 @@ def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
     return TeamNames(teams.names, fixed=True), points, table.warnings
 
 
-def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, TeamMatches]:
+def read_team_results(
+    path: str | Path, teams: TeamNames, *, columns: Mapping[str, str] | None = None
+) -> tuple[TeamMatches, TeamMatches]:
     r"""Read the matches that have been played, with the sets that each team won, and the others.
 
-    A match without a score, or with 0:0, has not been played.
+    A match without a score, or with 0:0, has not been played. `columns` has titles of columns, as
+    for `read_results`.
 
     Raises
     ------
@@ -283,10 +295,23 @@ def read_team_results(path: str | Path, teams: TeamNames) -> tuple[TeamMatches, 
     >>> played.pairs.tolist(), played.scores.tolist(), to_come.pairs.tolist()
     ([[0, 1]], [[3, 2]], [[1, 0]])
     """
-    table = TEAM_RESULTS.read(path)
+    table, _ = played_matches(
+        TEAM_RESULTS.text(
+            path,
+            called=columns_of_file(columns or {}, path),
+            hint=partial(columns_hint, called=TEAMS_CALLED),
+        ),
+        tuple(PAIR.columns),
+        to_come=True,
+    )
+    table = TEAM_RESULTS.of(with_scores_apart(table, ("home_score", "away_score")))
     home, away = table.read["home_score"], table.read["away_score"]
     table.note(
-        home.stated != away.stated,
+        table["forfeit"] & (home.values + away.values == 0),
+        "is a forfeit without a score; write the sets that it counts, such as 3 and 0",
+    )
+    table.note(
+        (home.stated != away.stated) & home.good & away.good,
         "one score is empty; write both, or neither where the match was not played",
     )
     scores = np.stack([home.values, away.values], axis=1)

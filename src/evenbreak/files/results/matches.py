@@ -74,6 +74,14 @@ def one_layout(table: TextTable) -> TextTable:
     return _with_winners(made) if by_winner else made
 
 
+def with_scores_apart(table: TextTable, sides: Pair) -> TextTable:
+    """Return a table with the scores of its column `score` in two, where it has not both."""
+    if "score" not in table or table.found >= {*sides}:
+        return table
+    columns = dict(zip(sides, _split(_pairs(table, "score", _score)), strict=True))
+    return replace(table, columns={**table.columns, **columns}, found=table.found | {*sides})
+
+
 def _not_used(names: list[str], source: str) -> list[str]:
     """Return a warning if columns say what others say too."""
     if not names:

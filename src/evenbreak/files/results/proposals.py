@@ -59,8 +59,15 @@ _Pair = tuple[_Column, _Column]
 Reading = Mapping[str, str]
 
 
+TEAMS = {"player_a": "home", "player_b": "away", "score_a": "home_score", "score_b": "away_score"}
+"""What the columns are called in results of teams."""
+
+
 def columns_hint(
-    places: Mapping[str, int], titles: Sequence[str], rows: Sequence[Sequence[str]]
+    places: Mapping[str, int],
+    titles: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    called: Mapping[str, str] | None = None,
 ) -> str:
     """Return what to do about missing columns of players and scores.
 
@@ -72,11 +79,19 @@ def columns_hint(
         all titles.
     rows
         the cells below them, row by row.
+    called
+        what the columns are called that have other names than in results of players.
 
     >>> print(columns_hint({}, ["Sp H", "Sp G", "S"], [["Ann", "Bo", "7-5"]]))
     if it has them by other names, add columns "player_a=Sp H,player_b=Sp G,score=S"
     """
-    readings = readings_of(places, titles, rows)
+    called = called or {}
+    names = {name: own for own, name in called.items()}
+    known = {names.get(name, name): place for name, place in places.items()}
+    readings = [
+        {called.get(name, name): title for name, title in reading.items()}
+        for reading in readings_of(known, titles, rows)
+    ]
     if not 0 < len(readings) <= _MOST_READINGS:
         return say("add them; one column score, with 7-5 in a cell, takes the place of two")
     options = [_option(reading) for reading in readings]

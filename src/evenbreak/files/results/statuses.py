@@ -30,7 +30,9 @@ class LeftOut(NamedTuple):
 _BYE, _NOT_YET = say("a bye"), say("not played")
 
 
-def played_matches(table: TextTable, names: Sequence[str]) -> tuple[TextTable, tuple[LeftOut, ...]]:
+def played_matches(
+    table: TextTable, names: Sequence[str], *, to_come: bool = False
+) -> tuple[TextTable, tuple[LeftOut, ...]]:
     """Return a table without byes and matches not played yet, its forfeits marked as such.
 
     Parameters
@@ -39,6 +41,8 @@ def played_matches(table: TextTable, names: Sequence[str]) -> tuple[TextTable, t
         the matches, with a column `forfeit` if forfeits count otherwise than matches.
     names
         the columns of the players or teams.
+    to_come
+        whether matches not played yet stay, without a score.
     """
     said = {
         name: [key_of(text) for text in table.cells(name)]
@@ -62,14 +66,15 @@ def played_matches(table: TextTable, names: Sequence[str]) -> tuple[TextTable, t
         nobody = any(column[row] for column in who)
         if any(column[row] for column in called) or (nobody and status & BYE):
             left_out.append(LeftOut(line, _BYE))
-        elif blank and status & UNPLAYED:
+        elif blank and status & UNPLAYED and not to_come:
             left_out.append(LeftOut(line, _NOT_YET))
         forfeits.append(bool(status & (FORFEIT | BYE)))
     columns = dict(table.columns)
     for name in scores:
-        if name != "score" and not (FORFEIT | BYE).isdisjoint(said[name]):
+        no_score = {*(UNPLAYED if to_come else ()), *(FORFEIT | BYE if name != "score" else ())}
+        if not no_score.isdisjoint(said[name]):
             cells = zip(table.cells(name), said[name], strict=True)
-            columns[name] = Texts.of([("" if word in FORFEIT | BYE else c) for c, word in cells])
+            columns[name] = Texts.of([("" if word in no_score else text) for text, word in cells])
     found = table.found
     if any(forfeits) and "forfeit" in columns:
         marked = zip(forfeits, table.cells("forfeit"), strict=True)
