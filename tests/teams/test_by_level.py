@@ -173,7 +173,13 @@ def by_tree(laws, line_ups, order, lead, used):
 
 
 @pytest.mark.parametrize(
-    ("race", "count"), [(EIGHT, "sets"), (EIGHT, Points()), (NINE, "sets"), (NINE, Shares())]
+    ("race", "count"),
+    [
+        (EIGHT, "sets"),
+        (EIGHT, Points()),
+        (NINE, "sets"),
+        pytest.param(NINE, Shares(), marks=pytest.mark.slow),
+    ],
 )
 def test_a_night_under_the_caps_equals_the_whole_game_tree(race, count) -> None:
     """Three of four, levels of 12 at most and one player of level 6 or more."""

@@ -189,6 +189,7 @@ def by_level(team: dict[str, tuple[int, int]]) -> str:
     return "\n".join(["player,level", *(f"{name},{level}" for name, (_, level) in team.items())])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("chart", "race", "score", "brought"),
     [("apa_8ball", "5:3", (5, 2), "2 : 1"), ("apa_9ball", "46:31", (46, 21), "15 : 5")],
