@@ -18,7 +18,7 @@ from evenbreak.handicaps.systems.level_review import nearest_level
 from evenbreak.questions.league import WEEKS
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, Scale
-from evenbreak.words import Sentence, say, say_count
+from evenbreak.words import Parameter, Sentence, say, say_count
 
 if TYPE_CHECKING:
     from evenbreak.answers.kit.answer import Answer
@@ -53,6 +53,7 @@ def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
     from evenbreak.answers.league import compare
     from evenbreak.answers.league.captains import SealedCaptains
 
+    _refuse_without_teams(asked, file)
     systems, warnings = _systems(asked, file)
     world, assumed = _world(asked, file, systems[0])
     with (
@@ -79,6 +80,20 @@ def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
     if asked.out is not None:
         write_folder(asked.out, _files(comparison))
     return answer
+
+
+def _refuse_without_teams(asked: Simulate, file: files.SeasonPlayers) -> None:
+    """Refuse options that only leagues of teams have, or that those do not have."""
+    of_teams = [name for name in ("sets", "cap", "best_line_ups") if name in asked.given]
+    if file.teams is None and of_teams:
+        asked.refuse(
+            "{part} is for teams; give {file} a column team", part=Parameter(of_teams[0]),
+            file=file.source,
+        )  # fmt: skip
+    if file.teams is not None and asked.random:
+        asked.refuse("{random} is for single players; teams meet in turn, or by {schedule}")
+    if file.teams is not None and asked.players_file is not None:
+        asked.refuse("{players_file} cannot be used with teams; list everyone with their team")
 
 
 def _files(comparison: Any) -> dict[str, bytes]:
@@ -228,6 +243,14 @@ def _strengths(
     skills = handicaps.level_skills(chart)
     scale = SCALES["fargo"]
     of, step = file.players, float(np.diff(skills.points).mean())
+    wrong = ~np.isnan(file.roster.level) & ~np.isin(file.roster.level, chart.levels)
+    if wrong.any():
+        place = int(wrong.argmax())
+        refuse(
+            f"{file.source}: {file.roster.players[place]!r} has skill level "
+            f"{file.roster.level[place]:g}; the levels of {chart.name} are "
+            f"{chart.levels[0]} to {chart.levels[-1]}"
+        )
     level = nearest_level(chart, of.rating)
     points = scale.centre + skills.strength(level) - skills.points.mean()
     # Players of a level are spread at least as evenly as the levels are apart.
