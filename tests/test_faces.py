@@ -117,6 +117,7 @@ ASKED = {
     "--racks abb",
     "matchups": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10",
     "matchups_levels": "matchups data/apa_roster.csv --chart apa_8ball",
+    "matchups_points": "matchups data/apa_roster.csv --chart apa_9ball",
     "odds_levels": "odds 5 3 --chart apa_8ball",
     "odds_points": "odds 5 3 --chart apa_9ball",
     "matchups_both": "matchups data/demo_roster.csv --pairs data/demo_pairs.csv --chart npl_10 "

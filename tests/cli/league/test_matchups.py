@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from evenbreak.cli.program import program
 from evenbreak.files.charts import read_chart
-from evenbreak.handicaps import audit_levels, level_skills
+from evenbreak.handicaps import audit_levels, level_skills, points_odds
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.matches import Turnover
 from evenbreak.questions.league import Matchups
@@ -163,6 +163,22 @@ def test_ratings_beside_levels_give_the_chances(run, roster):
     assert (row["chart_race_a"], row["chart_race_b"]) == (4, 2)
     assert row["p_game_a"] == pytest.approx(2 / 3)
     assert answer(run, roster(text), "--race-to", "5")["levels"] is None
+
+
+def test_a_chart_of_points_gives_the_points_of_each_pair(run, roster):
+    path = roster("player,SL\nAnn,7\nBo,4\nCy,\n")
+    words = (path, "--chart", "apa_9ball")
+    rows = answer(run, *words, "--starter", "2")["pairs"]
+    odds = points_odds("apa_9ball", 7, 4)
+    assert [(row["player_a"], row["needs_a"], row["needs_b"]) for row in rows] == [
+        ("Ann", 55, 31),
+        ("Ann", 55, 19),
+        ("Bo", 31, 19),
+    ]
+    assert rows[0]["p_win_a"] == pytest.approx(odds.p_win_1)
+    assert rows[0]["match_points_b"] == pytest.approx(odds.share_2)
+    assert "'Cy' has no skill level" in run("matchups", *words).stderr
+    assert "no race in games" in run("matchups", *words, "--race-to", "5").stderr
 
 
 def test_a_level_rates_a_player_who_has_no_rating(run, roster):

@@ -73,7 +73,7 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
     odds = points_odds("apa_9ball", 7, 4, score=(30, 5))
     found = answer(run, "live", "7", "4", "--chart", "apa_9ball", "--score", "30:5")
     assert found["p_win_a"] == pytest.approx(odds.p_win_1)
-    assert found["share_a"] == pytest.approx(odds.share_1)
+    assert found["match_points_a"] == pytest.approx(odds.share_1)
     low, high = found["p_win_a_range"]
     assert low < found["p_win_a"] < high
     assert (

@@ -17,7 +17,7 @@ from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS, Gap
-from evenbreak.handicaps.charts.level_chart import LevelChart
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.evening import Length
 from evenbreak.matches.minutes import match_minutes
@@ -140,7 +140,7 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
             scale=Parameter("scale"),
         ),
     )
-    if isinstance(chart, LevelChart):
+    if isinstance(chart, LevelChart | PointsChart):
         levels = ", ".join(map(str, chart.levels))
         problems.add_rows(
             file.lines,

@@ -51,8 +51,8 @@ def points_answer(
     values = {
         "p_win_a": ours,
         "p_win_b": theirs,
-        "share_a": odds.share_1,
-        "share_b": odds.share_2,
+        "match_points_a": odds.share_1,
+        "match_points_b": odds.share_2,
         "mean_innings": odds.mean_innings,
         "-needs_a": need_a,
         "-needs_b": need_b,

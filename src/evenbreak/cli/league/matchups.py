@@ -39,37 +39,17 @@ MOST_MATCHES = 1_000
 @command_of(Matchups, "matchups", ask_face=True, ask_page=True)
 def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
     """Find the race for each pair of players."""
-    from evenbreak.answers.league.roster_matchups import check_roster
-
     stated = stated_pace(asked.discipline, asked.minutes_per_game)
     of_league, warnings = (None, []) if asked.chart is None else _chart(asked.chart)
     file = files.read_roster(asked.roster)
     if asked.players_file is not None:
         file = files.roster_of_entrants(file, files.read_entrants(asked.players_file))
-    levels = None
-    if isinstance(of_league, handicaps.LevelChart):
-        file, levels = by_level(file, of_league, asked.results)
-    if levels is not None:
-        if asked.scale is not None:
-            raise InputError(SCALE_OF_LEVELS)
-        file, points = with_level(file, asked.starter), FARGO
-        players = replace(file.roster, rating=levels.strength(file.roster.level))
-    else:
-        points = _scale_of_list(file, asked.scale, of_league)
-        players = file.roster
-        if isinstance(of_league, handicaps.LevelChart):
-            players = rated_by_level(players, of_league, points)
-        players = with_starters(players, points, asked.starter, asked.starter_sd)
-    check_roster(file, players, of_league, points)
-    if levels is not None:
-        pass
-    elif asked.scale is None and file.scale is not None:
-        warnings += _other_chart(file.scale, of_league)
-    elif asked.scale is None:
-        remedy = "if they are on another scale, name it with --scale"
-        warnings += league_doubts(points, file.roster.rating, remedy)
-    if asked.starter is None and levels is None:
-        warnings += starter_doubts(points, file.roster.rating)
+    if isinstance(of_league, handicaps.PointsChart):
+        if page_file is not None:
+            refuse(f"--html has no page of points yet; leave it out with the chart {asked.chart}")
+        return _by_points(asked, file, of_league, face, warnings)
+    file, players, points, levels, doubts = _rated(asked, file, of_league)
+    warnings += doubts
     meet, more = _pairs(asked, file.source, players, face)
     is_offered = asked.games is not None or asked.race_to is not None
     tonight = answers.Round(
@@ -96,15 +76,65 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
     return answers.matchups_answer(tonight, warnings=[*warnings, *more])
 
 
-def _chart(name: str) -> tuple[AnyChart, list[str]]:
+def _rated(
+    asked: Matchups, file: files.RosterFile, of_league: AnyChart | None
+) -> tuple[files.RosterFile, ratings.Roster, Scale, handicaps.LevelSkills | None, list[str]]:
+    """Return the list, its players with strengths, their scale, what levels are worth, doubts."""
+    from evenbreak.answers.league.roster_matchups import check_roster
+
+    levels = None
+    if isinstance(of_league, handicaps.LevelChart):
+        file, levels = by_level(file, of_league, asked.results)
+    if levels is not None:
+        if asked.scale is not None:
+            raise InputError(SCALE_OF_LEVELS)
+        file = with_level(file, asked.starter)
+        players = replace(file.roster, rating=levels.strength(file.roster.level))
+        check_roster(file, players, of_league, FARGO)
+        return file, players, FARGO, levels, []
+    points = _scale_of_list(file, asked.scale, of_league)
+    players = file.roster
+    if isinstance(of_league, handicaps.LevelChart):
+        players = rated_by_level(players, of_league, points)
+    players = with_starters(players, points, asked.starter, asked.starter_sd)
+    check_roster(file, players, of_league, points)
+    doubts = []
+    if asked.scale is None and file.scale is not None:
+        doubts += _other_chart(file.scale, of_league)
+    elif asked.scale is None:
+        remedy = "if they are on another scale, name it with --scale"
+        doubts += league_doubts(points, file.roster.rating, remedy)
+    if asked.starter is None:
+        doubts += starter_doubts(points, file.roster.rating)
+    return file, players, points, None, doubts
+
+
+def _by_points(
+    asked: Matchups,
+    file: files.RosterFile,
+    chart: handicaps.PointsChart,
+    face: str,
+    warnings: list[str],
+) -> Answer:
+    """Return the points of each pair by a chart of points."""
+    from evenbreak.answers.league.points_matchups import points_matchups_answer
+    from evenbreak.answers.league.roster_matchups import check_roster
+
+    if asked.games is not None or asked.race_to is not None:
+        refuse(f"{chart.name} is a chart of points, and no race in games goes with it")
+    file, _ = by_level(file, chart)
+    file = with_level(file, asked.starter)
+    level = file.roster.level
+    players = ratings.Roster(file.roster.players, level, level=level)
+    check_roster(file, players, chart, FARGO)
+    pairs, more = _pairs(asked, file.source, players, face)
+    return points_matchups_answer(file, pairs, chart, warnings=[*warnings, *more])
+
+
+def _chart(name: str) -> tuple[AnyChart | handicaps.PointsChart, list[str]]:
     from evenbreak.files.charts import find_chart_file
 
     file = find_chart_file(name)
-    if isinstance(file.chart, handicaps.PointsChart):
-        refuse(
-            f"{name} is a chart of points, not of games, so it gives no races here; `evenbreak "
-            f"chart show {name}` has the points of each level"
-        )
     return file.chart, list(file.warnings)
 
 
