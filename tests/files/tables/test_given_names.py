@@ -41,3 +41,24 @@ def test_a_few_commas_among_other_names_change_nothing(tmp_path):
     path = tmp_path / "p.csv"
     path.write_text('name,rating\n"Lee, Ann",600\nBo Diaz,500\n"Ng, Cy",400\n')
     assert read_roster(path).roster.players == ("Lee, Ann", "Bo Diaz", "Ng, Cy")
+
+
+@each_of(
+    "text",
+    [
+        "First name,Last name,Rating\nAnn,Lee,600\nBo,Diaz,500\n",
+        "Vorname;Name;Elo\nAnn;Lee;600\nBo;Diaz;500\n",
+        "imię;nazwisko;Elo\nAnn;Lee;600\nBo;Diaz;500\n",
+        "Surname,Forename,Rating\nLee,Ann,600\nDiaz,Bo,500\n",
+    ],
+)
+def test_given_name_and_surname_in_two_columns_are_one_name(tmp_path, text):
+    path = tmp_path / "p.csv"
+    path.write_text(text, encoding="utf-8")
+    assert read_roster(path).roster.players == ("Ann Lee", "Bo Diaz")
+
+
+def test_a_full_name_next_to_a_given_name_stays(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text("First name,Name,Rating\nAnn,Ann Lee,600\nBo,Bo Diaz,500\n")
+    assert read_roster(path).roster.players == ("Ann Lee", "Bo Diaz")

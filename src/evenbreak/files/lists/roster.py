@@ -40,7 +40,14 @@ def _known_scale(text: str) -> Scale | None:
 
 ROSTER = Schema(
     "players",
-    player=Name("name, player name, full name", "each name once", needed=True),
+    player=Name(
+        "name, player name, full name",
+        "each name once",
+        needed=True,
+        instead=("given_name surname",),
+    ),
+    given_name=Text("", "with the surname, or the rest of the name in `player`"),
+    surname=Text("", "with `given_name`, in place of `player`"),
     rating=Number(
         "points, handicap, fargo rating, fargo, elo",
         "the title may name the scale (`Fargo rating`, `Elo`); not needed where there are levels",

@@ -61,3 +61,20 @@ def with_given_names_first(table: TextTable, names: Sequence[str]) -> TextTable:
     )
     warnings = (*table.warnings, warning(table.source, None, text))
     return replace(table, columns=columns, warnings=warnings)
+
+
+def with_full_names(table: TextTable) -> TextTable:
+    """Return a table of players with given name and surname in one, where it has them in two.
+
+    Next to a given name the column of the player has the surname, as Name next to Vorname.
+    """
+    last = next((name for name in ("surname", "player") if name in table), "")
+    if "given_name" not in table or not last:
+        return table
+    names = [
+        rest if key_of(rest).startswith(key_of(given)) else f"{given} {rest}".strip()
+        for given, rest in zip(table.cells("given_name"), table.cells(last), strict=True)
+    ]
+    columns = {**table.columns, "player": Texts.of(names)}
+    titles = {**table.titles, "player": table.titles[last]}
+    return replace(table, columns=columns, found=table.found | {"player"}, titles=titles)

@@ -50,7 +50,7 @@ _GAMES: _Words = {
     "pl": "frame'y, wynik, wygrane partie",
 }
 _RACE: _Words = {
-    "en": "race, race to, needs",
+    "en": "race, race to, needs, gtw, games to win",
     "de": "Ausspielziel, Gewinnspiele, Distanz",
     "fr": "distance, parties gagnantes",
     "es": "distancia",
@@ -139,6 +139,21 @@ WHOLE: Mapping[str, _Words] = {
     "round": _ROUND,
     "week": _ROUND,
     "player": _PLAYER,
+    "given_name": {
+        "en": "first name, given name, forename",
+        "de": "Vorname",
+        "fr": "prénom",
+        "es": "nombre de pila",
+        "nl": "voornaam",
+        "pl": "imię",
+    },
+    "surname": {
+        "en": "last name, surname, family name",
+        "de": "Nachname, Familienname, Zuname",
+        "fr": "nom de famille",
+        "es": "apellido, apellidos",
+        "nl": "achternaam",
+    },
     "team": _TEAM,
     "rating": {
         "de": "Wertung, Wertungszahl, Elo, Rating, Punkte",
